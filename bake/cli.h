@@ -1,0 +1,16 @@
+// The command lines of baking:
+//   malus bake SCENE.json -o OUT.pack [--position-bits N] [--normal-bits N] [--json]
+//   malus info PACK [--verify] [--json]
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace malus::bake {
+
+void addBakeCommand(CLI::App& app);
+void addInfoCommand(CLI::App& app);
+
+// For --list-materials: one line a material with its constants and source.
+void listMaterials();
+
+}  // namespace malus::bake

@@ -1,0 +1,140 @@
+#include "bake/environment/octahedral_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "bake/pack/half.h"
+#include "meshprep/base/error.h"
+#include "shaders/optics/optics.h"
+
+namespace malus::bake {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// The picture as a function of direction.
+class LatLong {
+ public:
+  LatLong(const image::Image& picture, std::string_view where, double scale) : width_(picture.width), height_(picture.height) {
+    const int r = picture.channel("R"), g = picture.channel("G"), b = picture.channel("B");
+    if (r < 0 || g < 0 || b < 0) throw Error(where, "environment picture has no colour", "channels R, G and B");
+    const auto channels = picture.channels.size();
+    texels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    for (std::size_t i = 0; i < texels_.size(); ++i) {
+      const float* p = picture.pixels.data() + i * channels;
+      const glm::dvec3 value(p[r], p[g], p[b]);
+      for (int c = 0; c < 3; ++c)
+        if (!std::isfinite(value[c]) || value[c] < 0)
+          throw Error(where, fmt::format("environment texel {}, {}", i % static_cast<std::size_t>(width_), i / static_cast<std::size_t>(width_)),
+                      "a finite radiance of 0 or more", fmt::format("{}", value[c]));
+      texels_[i] = value * scale;
+    }
+  }
+
+  // Bilinear; columns wrap around, rows end at the poles.
+  glm::dvec3 at(const glm::dvec3& d) const {
+    const double u = 0.5 + std::atan2(d.x, -d.z) / (2 * kPi), v = std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi;
+    const double x = u * width_ - 0.5, y = v * height_ - 0.5;
+    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+    const double fx = x - x0, fy = y - y0;
+    return (texel(x0, y0) * (1 - fx) + texel(x0 + 1, y0) * fx) * (1 - fy) +
+           (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
+  }
+  const glm::dvec3& texel(int x, int y) const {
+    const int column = ((x % width_) + width_) % width_, row = std::clamp(y, 0, height_ - 1);
+    return texels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column)];
+  }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  int width_, height_;
+  std::vector<glm::dvec3> texels_;
+};
+
+glm::dvec3 turnedAboutY(const glm::dvec3& d, double degrees) {
+  const double c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
+  return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
+}
+
+// Coefficients in the order of irradiancePolynomial: the clamped cosine's weights pi, 2 pi/3, pi/4 of the
+// bands times the squared norms of the basis times the moments of the radiance. Source: Ramamoorthi and
+// Hanrahan 2001, equations 3 and 8.
+struct Moments {
+  std::array<glm::dvec3, 9> sums{};
+  void add(const glm::dvec3& n, const glm::dvec3& light) {
+    const double basis[9] = {1, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3 * n.z * n.z - 1, n.x * n.z, n.x * n.x - n.y * n.y};
+    for (std::size_t i = 0; i < 9; ++i) sums[i] += light * basis[i];
+  }
+  std::array<glm::dvec3, 9> coefficients() const {
+    const double k0 = 1 / (4 * kPi), k1 = 3 / (4 * kPi), k2 = 15 / (4 * kPi), k20 = 5 / (16 * kPi), k22 = 15 / (16 * kPi);
+    const double weights[9] = {kPi * k0,         2 * kPi / 3 * k1, 2 * kPi / 3 * k1, 2 * kPi / 3 * k1, kPi / 4 * k2,
+                               kPi / 4 * k2,     kPi / 4 * k20,    kPi / 4 * k2,     kPi / 4 * k22};
+    std::array<glm::dvec3, 9> result = sums;
+    for (std::size_t i = 0; i < 9; ++i) result[i] *= weights[i];
+    return result;
+  }
+};
+
+}  // namespace
+
+void bakeEnvironment(const image::Image& picture, std::string_view where, double scale, double rotationDegrees,
+                     pack::Environment& environment) {
+  const LatLong source(picture, where, scale);
+  const int size = std::min(source.height(), 1024);
+
+  // Each texel is the mean of a 2 x 2 grid over its area.
+  const auto texelAt = [&](int i, int j) {
+    glm::dvec3 sum(0.0);
+    for (const double dv : {0.25, 0.75})
+      for (const double du : {0.25, 0.75})
+        sum += source.at(turnedAboutY(f64::directionFromOctahedral((i + du) / size, (j + dv) / size), -rotationDegrees));
+    return sum * 0.25;
+  };
+  environment.size = static_cast<std::uint32_t>(size);
+  const int row = size + 2;
+  environment.texels.assign(static_cast<std::size_t>(row) * static_cast<std::size_t>(row), glm::vec3(0));
+  const auto slot = [&](int i, int j) -> glm::vec3& {
+    return environment.texels[static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(row) + static_cast<std::size_t>(i + 1)];
+  };
+  for (int j = 0; j < size; ++j)
+    for (int i = 0; i < size; ++i) {
+      const glm::dvec3 value = texelAt(i, j);
+      for (int c = 0; c < 3; ++c) slot(i, j)[c] = pack::floatFromHalf(pack::halfFromFloat(static_cast<float>(value[c])));
+    }
+
+  // The border repeats what lies across the edges: each edge of the square is folded about its middle.
+  for (int j = -1; j <= size; ++j)
+    for (int i = -1; i <= size; ++i) {
+      int x = i, y = j;
+      if (x < 0 || x >= size) x = x < 0 ? -1 - x : 2 * size - 1 - x, y = size - 1 - y;
+      if (y < 0 || y >= size) y = y < 0 ? -1 - y : 2 * size - 1 - y, x = size - 1 - x;
+      if (x != i || y != j) slot(i, j) = slot(x, y);
+    }
+
+  // Irradiance from the picture itself: every texel with its solid angle.
+  Moments moments;
+  for (int y = 0; y < source.height(); ++y) {
+    const double top = kPi * y / source.height(), bottom = kPi * (y + 1) / source.height(), middle = (top + bottom) / 2;
+    const double solidAngle = (std::cos(top) - std::cos(bottom)) * 2 * kPi / source.width();
+    for (int x = 0; x < source.width(); ++x) {
+      const double azimuth = ((x + 0.5) / source.width() - 0.5) * 2 * kPi;
+      const glm::dvec3 d(std::sin(middle) * std::sin(azimuth), std::cos(middle), -std::sin(middle) * std::cos(azimuth));
+      moments.add(turnedAboutY(d, rotationDegrees), source.texel(x, y) * solidAngle);
+    }
+  }
+  environment.irradiance = moments.coefficients();
+}
+
+void bakeConstantEnvironment(const glm::dvec3& radiance, pack::Environment& environment) {
+  environment.radiance = radiance;
+  environment.size = 0;
+  environment.irradiance = {};
+  environment.irradiance[0] = radiance * kPi;
+}
+
+}  // namespace malus::bake

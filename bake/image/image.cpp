@@ -1,0 +1,63 @@
+#include "bake/image/image.h"
+
+#include <dlfcn.h>
+
+#include "bake/image/module.h"
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/base/error.h"
+
+namespace malus::image {
+namespace fs = std::filesystem;
+
+namespace {
+
+// The module lies where the build or the installation put it: beside the library folder's malus/, found
+// from the executable (MALUS_MODULE_PATH is relative to its folder).
+const Module& module() {
+  static const Module* const kModule = [] {
+    std::error_code failed;
+    const fs::path executable = fs::read_symlink("/proc/self/exe", failed);
+    const fs::path file = executable.parent_path() / MALUS_MODULE_PATH / "malus-image.so";
+    void* library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!library) throw Error(file.string(), "cannot load the picture module", "malus's own library", ::dlerror());
+    using Entry = const Module* (*)();
+    const auto entry = reinterpret_cast<Entry>(::dlsym(library, kModuleEntry));
+    if (!entry) throw Error(file.string(), "is not malus's picture module");
+    return entry();
+  }();
+  return *kModule;
+}
+
+void check(const fs::path& path, const char* problem, const std::string& message) {
+  if (!message.empty()) throw Error(path.string(), problem, "", message);
+}
+
+}  // namespace
+
+int Image::channel(std::string_view name) const {
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (channels[i] == name) return static_cast<int>(i);
+  return -1;
+}
+
+Image read(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) throw Error(path.string(), "cannot open", "a picture", "no such file");
+  Image image;
+  check(path, "cannot read the picture", module().read(path.string(), image));
+  return image;
+}
+
+void writeExr(const fs::path& path, const Image& image) {
+  writeBeside(path, [&](const fs::path& temporary) {
+    check(path, "cannot write", module().writeExr(temporary.string(), image));
+  });
+}
+
+void writePng(const fs::path& path, int width, int height, int channels, const std::vector<std::uint8_t>& pixels) {
+  writeBeside(path, [&](const fs::path& temporary) {
+    check(path, "cannot write", module().writePng(temporary.string(), width, height, channels, pixels.data()));
+  });
+}
+
+}  // namespace malus::image

@@ -1,0 +1,93 @@
+// The picture module: the only file that includes OpenImageIO.
+#include <OpenImageIO/imageio.h>
+
+#include "bake/image/module.h"
+
+namespace malus::image {
+
+namespace {
+using OIIO::ImageInput;
+using OIIO::ImageOutput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+constexpr int kMaxSide = 65536;
+
+std::string orElse(std::string message, const char* otherwise) { return message.empty() ? otherwise : message; }
+
+std::string readImage(const std::string& path, Image& image) {
+  try {
+    const auto input = ImageInput::open(path);
+    if (!input) return orElse(OIIO::geterror(), "unknown format");
+    const ImageSpec spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64)
+      return "unusual size";
+    image.width = spec.width;
+    image.height = spec.height;
+    image.channels.assign(spec.channelnames.begin(), spec.channelnames.end());
+    image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                        static_cast<std::size_t>(spec.nchannels));
+    if (!input->read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, image.pixels.data()))
+      return orElse(input->geterror(), "damaged file");
+    for (const auto& attribute : spec.extra_attribs) {
+      const std::string name = attribute.name().string();
+      if (attribute.type() == TypeDesc::STRING) {
+        image.attributes.emplace_back(name, attribute.get_string());
+      } else if (attribute.type().basetype == TypeDesc::FLOAT && attribute.type().numelements() == 1 &&
+                 attribute.type().aggregate == TypeDesc::SCALAR) {
+        image.attributes.emplace_back(name, static_cast<double>(attribute.get_float()));
+      }
+    }
+    return {};
+  } catch (const std::exception& error) {
+    return orElse(error.what(), "damaged file");
+  }
+}
+
+std::string writeSpec(const std::string& path, const ImageSpec& spec, TypeDesc type, const void* pixels) {
+  try {
+    const auto output = ImageOutput::create(path);
+    if (!output) return orElse(OIIO::geterror(), "unknown format");
+    if (!output->open(path, spec)) return orElse(output->geterror(), "cannot open");
+    if (!output->write_image(type, pixels)) return orElse(output->geterror(), "cannot write");
+    if (!output->close()) return orElse(output->geterror(), "cannot close");
+    return {};
+  } catch (const std::exception& error) {
+    return orElse(error.what(), "cannot write");
+  }
+}
+
+std::string writeExrImage(const std::string& path, const Image& image) {
+  ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), TypeDesc::FLOAT);
+  spec.channelnames.assign(image.channels.begin(), image.channels.end());
+  spec.attribute("compression", "zip");
+  for (const auto& [name, value] : image.attributes) {
+    if (const auto* text = std::get_if<std::string>(&value)) {
+      spec.attribute(name, *text);
+    } else if (const auto* number = std::get_if<double>(&value)) {
+      spec.attribute(name, static_cast<float>(*number));
+    } else if (const auto* list = std::get_if<std::vector<float>>(&value)) {
+      if (list->size() == 16) spec.attribute(name, TypeDesc::TypeMatrix44, list->data());
+      else if (list->size() == 3) spec.attribute(name, TypeDesc::TypeVector, list->data());
+      else spec.attribute(name, TypeDesc(TypeDesc::FLOAT, static_cast<int>(list->size())), list->data());
+    }
+  }
+  // OpenImageIO dates what it writes: an old date would differ too, so there is none.
+  spec.erase_attribute("DateTime");
+  return writeSpec(path, spec, TypeDesc::FLOAT, image.pixels.data());
+}
+
+std::string writePngImage(const std::string& path, int width, int height, int channels, const std::uint8_t* pixels) {
+  ImageSpec spec(width, height, channels, TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  return writeSpec(path, spec, TypeDesc::UINT8, pixels);
+}
+
+}  // namespace
+}  // namespace malus::image
+
+extern "C" __attribute__((visibility("default"))) const malus::image::Module* malusImageModule() {
+  static const malus::image::Module kModule = {malus::image::readImage, malus::image::writeExrImage,
+                                               malus::image::writePngImage};
+  return &kModule;
+}

@@ -1,0 +1,18 @@
+// What `malus info` tells of a pack, for people and for programs.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "bake/pack/reader.h"
+
+namespace malus::bake {
+
+// {formatVersion, hash, name, title, resolution[2], depth, vertices, triangles, geometryHash,
+//  meshes[{name, vertices, triangles, material, sheet, encoding}], materials[{name, type, eta[3], k[3]}],
+//  lights, effects[{name, on, reason}], sections[{id, version, offset, sizeBytes, hash}], provenance}
+nlohmann::json infoJson(const pack::Pack& pack);
+std::string infoText(const pack::Pack& pack);
+
+}  // namespace malus::bake

@@ -1,0 +1,269 @@
+#include "bake/pack/reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "bake/pack/bytes.h"
+#include "bake/pack/half.h"
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/base/error.h"
+#include "meshprep/compress/draco_mesh.h"
+
+namespace malus::pack {
+
+namespace {
+
+// Largest magnitudes of the schema: beyond them float squares overflow.
+constexpr double kMaxLength = 1e15;
+constexpr double kMaxLight = 1e15;
+
+std::string idText(std::span<const std::byte> bytes) {
+  std::string id(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (char& c : id)
+    if (c < ' ' || c > '~') c = '?';
+  return id;
+}
+
+// Header and table; every hash is checked here.
+Pack readTable(std::span<const std::byte> bytes, std::string_view where) {
+  Pack pack;
+  if (bytes.size() < kMagic.size() || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
+    throw Error(where, "is not a scene pack", "a file that starts with MALUSPAK");
+  ByteReader header(bytes, 0, where);
+  header.raw(kMagic.size());
+  pack.formatVersion = header.u32();
+  if (pack.formatVersion != kFormatVersion)
+    throw Error(where, pack.formatVersion > kFormatVersion ? "scene pack is newer than this malus" : "scene pack is older than this malus reads",
+                fmt::format("format version {}", kFormatVersion), fmt::format("{}", pack.formatVersion));
+  const std::uint32_t count = header.u32AtMost(kMaxSections, "number of sections");
+  const std::uint64_t fileBytes = header.u64();
+  const std::uint64_t tableHash = header.u64();
+  const std::uint64_t headerHash = header.u64();
+  if (headerHash != hashOf(bytes.first(kHeaderBytes - 8)))
+    header.fail("header is damaged", "a matching hash", "another");
+  if (fileBytes != bytes.size())
+    throw Error(where, bytes.size() < fileBytes ? "file is truncated" : "file is longer than its pack",
+                fmt::format("{} bytes", fileBytes), fmt::format("{}", bytes.size()));
+  const std::uint64_t tableBytes = std::uint64_t{count} * kEntryBytes;
+  const std::span<const std::byte> table = header.raw(tableBytes);
+  if (tableHash != hashOf(table)) header.fail("table of sections is damaged", "a matching hash", "another");
+  pack.hash = hashOf(bytes.first(kHeaderBytes + static_cast<std::size_t>(tableBytes)));
+  ByteReader reader(table, kHeaderBytes, where);
+  std::uint64_t end = kHeaderBytes + tableBytes;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Section section;
+    section.id = idText(reader.raw(4));
+    section.version = reader.u32();
+    section.flags = reader.u32();
+    reader.u32();
+    section.offset = reader.u64();
+    section.sizeBytes = reader.u64();
+    section.hash = reader.u64();
+    if (section.offset % kAlignment != 0 || section.offset < end || section.offset > bytes.size() ||
+        section.sizeBytes > bytes.size() - section.offset)
+      reader.fail(fmt::format("section {} lies outside the file or over another", section.id), "an offset past the last section",
+                  fmt::format("offset {}, size {}", section.offset, section.sizeBytes));
+    // Padding is zero, so that no bit of the file is without meaning.
+    for (std::uint64_t at = end; at < section.offset; ++at)
+      if (bytes[static_cast<std::size_t>(at)] != std::byte{0})
+        throw Error(fmt::format("{}, byte {}", where, at), "padding is damaged", "zero");
+    end = section.offset + section.sizeBytes;
+    if (section.hash != hashOf(bytes.subspan(static_cast<std::size_t>(section.offset), static_cast<std::size_t>(section.sizeBytes))))
+      throw Error(fmt::format("{}, byte {}", where, section.offset), fmt::format("section {} is damaged", section.id),
+                  "a matching hash", "another");
+    pack.sections.push_back(section);
+  }
+  if (end != bytes.size()) throw Error(where, "bytes after the last section", fmt::format("{} bytes", end), fmt::format("{}", bytes.size()));
+  return pack;
+}
+
+void readMeta(ByteReader r, Scene& scene) {
+  scene.name = r.text();
+  scene.title = r.text();
+  scene.origin = r.dvec3Between(-kMaxLength, kMaxLength, "scene origin");
+  scene.width = r.u32AtMost(kMaxResolution, "picture width");
+  scene.height = r.u32AtMost(kMaxResolution, "picture height");
+  scene.depth = r.u32AtMost(kMaxDepth, "depth");
+  scene.exposureEv = r.f64Between(-100, 100, "exposure");
+  if (scene.width == 0 || scene.height == 0) r.fail("picture without pixels", "a width and height over 0", "0");
+  r.end();
+}
+
+void readCamera(ByteReader r, Camera& camera) {
+  camera.position = r.dvec3Between(-kMaxLength, kMaxLength, "camera position");
+  camera.right = r.dvec3Between(-1.001, 1.001, "camera axis");
+  camera.up = r.dvec3Between(-1.001, 1.001, "camera axis");
+  camera.forward = r.dvec3Between(-1.001, 1.001, "camera axis");
+  const auto dot = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+  const glm::dvec3 axes[3] = {camera.right, camera.up, camera.forward};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j)
+      if (std::abs(dot(axes[i], axes[j]) - (i == j ? 1.0 : 0.0)) > 1e-9)
+        r.fail("camera axes are not orthonormal", "unit vectors at right angles", "others");
+  camera.verticalFovDegrees = r.f64Between(1e-3, 179, "field of view");
+  camera.mediumEta = r.f64Between(kMinEta, kMaxEta, "index of the camera's medium");
+  r.end();
+}
+
+void readEnvironment(ByteReader r, Environment& environment) {
+  environment.radiance = r.dvec3Between(0, kMaxLight, "environment radiance");
+  environment.diffuseFill = r.f64Between(0, 1e6, "diffuse fill");
+  for (glm::dvec3& c : environment.irradiance) c = r.dvec3Between(-kMaxLight, kMaxLight, "irradiance coefficient");
+  environment.size = r.u32AtMost(kMaxEnvironmentSize, "environment size");
+  if (environment.size > 0) {
+    const std::uint64_t side = environment.size + 2;
+    if (r.left() != side * side * 6)
+      r.fail("environment texels", fmt::format("{} bytes", side * side * 6), fmt::format("{}", r.left()));
+    environment.texels.resize(static_cast<std::size_t>(side * side));
+    for (glm::vec3& t : environment.texels)
+      for (int i = 0; i < 3; ++i) {
+        t[i] = floatFromHalf(r.u16());
+        if (!std::isfinite(t[i]) || t[i] < 0) r.fail("environment texel", "a finite radiance of 0 or more", fmt::format("{}", t[i]));
+      }
+  }
+  r.end();
+}
+
+void readLights(ByteReader r, std::vector<PointLight>& lights) {
+  const std::uint32_t count = r.count(48, "number of lights");
+  if (count > kMaxLights) r.fail("number of lights", fmt::format("at most {}", kMaxLights), fmt::format("{}", count));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    PointLight light;
+    light.position = r.dvec3Between(-kMaxLength, kMaxLength, "light position");
+    light.intensity = r.dvec3Between(0, kMaxLight, "light intensity");
+    lights.push_back(light);
+  }
+  r.end();
+}
+
+void readMaterials(ByteReader r, std::vector<Material>& materials) {
+  const std::uint32_t count = r.count(124, "number of materials");
+  if (count > kMaxMaterials) r.fail("number of materials", fmt::format("at most {}", kMaxMaterials), fmt::format("{}", count));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Material m;
+    m.name = r.text();
+    m.kind = static_cast<MaterialKind>(r.u32AtMost(kMaterialKinds - 1, "kind of material"));
+    m.eta = r.dvec3Between(0, kMaxEta, "index eta");
+    m.k = r.dvec3Between(0, kMaxEta, "index k");
+    for (int c = 0; c < 3; ++c)
+      if (m.eta[c] < kMinEta && m.k[c] < kMinEta) r.fail("index of refraction", "eta or k of at least 1e-3", "both below");
+    if (m.kind == MaterialKind::glass || m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass)
+      for (int c = 0; c < 3; ++c)
+        if (m.eta[c] < kMinEta || m.k[c] != 0) r.fail("index of a dielectric", "eta of at least 1e-3 and k = 0", fmt::format("eta {}, k {}", m.eta[c], m.k[c]));
+    m.outsideEta = r.f64Between(kMinEta, kMaxEta, "outside index");
+    m.albedo = r.dvec3Between(0, 1, "albedo");
+    m.radiance = r.dvec3Between(0, kMaxLight, "radiance");
+    m.highlightStrength = r.f64Between(0, 1e6, "highlight strength");
+    m.highlightExponent = r.u32AtMost(4095, "highlight exponent");
+    materials.push_back(std::move(m));
+  }
+  r.end();
+}
+
+void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::string_view where, Pack& pack) {
+  const std::uint32_t count = r.count(40, "number of meshes");
+  if (count > kMaxMeshes) r.fail("number of meshes", fmt::format("at most {}", kMaxMeshes), fmt::format("{}", count));
+  std::uint64_t vertices = 0, triangles = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Mesh mesh;
+    mesh.name = r.text();
+    mesh.material = r.u32();
+    if (mesh.material >= pack.scene.materials.size())
+      r.fail("material of a mesh", fmt::format("an index below {}", pack.scene.materials.size()), fmt::format("{}", mesh.material));
+    const std::uint32_t flags = r.u32AtMost(3, "flags of a mesh");
+    mesh.sheet = (flags & 1) != 0;
+    const compress::Limits limits{r.u32AtMost(kMaxVertices, "vertices of a mesh"), r.u32AtMost(kMaxTriangles, "triangles of a mesh")};
+    const std::uint32_t method = r.u32AtMost(1, "encoding of a mesh");
+    const std::uint64_t offset = r.u64(), size = r.u64();
+    if (offset > geometry.size() || size > geometry.size() - offset)
+      r.fail(fmt::format("geometry of mesh '{}'", mesh.name), fmt::format("bytes within the {} of section GEOM", geometry.size()),
+             fmt::format("offset {}, size {}", offset, size));
+    vertices += limits.vertices;
+    triangles += limits.triangles;
+    if (vertices > kMaxVertices || triangles > kMaxTriangles) r.fail("geometry is too large", "at most 2^28 vertices and triangles", "more");
+    compress::TriangleMesh decoded =
+        compress::decode(geometry.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size)), limits,
+                         fmt::format("{}, mesh '{}'", where, mesh.name));
+    if (decoded.normals.empty() != ((flags & 2) == 0)) r.fail(fmt::format("normals of mesh '{}'", mesh.name), "as the table says", "otherwise");
+    mesh.positions = std::move(decoded.positions);
+    mesh.normals = std::move(decoded.normals);
+    mesh.triangles = std::move(decoded.triangles);
+    pack.compression.emplace_back(method == 1 ? "edgebreaker" : "sequential");
+    pack.scene.meshes.push_back(std::move(mesh));
+  }
+  r.end();
+}
+
+void readEffects(ByteReader r, std::vector<Effect>& effects) {
+  const std::uint32_t count = r.count(12, "number of effects");
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Effect effect;
+    effect.name = r.text();
+    effect.on = r.u32AtMost(1, "state of an effect") == 1;
+    effect.reason = r.text();
+    effects.push_back(std::move(effect));
+  }
+  r.end();
+}
+
+}  // namespace
+
+Pack parse(std::span<const std::byte> bytes, std::string_view where) {
+  Pack pack = readTable(bytes, where);
+  const auto find = [&](const char* id, bool required) -> std::optional<std::size_t> {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < pack.sections.size(); ++i)
+      if (pack.sections[i].id == id) {
+        if (found) throw Error(where, fmt::format("section {} is there twice", id));
+        found = i;
+      }
+    if (!found && required) throw Error(where, fmt::format("section {} is missing", id));
+    return found;
+  };
+  for (const Section& section : pack.sections) {
+    static const char* const kKnown[] = {kMeta, kCamera, kEnvironment, kLights, kMaterials, kMeshes, kGeometry, kEffects, kProvenance};
+    const bool known = std::any_of(std::begin(kKnown), std::end(kKnown), [&](const char* id) { return section.id == id; });
+    if (!known && (section.flags & kOptional) == 0)
+      throw Error(where, fmt::format("section {} is required and unknown to this malus", section.id), "a newer malus");
+    if (known && section.version != 1)
+      throw Error(where, fmt::format("section {} has an unknown version", section.id), "1", fmt::format("{}", section.version));
+  }
+  const auto body = [&](std::size_t i) {
+    return bytes.subspan(static_cast<std::size_t>(pack.sections[i].offset), static_cast<std::size_t>(pack.sections[i].sizeBytes));
+  };
+  const auto reader = [&](std::size_t i) { return ByteReader(body(i), pack.sections[i].offset, where); };
+  readMeta(reader(*find(kMeta, true)), pack.scene);
+  readCamera(reader(*find(kCamera, true)), pack.scene.camera);
+  readEnvironment(reader(*find(kEnvironment, true)), pack.scene.environment);
+  readLights(reader(*find(kLights, true)), pack.scene.lights);
+  readMaterials(reader(*find(kMaterials, true)), pack.scene.materials);
+  readMeshes(reader(*find(kMeshes, true)), body(*find(kGeometry, true)), where, pack);
+  if (const auto at = find(kEffects, false)) readEffects(reader(*at), pack.scene.effects);
+  if (const auto at = find(kProvenance, false)) {
+    ByteReader r = reader(*at);
+    pack.scene.provenance = r.text(1u << 24);
+    r.end();
+  }
+  return pack;
+}
+
+Pack read(const std::filesystem::path& path) { return parse(readFile(path), path.string()); }
+
+std::uint64_t canonicalGeometryHash(const Scene& scene) {
+  ByteWriter w;
+  for (const Mesh& mesh : scene.meshes) {
+    w.u32(static_cast<std::uint32_t>(mesh.positions.size()));
+    w.u32(static_cast<std::uint32_t>(mesh.triangles.size()));
+    for (const glm::vec3& p : mesh.positions) w.f32(p.x), w.f32(p.y), w.f32(p.z);
+    for (const glm::vec3& n : mesh.normals) w.f32(n.x), w.f32(n.y), w.f32(n.z);
+    for (const glm::uvec3& t : mesh.triangles) w.u32(t.x), w.u32(t.y), w.u32(t.z);
+  }
+  return hashOf(w.take());
+}
+
+}  // namespace malus::pack

@@ -1,0 +1,33 @@
+// Reads a scene pack. Every hash is checked before anything is decoded, every count and offset before
+// anything is allocated; numbers must be finite and within the schema's bounds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "bake/pack/format.h"
+#include "bake/pack/scene.h"
+
+namespace malus::pack {
+
+struct Pack {
+  std::uint32_t formatVersion = 0;
+  std::vector<Section> sections;  // in file order
+  std::uint64_t hash = 0;         // over the header's and the table's bytes, hence over all hashes
+  Scene scene;
+  std::vector<std::string> compression;  // per mesh: "edgebreaker" or "sequential"
+};
+
+// Throws Error: not a pack, older or newer than this reader, truncated, a hash that does not match,
+// contents outside the schema.
+Pack parse(std::span<const std::byte> bytes, std::string_view where);
+Pack read(const std::filesystem::path& path);
+
+// Hash of what the renderers see of the geometry: decoded positions, normals and triangles of every mesh.
+std::uint64_t canonicalGeometryHash(const Scene& scene);
+
+}  // namespace malus::pack

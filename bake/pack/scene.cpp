@@ -1,0 +1,29 @@
+#include "bake/pack/scene.h"
+
+namespace malus::pack {
+
+std::string_view nameOf(MaterialKind kind) {
+  switch (kind) {
+    case MaterialKind::lambert: return "lambert";
+    case MaterialKind::paint: return "paint";
+    case MaterialKind::mirrorGlass: return "mirror-glass";
+    case MaterialKind::metal: return "metal";
+    case MaterialKind::glass: return "glass";
+    case MaterialKind::emitter: return "emitter";
+  }
+  return "unknown";
+}
+
+std::uint64_t Scene::vertexCount() const {
+  std::uint64_t count = 0;
+  for (const Mesh& mesh : meshes) count += mesh.positions.size();
+  return count;
+}
+
+std::uint64_t Scene::triangleCount() const {
+  std::uint64_t count = 0;
+  for (const Mesh& mesh : meshes) count += mesh.triangles.size();
+  return count;
+}
+
+}  // namespace malus::pack

@@ -1,0 +1,98 @@
+// A scene as a pack holds it: what the renderers draw. Lengths in metres, right-handed axes, positions
+// relative to `origin`; colours linear RGB at 630, 532 and 465 nm; radiance in W/(m^2 sr).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace malus::pack {
+
+// How a surface treats light. Values are those of the file.
+enum class MaterialKind : std::uint32_t { lambert = 0, paint = 1, mirrorGlass = 2, metal = 3, glass = 4, emitter = 5 };
+inline constexpr std::uint32_t kMaterialKinds = 6;
+std::string_view nameOf(MaterialKind kind);  // as in scene.json: "mirror-glass"
+
+// Bounds of optical constants in a pack; within them the optics neither overflow nor lose their signs.
+inline constexpr double kMinEta = 1e-3;
+inline constexpr double kMaxEta = 1e3;
+
+struct Material {
+  std::string name;
+  MaterialKind kind = MaterialKind::lambert;
+  glm::dvec3 eta{1.0};        // index eta - i k, per colour; glass uses the green one for every colour
+  glm::dvec3 k{0.0};
+  double outsideEta = 1.0;    // index on the side that the normals point to
+  glm::dvec3 albedo{0.0};     // diffuse reflectance, 0 to 1
+  glm::dvec3 radiance{0.0};   // of an emitter
+  double highlightStrength = 0.0;  // 0: no highlight
+  std::uint32_t highlightExponent = 0;  // 1 to 4095
+};
+
+struct PointLight {
+  glm::dvec3 position;
+  glm::dvec3 intensity;  // W/sr
+};
+
+// Orthonormal axes; forward looks into the scene, up is up in the picture.
+struct Camera {
+  glm::dvec3 position{0.0};
+  glm::dvec3 right{1.0, 0.0, 0.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  glm::dvec3 forward{0.0, 0.0, -1.0};
+  double verticalFovDegrees = 40.0;
+  double mediumEta = 1.0;  // index of the medium that the camera stands in
+};
+
+// Light from infinity: constant, or an octahedral map with a border of one texel all around that repeats
+// what lies across the map's edges (size + 2 texels a side, row by row).
+struct Environment {
+  glm::dvec3 radiance{0.0};        // where size is 0
+  std::uint32_t size = 0;          // texels a side without the border
+  std::vector<glm::vec3> texels;   // (size + 2)^2, each exactly a half float
+  double diffuseFill = 0.0;        // share of its irradiance that reaches diffuse surfaces
+  std::array<glm::dvec3, 9> irradiance{};  // coefficients of irradiancePolynomial (shaders/optics/environment.h)
+};
+
+// One instance in world space with one material.
+struct Mesh {
+  std::string name;
+  std::uint32_t material = 0;  // index into materials
+  bool sheet = false;          // an open transmitting surface on purpose
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;  // unit, one per position; empty: those of the faces
+  std::vector<glm::uvec3> triangles;  // counter-clockwise seen from outside
+};
+
+// One bit of the effect set, with the reason for its being on or off.
+struct Effect {
+  std::string name;
+  bool on = false;
+  std::string reason;
+};
+
+struct Scene {
+  std::string name;
+  std::string title;
+  glm::dvec3 origin{0.0};  // world position of the frame that everything else is in
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t depth = 0;  // most specular interactions along a path
+  double exposureEv = 0.0;  // display exposure of PNG files
+  Camera camera;
+  Environment environment;
+  std::vector<PointLight> lights;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Effect> effects;
+  std::string provenance;  // JSON: source hashes, settings, versions
+
+  std::uint64_t vertexCount() const;
+  std::uint64_t triangleCount() const;
+};
+
+}  // namespace malus::pack

@@ -1,0 +1,218 @@
+#include "bake/scene_file/scene_file.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bake/materials/library.h"
+#include "bake/pack/format.h"
+#include "bake/scene_file/strict_object.h"
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/base/error.h"
+
+namespace malus::bake {
+using nlohmann::json;
+
+namespace {
+
+constexpr double kFar = 1e12;    // metres
+constexpr double kBright = 1e9;  // radiance, intensity
+
+json parseJson(const std::filesystem::path& path) {
+  const std::string text = readTextFile(path, std::size_t{1} << 26);
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
+    throw Error(fmt::format("{}:{}", path.string(), line), "is not JSON", "bake/SCENE.md's schema", error.what());
+  }
+}
+
+void readCamera(StrictObject camera, SceneDescription& scene) {
+  scene.cameraPosition = camera.vector("position", -kFar, kFar);
+  scene.cameraTarget = camera.vector("target", -kFar, kFar);
+  scene.cameraUp = camera.vector("up", -kFar, kFar, {0, 1, 0});
+  scene.verticalFovDegrees = camera.number("verticalFovDegrees", 0.01, 170);
+  scene.mediumEta = camera.number("mediumEta", pack::kMinEta, pack::kMaxEta, 1);
+  camera.finish();
+}
+
+void readEnvironment(StrictObject environment, SceneDescription& scene) {
+  const bool constant = environment.has("radiance"), image = environment.has("image");
+  if (constant == image) environment.fail("radiance", "and image exclude each other", "one of the two", constant ? "both" : "neither");
+  if (constant) scene.environmentRadiance = environment.vector("radiance", 0, kBright);
+  if (image) {
+    scene.environmentImage = scene.file.parent_path() / environment.text("image");
+    scene.environmentScale = environment.number("scale", 0, kBright, 1);
+    scene.environmentRotationDegrees = environment.number("rotationDegrees", -360, 360, 0);
+  }
+  scene.diffuseFill = environment.number("diffuseFill", 0, 1000, 0);
+  environment.finish();
+}
+
+pack::MaterialKind kindNamed(StrictObject& material) {
+  const std::string type = material.text("type");
+  std::vector<std::string> names;
+  for (std::uint32_t i = 0; i < pack::kMaterialKinds; ++i) {
+    const auto kind = static_cast<pack::MaterialKind>(i);
+    names.emplace_back(pack::nameOf(kind));
+    if (type == names.back()) return kind;
+  }
+  material.fail("type", "unknown type of material", fmt::format("{}", fmt::join(names, ", ")), fmt::format("'{}'", type));
+}
+
+// The complex index: a preset's, or eta and k.
+void readIndex(StrictObject& material, pack::Material& result, bool dielectric) {
+  const bool preset = material.has("preset"), eta = material.has("eta");
+  if (preset && (eta || material.has("k"))) material.fail("preset", "and eta, k exclude each other", "one of the two");
+  if (preset) {
+    const std::string name = material.text("preset");
+    const OpticalConstants* found = findMaterial(name);
+    if (!found) {
+      const std::string near = nearestName(name, materialNames());
+      material.fail("preset", fmt::format("unknown material '{}'", name),
+                    near.empty() ? "a name from 'malus --list-materials'" : fmt::format("'{}' or another from 'malus --list-materials'", near));
+    }
+    result.eta = found->eta;
+    result.k = found->k;
+  } else {
+    if (!dielectric || eta) result.eta = material.numberOrVector("eta", 0, pack::kMaxEta);
+    result.k = material.numberOrVector("k", 0, pack::kMaxEta, glm::dvec3(0.0));
+  }
+  for (int c = 0; c < 3; ++c) {
+    if (dielectric && result.k[c] != 0) material.fail("k", "of a dielectric", "0", fmt::format("{}", result.k[c]));
+    if (result.eta[c] < pack::kMinEta && (dielectric || result.k[c] < pack::kMinEta))
+      material.fail("eta", "is too small", fmt::format("{:g} or more", pack::kMinEta), fmt::format("{}", result.eta[c]));
+  }
+}
+
+pack::Material readMaterial(const std::string& name, StrictObject material) {
+  using Kind = pack::MaterialKind;
+  pack::Material result;
+  result.name = name;
+  result.kind = kindNamed(material);
+  const Kind kind = result.kind;
+  const bool interface = kind != Kind::lambert && kind != Kind::emitter;
+  if (interface) {
+    if (kind == Kind::paint) result.eta = glm::dvec3(1.5);
+    const bool optional = kind == Kind::paint;
+    readIndex(material, result, kind != Kind::metal);
+    if (!optional && result.eta == glm::dvec3(1.0) && kind != Kind::metal && !material.has("preset") && !material.has("eta"))
+      material.fail("preset", "is missing", "a preset, or eta");
+  }
+  result.outsideEta = material.number("outsideEta", pack::kMinEta, pack::kMaxEta, 1);
+  if (kind == Kind::lambert || kind == Kind::paint) result.albedo = material.numberOrVector("albedo", 0, 1);
+  if (kind == Kind::metal) result.albedo = material.numberOrVector("albedo", 0, 1, glm::dvec3(0.0));
+  if (kind == Kind::emitter) result.radiance = material.vector("radiance", 0, kBright);
+  if (interface && material.has("highlight")) {
+    StrictObject highlight = material.object("highlight");
+    result.highlightExponent = highlight.integer("exponent", 1, 4095);
+    result.highlightStrength = highlight.number("strength", 0, 1e6, 1);
+    highlight.finish();
+  }
+  material.finish();
+  return result;
+}
+
+Transform readTransform(StrictObject transform) {
+  Transform result;
+  result.scale = transform.numberOrVector("scale", -1e9, 1e9, glm::dvec3(1.0));
+  for (int i = 0; i < 3; ++i)
+    if (result.scale[i] == 0) transform.fail("scale", "flattens the mesh", "a number other than 0", "0");
+  result.rotateDegrees = transform.vector("rotateDegrees", -3600, 3600, glm::dvec3(0.0));
+  result.translate = transform.vector("translate", -kFar, kFar, glm::dvec3(0.0));
+  transform.finish();
+  return result;
+}
+
+MeshDescription readMesh(StrictObject mesh, const SceneDescription& scene, const std::string& where) {
+  MeshDescription result;
+  result.name = mesh.text("name");
+  result.file = scene.file.parent_path() / mesh.text("file");
+  result.material = mesh.text("material");
+  std::vector<std::string> names;
+  for (const pack::Material& m : scene.materials) names.push_back(m.name);
+  if (std::find(names.begin(), names.end(), result.material) == names.end()) {
+    const std::string near = nearestName(result.material, names);
+    mesh.fail("material", fmt::format("unknown material '{}'", result.material),
+              near.empty() ? "a name under materials" : fmt::format("'{}' or another under materials", near));
+  }
+  result.flat = mesh.flag("flat", false);
+  result.sheet = mesh.flag("sheet", false);
+  result.creaseDegrees = mesh.number("creaseDegrees", 0, 180, 40);
+  result.weldTolerance = mesh.number("weldTolerance", 0, kFar, 0);
+  if (mesh.has("instances")) {
+    const json& instances = mesh.at("instances");
+    if (!instances.is_array() || instances.empty()) mesh.fail("instances", "is no list", "a list of transforms");
+    for (std::size_t i = 0; i < instances.size(); ++i)
+      result.instances.push_back(readTransform({instances[i], where, mesh.pathOf(fmt::format("instances[{}]", i))}));
+  } else {
+    result.instances.emplace_back();
+  }
+  mesh.finish();
+  return result;
+}
+
+}  // namespace
+
+SceneDescription readSceneFile(const std::filesystem::path& path) {
+  SceneDescription scene;
+  scene.file = path;
+  const std::string where = path.string();
+  const json document = parseJson(path);
+  StrictObject top(document, where, "");
+
+  top.integer("malus", 1, 1);
+  scene.name = top.text("name");
+  const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-'; };
+  if (scene.name.empty() || scene.name.size() > 100 || !std::all_of(scene.name.begin(), scene.name.end(), allowed))
+    top.fail("name", "is no short name", "1 to 100 letters, digits and '-'", fmt::format("'{}'", scene.name));
+  scene.title = top.text("title", "");
+  if (top.has("origin")) scene.origin = top.vector("origin", -kFar, kFar);
+  readCamera(top.object("camera"), scene);
+  const json& resolution = top.at("resolution");
+  if (!resolution.is_array() || resolution.size() != 2 || !resolution[0].is_number_unsigned() ||
+      !resolution[1].is_number_unsigned() || resolution[0] < 1 || resolution[1] < 1 ||
+      resolution[0] > pack::kMaxResolution || resolution[1] > pack::kMaxResolution)
+    top.fail("resolution", "is no picture size", fmt::format("[width, height], each 1 to {}", pack::kMaxResolution));
+  scene.width = resolution[0].get<std::uint32_t>();
+  scene.height = resolution[1].get<std::uint32_t>();
+  scene.depth = top.integer("depth", 0, pack::kMaxDepth);
+  scene.exposureEv = top.number("exposureEv", -100, 100, 0);
+  if (top.has("environment")) readEnvironment(top.object("environment"), scene);
+
+  if (top.has("lights")) {
+    const json& lights = top.at("lights");
+    if (!lights.is_array() || lights.size() > pack::kMaxLights) top.fail("lights", "is no list", fmt::format("a list of at most {} lights", pack::kMaxLights));
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      StrictObject light(lights[i], where, fmt::format("lights[{}]", i));
+      if (const std::string type = light.text("type"); type != "point") light.fail("type", "unknown type of light", "'point'", fmt::format("'{}'", type));
+      pack::PointLight point;
+      point.position = light.vector("position", -kFar, kFar);
+      point.intensity = light.vector("intensity", 0, kBright);
+      light.finish();
+      scene.lights.push_back(point);
+    }
+  }
+
+  StrictObject materials = top.object("materials");
+  for (const auto& item : top.at("materials").items())
+    scene.materials.push_back(readMaterial(item.key(), {item.value(), where, fmt::format("materials.{}", item.key())}));
+  if (scene.materials.size() > pack::kMaxMaterials) top.fail("materials", "too many", fmt::format("at most {}", pack::kMaxMaterials));
+
+  const json& meshes = top.at("meshes");
+  if (!meshes.is_array() || meshes.empty()) top.fail("meshes", "is no list", "a list of one mesh or more");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    StrictObject mesh(meshes[i], where, fmt::format("meshes[{}]", i));
+    scene.meshes.push_back(readMesh(mesh, scene, where));
+    if (!names.insert(scene.meshes.back().name).second)
+      mesh.fail("name", "is there twice", "unique names", fmt::format("'{}'", scene.meshes.back().name));
+  }
+  top.finish();
+  return scene;
+}
+
+}  // namespace malus::bake

@@ -1,0 +1,59 @@
+// Reads scene.json (schema: bake/SCENE.md) into the description that is baked. Nothing is computed here.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "bake/pack/scene.h"
+
+namespace malus::bake {
+
+// Applied in this order.
+struct Transform {
+  glm::dvec3 scale{1.0};
+  glm::dvec3 rotateDegrees{0.0};  // about x, then y, then z
+  glm::dvec3 translate{0.0};
+};
+
+struct MeshDescription {
+  std::string name;
+  std::filesystem::path file;  // absolute or relative to the working folder
+  std::string material;
+  bool flat = false;
+  bool sheet = false;
+  double creaseDegrees = 40;
+  double weldTolerance = 0;
+  std::vector<Transform> instances;
+};
+
+struct SceneDescription {
+  std::filesystem::path file;
+  std::string name;
+  std::string title;
+  std::optional<glm::dvec3> origin;
+  glm::dvec3 cameraPosition{0.0};
+  glm::dvec3 cameraTarget{0.0};
+  glm::dvec3 cameraUp{0.0, 1.0, 0.0};
+  double verticalFovDegrees = 40;
+  double mediumEta = 1;
+  std::uint32_t width = 0, height = 0, depth = 0;
+  double exposureEv = 0;
+  glm::dvec3 environmentRadiance{0.0};
+  std::filesystem::path environmentImage;  // empty: constant
+  double environmentScale = 1;
+  double environmentRotationDegrees = 0;
+  double diffuseFill = 0;
+  std::vector<pack::PointLight> lights;  // in world space
+  std::vector<pack::Material> materials;
+  std::vector<MeshDescription> meshes;
+};
+
+// Throws Error: unreadable, no JSON, a key missing, unknown or out of range, an unknown material.
+SceneDescription readSceneFile(const std::filesystem::path& path);
+
+}  // namespace malus::bake

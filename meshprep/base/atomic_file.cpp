@@ -1,0 +1,119 @@
+#include "meshprep/base/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+
+namespace malus {
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string systemMessage(int code) { return std::strerror(code); }
+
+// Closes on scope exit.
+struct Descriptor {
+  int fd = -1;
+  ~Descriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+void writeAll(int fd, std::span<const std::byte> bytes, const fs::path& path) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw Error(path.string(), "cannot write", "room on the disk", systemMessage(errno));
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+}
+
+void flushToDisk(const fs::path& path) {
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.fd < 0 || ::fsync(file.fd) != 0) throw Error(path.string(), "cannot write", "", systemMessage(errno));
+}
+
+// Path of the temporary that is being written, for the signal handler. One writer at a time registers.
+char gUnfinished[4096];
+std::atomic<bool> gHasUnfinished{false};
+
+}  // namespace
+
+void removeUnfinished() noexcept {
+  if (gHasUnfinished.load()) ::unlink(gUnfinished);
+}
+
+std::vector<std::byte> readFile(const fs::path& path, std::size_t maxBytes) {
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.fd < 0) throw Error(path.string(), "cannot open", "a readable file", systemMessage(errno));
+  struct stat info {};
+  if (::fstat(file.fd, &info) != 0) throw Error(path.string(), "cannot read", "", systemMessage(errno));
+  if (!S_ISREG(info.st_mode)) throw Error(path.string(), "is not a regular file");
+  const auto size = static_cast<std::size_t>(info.st_size);
+  if (size > maxBytes)
+    throw Error(path.string(), "is too large", fmt::format("at most {} bytes", maxBytes), fmt::format("{}", size));
+  std::vector<std::byte> bytes(size);
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t n = ::read(file.fd, bytes.data() + done, size - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw Error(path.string(), "cannot read", "", systemMessage(errno));
+    if (n == 0) break;  // shrank while it was read
+    done += static_cast<std::size_t>(n);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+std::string readTextFile(const fs::path& path, std::size_t maxBytes) {
+  const std::vector<std::byte> bytes = readFile(path, maxBytes);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void writeBeside(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  static std::atomic<unsigned> counter{0};
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) throw Error(path.string(), "cannot write", "an existing folder", folder.string());
+  if (fs::is_directory(path, ignored)) throw Error(path.string(), "cannot write", "a file name", "a folder");
+  const fs::path temporary =
+      folder / fmt::format(".{}.{}-{}.part{}", path.stem().string(), ::getpid(), counter++, path.extension().string());
+  const bool registered = temporary.native().size() < sizeof gUnfinished;
+  if (registered) {
+    std::memcpy(gUnfinished, temporary.c_str(), temporary.native().size() + 1);
+    gHasUnfinished = true;
+  }
+  struct Unregister {
+    ~Unregister() { gHasUnfinished = false; }
+  } unregister;
+  try {
+    write(temporary);
+    flushToDisk(temporary);
+    std::error_code failed;
+    fs::rename(temporary, path, failed);
+    if (failed) throw Error(path.string(), "cannot write", "", failed.message());
+  } catch (...) {
+    fs::remove(temporary, ignored);
+    throw;
+  }
+}
+
+void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
+  writeBeside(path, [&](const fs::path& temporary) {
+    const Descriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
+    if (file.fd < 0) throw Error(path.string(), "cannot write", "a writable folder", systemMessage(errno));
+    writeAll(file.fd, bytes, path);
+  });
+}
+
+void writeFile(const fs::path& path, std::string_view text) { writeFile(path, std::as_bytes(std::span(text))); }
+
+}  // namespace malus

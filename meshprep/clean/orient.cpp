@@ -1,0 +1,218 @@
+#include "meshprep/clean/orient.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "meshprep/clean/edges.h"
+#include "meshprep/clean/shell_nesting.h"
+
+namespace malus::prep {
+
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr double kVolumeTolerance = 1e-9;  // of the box's diagonal cubed: nothing to tell a side by
+
+// A neighbour through an edge of two triangles.
+struct Link {
+  std::uint32_t triangle = kNone;
+  bool agrees = false;  // both run along the edge in opposite ways, as neighbours should
+};
+
+struct Part {
+  std::vector<std::uint32_t> triangles;
+  bool orientable = true;
+  bool closed = true;
+};
+
+class Orienter {
+ public:
+  Orienter(Mesh& mesh, bool sheet) : mesh_(mesh), sheet_(sheet), uses_(edgeUses(mesh.triangles)) {}
+
+  OrientResult run() {
+    linkTriangles();
+    findParts();
+    findClosed();
+    takeMajority();
+    if (!sheet_) turnOutward();
+    return finish();
+  }
+
+ private:
+  void linkTriangles() {
+    links_.resize(mesh_.triangles.size());
+    forEachEdge(uses_, [&](std::span<const EdgeUse> edge) {
+      if (edge.size() == 1) ++result_.boundaryEdges;
+      if (edge.size() > 2) ++result_.nonManifoldEdges;
+      if (edge.size() != 2) return;
+      const bool agrees = edge[0].forward != edge[1].forward;
+      links_[edge[0].triangle][edge[0].corner] = {edge[1].triangle, agrees};
+      links_[edge[1].triangle][edge[1].corner] = {edge[0].triangle, agrees};
+    });
+  }
+
+  // Walks from triangle to triangle, turning those that do not agree with where the walk came from.
+  void findParts() {
+    partOf_.assign(mesh_.triangles.size(), kNone);
+    turned_.assign(mesh_.triangles.size(), 0);
+    for (std::uint32_t first = 0; first < partOf_.size(); ++first) {
+      if (partOf_[first] != kNone) continue;
+      const auto id = static_cast<std::uint32_t>(parts_.size());
+      Part part;
+      part.triangles.push_back(first);
+      partOf_[first] = id;
+      for (std::size_t next = 0; next < part.triangles.size(); ++next) {
+        const std::uint32_t here = part.triangles[next];
+        for (const Link& link : links_[here]) {
+          if (link.triangle == kNone) continue;
+          const char turn = static_cast<char>(link.agrees ? turned_[here] : 1 - turned_[here]);
+          if (partOf_[link.triangle] == kNone) {
+            partOf_[link.triangle] = id;
+            turned_[link.triangle] = turn;
+            part.triangles.push_back(link.triangle);
+          } else if (turned_[link.triangle] != turn) {
+            part.orientable = false;
+          }
+        }
+      }
+      parts_.push_back(std::move(part));
+    }
+  }
+
+  // A part is closed where each edge is run along as often one way as the other: it has no boundary, even
+  // where it touches itself or other parts along an edge.
+  void findClosed() {
+    forEachEdge(uses_, [&](std::span<const EdgeUse> edge) {
+      for (const EdgeUse& use : edge) {
+        Part& part = parts_[partOf_[use.triangle]];
+        int balance = 0, count = 0;
+        for (const EdgeUse& other : edge) {
+          if (partOf_[other.triangle] != partOf_[use.triangle]) continue;
+          ++count;
+          balance += other.forward != (turned_[other.triangle] != 0) ? 1 : -1;
+        }
+        if (part.orientable ? balance != 0 : count % 2 != 0) part.closed = false;
+      }
+    });
+  }
+
+  void turnWhole(const Part& part) {
+    for (const std::uint32_t t : part.triangles) turned_[t] = static_cast<char>(1 - turned_[t]);
+  }
+
+  void takeMajority() {
+    for (const Part& part : parts_) {
+      if (!part.orientable) {
+        for (const std::uint32_t t : part.triangles) turned_[t] = 0;
+        continue;
+      }
+      const auto turns = static_cast<std::size_t>(std::count_if(part.triangles.begin(), part.triangles.end(),
+                                                                [&](std::uint32_t t) { return turned_[t] != 0; }));
+      if (2 * turns > part.triangles.size()) turnWhole(part);
+    }
+  }
+
+  // The triangle as it will be.
+  glm::uvec3 triangle(std::uint32_t t) const {
+    const glm::uvec3 v = mesh_.triangles[t];
+    return turned_[t] != 0 ? glm::uvec3(v.x, v.z, v.y) : v;
+  }
+
+  // About the part's own first corner: far from the origin, tetrahedra to the origin would cancel badly.
+  double signedVolume(const Part& part) const {
+    const glm::dvec3 origin = mesh_.positions[triangle(part.triangles.front()).x];
+    double volume = 0;
+    for (const std::uint32_t t : part.triangles) {
+      const glm::uvec3 v = triangle(t);
+      const glm::dvec3 a = mesh_.positions[v.x] - origin, b = mesh_.positions[v.y] - origin,
+                       c = mesh_.positions[v.z] - origin;
+      volume += glm::dot(a, glm::cross(b, c)) / 6;
+    }
+    return volume;
+  }
+
+  bool hasVolume(const Part& part, double volume) const {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const std::uint32_t t : part.triangles)
+      for (int corner = 0; corner < 3; ++corner) {
+        low = glm::min(low, mesh_.positions[mesh_.triangles[t][corner]]);
+        high = glm::max(high, mesh_.positions[mesh_.triangles[t][corner]]);
+      }
+    return std::abs(volume) > kVolumeTolerance * std::pow(glm::length(high - low), 3.0);
+  }
+
+  void turnOutward() {
+    // Step 1: the shells, in the orientation that the majority gave them.
+    std::vector<Shell> shells;
+    std::vector<std::size_t> partOfShell;
+    std::vector<double> volumes;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const Part& part = parts_[i];
+      if (!part.orientable || !part.closed) continue;
+      const double volume = signedVolume(part);
+      if (!hasVolume(part, volume)) {
+        ++result_.withoutVolume;
+        continue;
+      }
+      Shell shell;
+      shell.volume = std::abs(volume);
+      for (const std::uint32_t t : part.triangles) shell.triangles.push_back(triangle(t));
+      shells.push_back(std::move(shell));
+      partOfShell.push_back(i);
+      volumes.push_back(volume);
+    }
+
+    // Step 2: what lies inside what.
+    std::vector<Nesting> nesting(shells.size());
+    if (shells.size() <= kMaxShells) {
+      nesting = nestShells(shells, mesh_.positions);
+    } else {
+      result_.nestingUnchecked = shells.size();
+    }
+
+    // Step 3: turn. A parent is at an even depth where its child is at an odd one, so it decides alone.
+    for (std::size_t i = 0; i < shells.size(); ++i) {
+      const bool follows = nesting[i].depth % 2 == 1;
+      if (follows) ++result_.nested;
+      const double deciding = follows ? volumes[*nesting[i].parent] : volumes[i];
+      if (deciding < 0) turnWhole(parts_[partOfShell[i]]);
+    }
+  }
+
+  OrientResult finish() {
+    for (const Part& part : parts_) {
+      Component component;
+      component.triangles = part.triangles.size();
+      component.closed = part.closed;
+      component.orientable = part.orientable;
+      for (const std::uint32_t t : part.triangles) component.flipped += turned_[t] != 0 ? 1u : 0u;
+      if (part.closed && part.orientable) component.signedVolume = signedVolume(part);
+      result_.flipped += component.flipped;
+      result_.notOrientable += part.orientable ? 0u : 1u;
+      result_.components.push_back(component);
+    }
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) mesh_.triangles[t] = triangle(t);
+    return result_;
+  }
+
+  Mesh& mesh_;
+  bool sheet_;
+  std::vector<EdgeUse> uses_;
+  std::vector<std::array<Link, 3>> links_;
+  std::vector<std::uint32_t> partOf_;
+  std::vector<char> turned_;  // 1 where the triangle is to be turned over
+  std::vector<Part> parts_;
+  OrientResult result_;
+};
+
+}  // namespace
+
+OrientResult orient(Mesh& mesh, bool sheet) { return Orienter(mesh, sheet).run(); }
+
+}  // namespace malus::prep

@@ -1,0 +1,84 @@
+#include "meshprep/clean/shell_nesting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace malus::prep {
+
+namespace {
+
+constexpr std::size_t kSamples = 16;
+constexpr double kInside = 0.75;
+
+struct Box {
+  glm::dvec3 low{std::numeric_limits<double>::infinity()};
+  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+};
+
+Box boxOf(const Shell& shell, std::span<const glm::dvec3> positions) {
+  Box box;
+  for (const glm::uvec3& t : shell.triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      box.low = glm::min(box.low, positions[t[corner]]);
+      box.high = glm::max(box.high, positions[t[corner]]);
+    }
+  return box;
+}
+
+bool isWithin(const Box& inner, const Box& outer) {
+  return glm::all(glm::greaterThan(inner.low, outer.low)) && glm::all(glm::lessThan(inner.high, outer.high));
+}
+
+bool isInside(const Shell& inner, const Shell& outer, std::span<const glm::dvec3> positions) {
+  const std::size_t count = std::min(kSamples, inner.triangles.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 p = positions[inner.triangles[i * inner.triangles.size() / count].x];
+    if (std::abs(windingNumber(outer, positions, p)) <= kInside) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double windingNumber(const Shell& shell, std::span<const glm::dvec3> positions, const glm::dvec3& p) {
+  double solidAngle = 0;
+  for (const glm::uvec3& t : shell.triangles) {
+    const glm::dvec3 a = positions[t.x] - p, b = positions[t.y] - p, c = positions[t.z] - p;
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    const double numerator = glm::dot(a, glm::cross(b, c));
+    const double denominator = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+    solidAngle += 2 * std::atan2(numerator, denominator);
+  }
+  return solidAngle / (4 * glm::pi<double>());
+}
+
+std::vector<Nesting> nestShells(std::span<const Shell> shells, std::span<const glm::dvec3> positions) {
+  std::vector<Box> boxes;
+  for (const Shell& shell : shells) boxes.push_back(boxOf(shell, positions));
+
+  // From the largest to the smallest, so that a parent's depth is known before its children's.
+  std::vector<std::size_t> order(shells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return shells[a].volume > shells[b].volume; });
+  std::vector<Nesting> nesting(shells.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::size_t inner = order[i];
+    for (std::size_t j = i; j-- > 0;) {
+      const std::size_t outer = order[j];
+      if (!isWithin(boxes[inner], boxes[outer]) || !isInside(shells[inner], shells[outer], positions)) continue;
+      nesting[inner] = {outer, nesting[outer].depth + 1};
+      break;
+    }
+  }
+  return nesting;
+}
+
+}  // namespace malus::prep

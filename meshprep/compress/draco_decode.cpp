@@ -1,0 +1,147 @@
+// Decoding under guard: counts are compared before Draco runs, attributes before their values are
+// allocated, and every value afterwards.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <string>
+
+#include <draco/compression/config/decoder_options.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
+#include <draco/core/decoder_buffer.h>
+#include <draco/mesh/mesh.h>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "meshprep/base/error.h"
+#include "meshprep/compress/draco_header.h"
+#include "meshprep/compress/draco_mesh.h"
+
+namespace malus::compress {
+
+namespace {
+
+bool isPlainFloat3(const draco::PointAttribute& attribute) {
+  return attribute.num_components() == 3 && attribute.data_type() == draco::DT_FLOAT32;
+}
+
+// One float position, at most one float normal, nothing else.
+bool hasExpectedAttributes(const draco::PointCloud& cloud) {
+  if (cloud.NumNamedAttributes(draco::GeometryAttribute::POSITION) != 1) return false;
+  const int normals = cloud.NumNamedAttributes(draco::GeometryAttribute::NORMAL);
+  if (normals > 1 || cloud.num_attributes() != 1 + normals) return false;
+  for (int i = 0; i < cloud.num_attributes(); ++i)
+    if (!isPlainFloat3(*cloud.attribute(i))) return false;
+  return true;
+}
+
+// Draco's decoder, stopped between the description of the attributes and their values: a few bytes may
+// describe gigabytes.
+template <class Base>
+class Guarded : public Base {
+ public:
+  explicit Guarded(const Limits& limits) : limits_(limits) {}
+
+ protected:
+  bool DecodeConnectivity() override {
+    return Base::DecodeConnectivity() && this->point_cloud()->num_points() == limits_.vertices &&
+           this->mesh()->num_faces() == limits_.triangles;
+  }
+  bool DecodeAllAttributes() override {
+    return hasExpectedAttributes(*this->point_cloud()) && Base::DecodeAllAttributes();
+  }
+
+ private:
+  Limits limits_;
+};
+
+template <class Base>
+void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, draco::Mesh& mesh, std::string_view where) {
+  Guarded<Base> decoder(limits);
+  const draco::DecoderOptions options;
+  draco::Status status;
+  try {
+    status = decoder.Decode(options, &buffer, &mesh);
+  } catch (const std::exception& failure) {  // std::bad_alloc and std::length_error from damaged sizes
+    throw Error(where, "Draco data is damaged", "", failure.what());
+  }
+  if (!status.ok()) throw Error(where, "Draco data is damaged", "", status.error_msg_string());
+}
+
+// The values of one attribute, one a vertex.
+std::vector<glm::vec3> attributeValues(const draco::PointAttribute& attribute, std::uint32_t vertices,
+                                       std::string_view what, std::string_view where) {
+  std::vector<glm::vec3> values(vertices);
+  const std::size_t available = attribute.buffer() == nullptr ? 0 : attribute.buffer()->data_size() / sizeof(glm::vec3);
+  for (std::uint32_t i = 0; i < vertices; ++i) {
+    const draco::AttributeValueIndex index = attribute.mapped_index(draco::PointIndex(i));
+    if (index.value() >= attribute.size() || index.value() >= available)
+      throw Error(where, fmt::format("{} of vertex {} is missing", what, i));
+    std::array<float, 3> value{};
+    attribute.GetValue(index, value.data());
+    values[i] = {value[0], value[1], value[2]};
+    if (!std::isfinite(value[0]) || !std::isfinite(value[1]) || !std::isfinite(value[2]))
+      throw Error(where, fmt::format("{} of vertex {} is not finite", what, i));
+  }
+  return values;
+}
+
+}  // namespace
+
+Limits claimedCounts(std::span<const std::byte> bytes, std::string_view where) {
+  const DracoHeader header = parseHeader(bytes, where);
+  return {header.vertices, header.triangles};
+}
+
+TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std::string_view where) {
+  // Step 1: what the file claims must be what the caller knows.
+  const DracoHeader header = parseHeader(bytes, where);
+  if (header.vertices != limits.vertices || header.triangles != limits.triangles)
+    throw Error(where, "Draco data of another mesh",
+                fmt::format("{} vertices and {} triangles", limits.vertices, limits.triangles),
+                fmt::format("{} and {}", header.vertices, header.triangles));
+  if (limits.triangles > kMaxTriangles || limits.vertices > kMaxTriangles || limits.vertices == 0)
+    throw Error(where, "Draco data of an impossible size", fmt::format("1 to {} vertices and triangles", kMaxTriangles),
+                fmt::format("{} and {}", limits.vertices, limits.triangles));
+
+  // Step 2: decode.
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  draco::Mesh mesh;
+  if (header.method == Method::kSequential) {
+    runDecoder<draco::MeshSequentialDecoder>(buffer, limits, mesh, where);
+  } else {
+    runDecoder<draco::MeshEdgebreakerDecoder>(buffer, limits, mesh, where);
+  }
+  if (mesh.num_points() != limits.vertices || mesh.num_faces() != limits.triangles)
+    throw Error(where, "Draco data decodes to other counts",
+                fmt::format("{} vertices and {} triangles", limits.vertices, limits.triangles),
+                fmt::format("{} and {}", mesh.num_points(), mesh.num_faces()));
+
+  // Step 3: copy out, checking every value.
+  TriangleMesh result;
+  result.positions =
+      attributeValues(*mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION), limits.vertices, "position", where);
+  if (const auto* normals = mesh.GetNamedAttribute(draco::GeometryAttribute::NORMAL); normals != nullptr) {
+    result.normals = attributeValues(*normals, limits.vertices, "normal", where);
+    for (std::size_t i = 0; i < result.normals.size(); ++i) {
+      const float length = glm::length(result.normals[i]);
+      if (!(length > 0.5f && length < 2.0f))
+        throw Error(where, fmt::format("normal of vertex {} has no direction", i), "unit length",
+                    fmt::format("{}", length));
+      result.normals[i] /= length;
+    }
+  }
+  result.triangles.resize(limits.triangles);
+  for (std::uint32_t i = 0; i < limits.triangles; ++i) {
+    const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
+    result.triangles[i] = {face[0].value(), face[1].value(), face[2].value()};
+    if (std::max({face[0].value(), face[1].value(), face[2].value()}) >= limits.vertices)
+      throw Error(where, fmt::format("triangle {} names a vertex that is not there", i),
+                  fmt::format("below {}", limits.vertices));
+  }
+  return result;
+}
+
+}  // namespace malus::compress

@@ -1,0 +1,111 @@
+// Object File Format, ASCII, three dimensions: [ST][C][N]OFF. Colours, normals and texture coordinates are
+// skipped.
+// Source: Geomview manual, "OFF: the format of polygon files", http://www.geomview.org/docs/html/OFF.html.
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+#include "meshprep/read/scan.h"
+
+namespace malus::prep {
+
+namespace {
+
+// A count that the file's own bytes can back: every element takes at least `bytesEach` of them.
+std::size_t scanCount(std::string_view& rest, std::string_view what, std::size_t fileBytes, std::size_t bytesEach,
+                      const Lines& at) {
+  const long long count = wholeNumber(takeWord(rest), what, at);
+  const std::size_t most = std::min<std::size_t>(fileBytes / bytesEach, std::numeric_limits<int>::max());
+  if (count < 0 || static_cast<unsigned long long>(count) > most)
+    at.fail("a count that the file cannot hold", fmt::format("{}, at most {}", what, most), fmt::to_string(count));
+  return static_cast<std::size_t>(count);
+}
+
+// What the letters before OFF say about the numbers after x y z, and where the header ends in the line.
+std::size_t scanHeader(const Lines& at) {
+  std::string_view prefix = at.line().substr(0, at.line().find_first_of(" \t"));
+  const std::size_t length = prefix.size();
+  if (prefix.starts_with("ST")) prefix.remove_prefix(2);
+  if (prefix.starts_with("C")) prefix.remove_prefix(1);
+  if (prefix.starts_with("N")) prefix.remove_prefix(1);
+  if (prefix.starts_with("4") || prefix.starts_with("n"))
+    at.fail("an OFF file of another dimension", "three dimensions", quoted(at.line()));
+  if (prefix != "OFF") at.fail("is not an OFF file", "OFF, COFF, NOFF or STOFF", quoted(at.line()));
+  return length;
+}
+
+// Blanks everything of the line after `rest` began: OpenMesh shall find plain numbers alone.
+void blankFrom(std::string_view rest, Lines& lines) {
+  lines.blank(static_cast<std::size_t>(rest.data() - lines.line().data()));
+}
+
+}  // namespace
+
+Polygons scanOff(std::string& bytes, std::string_view where) {
+  Lines lines(bytes, where);
+  const auto nextLine = [&](std::string_view what) {
+    if (!lines.nextStatement('#')) throw Error(where, "ends too early", what, "the end of the file");
+    std::string_view rest = lines.line();
+    const std::size_t comment = rest.find('#');
+    return rest.substr(0, comment);
+  };
+
+  // Step 1: header, perhaps with the counts on the same line. It becomes a plain OFF on a line of its own.
+  nextLine("OFF");
+  const std::size_t length = scanHeader(lines);
+  std::string_view rest = lines.line().substr(length);
+  rest = rest.substr(0, rest.find('#'));
+  std::string_view peek = rest;
+  const std::string_view after = takeWord(peek);
+  if (after == "BINARY") lines.fail("a binary OFF file", "ASCII", quoted(lines.line()));
+  const auto headerBegin = static_cast<std::size_t>(lines.line().data() - bytes.data());
+  bytes.replace(headerBegin, length, std::string("OFF") + std::string(length - 3, ' '));
+  if (after.empty()) {
+    rest = nextLine("three counts");
+  } else {
+    bytes[headerBegin + length] = '\n';
+  }
+
+  // Step 2: counts of vertices, faces and edges; the last is not used by anyone.
+  const std::size_t vertices = scanCount(rest, "a number of vertices", bytes.size(), 6, lines);
+  const std::size_t faces = scanCount(rest, "a number of faces", bytes.size(), 8, lines);
+  wholeNumber(takeWord(rest), "a number of edges", lines);
+  if (!takeWord(rest).empty()) lines.fail("too many counts", "vertices, faces and edges");
+  blankFrom(rest, lines);
+
+  // Step 3: vertices, a line each.
+  Polygons polygons;
+  polygons.positions.reserve(vertices);
+  for (std::size_t i = 0; i < vertices; ++i) {
+    rest = nextLine(fmt::format("{} vertices, {} found", vertices, i));
+    glm::dvec3 p(0);
+    for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
+    polygons.positions.push_back(p);
+    blankFrom(rest, lines);
+  }
+
+  // Step 4: faces, a line each: number of corners, corners, perhaps a colour.
+  for (std::size_t i = 0; i < faces; ++i) {
+    rest = nextLine(fmt::format("{} faces, {} found", faces, i));
+    const long long corners = wholeNumber(takeWord(rest), "a number of corners", lines);
+    if (corners < 3) lines.fail("a face without area", "at least 3 corners", fmt::to_string(corners));
+    for (long long c = 0; c < corners; ++c) {
+      const long long index = wholeNumber(takeWord(rest), fmt::format("{} corners", corners), lines);
+      if (index < 0 || static_cast<unsigned long long>(index) >= vertices)
+        lines.fail("a face names a vertex that is not there", fmt::format("0 or more and below {}", vertices),
+                   fmt::to_string(index));
+      polygons.corners.push_back(static_cast<std::uint32_t>(index));
+    }
+    polygons.closeFace();
+    blankFrom(rest, lines);
+  }
+  if (lines.nextStatement('#')) lines.fail("more than the header counts", "the end of the file", quoted(lines.line()));
+
+  // OpenMesh looks for the header in the first line alone.
+  bytes.erase(0, headerBegin);
+  return polygons;
+}
+
+}  // namespace malus::prep

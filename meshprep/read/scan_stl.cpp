@@ -1,0 +1,135 @@
+// Stereolithography, ASCII and binary (little-endian). Normals and attributes are skipped: corners alone
+// count.
+// Source: 3D Systems, "StereoLithography Interface Specification", 1989.
+#include <array>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+#include "meshprep/read/scan.h"
+
+namespace malus::prep {
+
+namespace {
+
+constexpr std::size_t kHeaderBytes = 84;  // 80 of text, 4 of count
+constexpr std::size_t kFaceBytes = 50;    // normal, three corners, attribute
+constexpr std::size_t kNormalBytes = 12;
+
+std::uint32_t littleEndian(std::string_view bytes, std::size_t offset) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 4; i-- > 0;) value = value << 8u | static_cast<unsigned char>(bytes[offset + i]);
+  return value;
+}
+
+bool equalsIgnoringCase(std::string_view word, std::string_view lower) {
+  if (word.size() != lower.size()) return false;
+  for (std::size_t i = 0; i < word.size(); ++i)
+    if (std::tolower(static_cast<unsigned char>(word[i])) != lower[i]) return false;
+  return true;
+}
+
+Polygons scanBinary(std::string_view bytes, std::string_view where, std::size_t faces) {
+  Polygons polygons;
+  polygons.positions.reserve(3 * faces);
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::size_t offset = kHeaderBytes + f * kFaceBytes + kNormalBytes;
+    for (int corner = 0; corner < 3; ++corner) {
+      glm::dvec3 p(0);
+      for (int axis = 0; axis < 3; ++axis, offset += 4) {
+        p[axis] = static_cast<double>(std::bit_cast<float>(littleEndian(bytes, offset)));
+        if (!std::isfinite(p[axis]))
+          throw Error(fmt::format("{}, byte {}", where, offset), fmt::format("a bad number in face {}", f),
+                      "a finite number", fmt::to_string(p[axis]));
+      }
+      polygons.corners.push_back(static_cast<std::uint32_t>(polygons.positions.size()));
+      polygons.positions.push_back(p);
+    }
+    polygons.closeFace();
+  }
+  return polygons;
+}
+
+// The words that a line must begin with; returns what follows them.
+std::string_view expectWords(std::string_view expected, const Lines& at) {
+  std::string_view rest = at.line();
+  std::string_view words = expected;
+  for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words))
+    if (!equalsIgnoringCase(takeWord(rest), word)) at.fail("not as STL has it", expected, quoted(at.line()));
+  return rest;
+}
+
+Polygons scanAscii(std::string& bytes, std::string_view where) {
+  Polygons polygons;
+  Lines lines(bytes, where);
+  const auto nextLine = [&](std::string_view expected) {
+    do {
+      if (!lines.next()) throw Error(where, "ends too early", expected, "the end of the file");
+    } while (lines.line().empty());
+  };
+  constexpr std::string_view kSolid = "solid";
+  bool inSolid = false;
+  while (lines.next()) {
+    if (lines.line().empty()) continue;
+    std::string_view rest = lines.line();
+    const std::string_view keyword = takeWord(rest);
+
+    // Names may hold words that OpenMesh takes for statements: they are blanked.
+    if (!inSolid) {
+      expectWords(kSolid, lines);
+      lines.blank(kSolid.size());
+      inSolid = true;
+    } else if (equalsIgnoringCase(keyword, "endsolid")) {
+      lines.blank(keyword.size());
+      inSolid = false;
+    } else {
+      expectWords("facet normal", lines);
+      nextLine("outer loop");
+      expectWords("outer loop", lines);
+      for (int corner = 0; corner < 3; ++corner) {
+        // OpenMesh takes the next three lines, whatever they are.
+        if (!lines.next()) throw Error(where, "ends too early", "three corners", "the end of the file");
+        rest = expectWords("vertex", lines);
+        glm::dvec3 p(0);
+        for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
+        if (!takeWord(rest).empty()) lines.fail("a corner has too many numbers", "x y z");
+        polygons.corners.push_back(static_cast<std::uint32_t>(polygons.positions.size()));
+        polygons.positions.push_back(p);
+      }
+      polygons.closeFace();
+      nextLine("endloop");
+      expectWords("endloop", lines);
+      nextLine("endfacet");
+      expectWords("endfacet", lines);
+    }
+  }
+  if (inSolid) throw Error(where, "ends too early", "endsolid", "the end of the file");
+  return polygons;
+}
+
+}  // namespace
+
+Polygons scanStl(std::string& bytes, std::string_view where, bool& isBinary) {
+  // Binary files may begin with "solid" too, so the size decides.
+  isBinary = false;
+  if (bytes.size() >= kHeaderBytes) {
+    const std::size_t faces = littleEndian(bytes, 80);
+    isBinary = bytes.size() == kHeaderBytes + faces * kFaceBytes;
+    if (isBinary) return scanBinary(bytes, where, faces);
+  }
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && equalsIgnoringCase(std::string_view(bytes).substr(first, 5), "solid"))
+    return scanAscii(bytes, where);
+  if (bytes.size() < kHeaderBytes)
+    throw Error(where, "is not an STL file", "\"solid\", or 84 bytes and more", fmt::format("{} bytes", bytes.size()));
+  const std::size_t faces = littleEndian(bytes, 80);
+  throw Error(where, "a binary STL file of a wrong size",
+              fmt::format("{} bytes for its {} faces", kHeaderBytes + faces * kFaceBytes, faces),
+              fmt::format("{} bytes", bytes.size()));
+}
+
+}  // namespace malus::prep

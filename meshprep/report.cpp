@@ -1,0 +1,65 @@
+#include "meshprep/report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace malus::prep {
+
+std::uint64_t Report::count(std::string_view step) const {
+  const auto found = std::find_if(steps.begin(), steps.end(), [&](const Step& s) { return s.name == step; });
+  return found == steps.end() ? 0 : found->count;
+}
+
+nlohmann::json toJson(const Report& report) {
+  nlohmann::json json;
+  json["source"] = report.source;
+  json["input"] = {{"vertices", report.input.vertices}, {"faces", report.input.faces}};
+  json["output"] = {{"vertices", report.output.vertices}, {"triangles", report.output.triangles}};
+  json["steps"] = nlohmann::json::array();
+  for (const Step& step : report.steps) json["steps"].push_back({{"name", step.name}, {"count", step.count}});
+  json["components"] = nlohmann::json::array();
+  for (const Component& c : report.components)
+    json["components"].push_back({{"triangles", c.triangles},
+                                  {"closed", c.closed},
+                                  {"orientable", c.orientable},
+                                  {"flipped", c.flipped},
+                                  {"signedVolume", c.signedVolume}});
+  if (report.compression.bytes > 0) {
+    json["errors"] = {{"positionMax", report.errors.positionMax}, {"normalMaxDegrees", report.errors.normalMaxDegrees}};
+    json["compression"] = {{"method", report.compression.method}, {"bytes", report.compression.bytes}};
+  }
+  return json;
+}
+
+std::string toText(const Report& report) {
+  // Step 1: before and after.
+  std::string text = fmt::format("{}\n", report.source);
+  text += fmt::format("  {:<34}{:>12}{:>12}\n", "", "before", "after");
+  text += fmt::format("  {:<34}{:>12}{:>12}\n", "vertices", report.input.vertices, report.output.vertices);
+  text += fmt::format("  {:<34}{:>12}{:>12}\n", "faces, triangles", report.input.faces, report.output.triangles);
+
+  // Step 2: what was found and done.
+  for (const Step& step : report.steps)
+    if (step.count > 0) text += fmt::format("  {:<34}{:>12}\n", step.name, step.count);
+
+  // Step 3: components, in numbers.
+  const auto count = [&](auto which) {
+    return std::count_if(report.components.begin(), report.components.end(), which);
+  };
+  text += fmt::format("  {:<34}{:>12}\n", "components", report.components.size());
+  text += fmt::format("  {:<34}{:>12}\n", "  closed", count([](const Component& c) { return c.closed; }));
+  text += fmt::format("  {:<34}{:>12}\n", "  with turned triangles",
+                      count([](const Component& c) { return c.flipped > 0; }));
+
+  // Step 4: compression.
+  if (report.compression.bytes > 0) {
+    text +=
+        fmt::format("  {:<34}{:>12} bytes, {}\n", "compressed", report.compression.bytes, report.compression.method);
+    text += fmt::format("  {:<34}{:>12.3g} m\n", "position error, at most", report.errors.positionMax);
+    text += fmt::format("  {:<34}{:>12.3g} degrees\n", "normal error, at most", report.errors.normalMaxDegrees);
+  }
+  return text;
+}
+
+}  // namespace malus::prep

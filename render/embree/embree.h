@@ -1,0 +1,79 @@
+// Embree 3 (Debian 12) and Embree 4 (Debian 13) behind one face: a device, a scene of triangle meshes and
+// two questions. ROBUST always, or rays leak through shared edges.
+#pragma once
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <string>
+
+#include <glm/vec3.hpp>
+
+#include "render/scene/float_scene.h"
+
+namespace malus::embree {
+
+// Nearest triangle along a ray. mesh: index of the mesh, or kMiss.
+struct Intersection {
+  static constexpr unsigned kMiss = RTC_INVALID_GEOMETRY_ID;
+  unsigned mesh = kMiss;
+  unsigned triangle = 0;  // within the mesh
+  float b1 = 0, b2 = 0;   // barycentric coordinates of its second and third corner
+};
+
+class Bvh {
+ public:
+  // threads: 0 for all. Throws Error where Embree does.
+  Bvh(const render::FloatScene& scene, unsigned threads);
+  ~Bvh();
+  Bvh(const Bvh&) = delete;
+  Bvh& operator=(const Bvh&) = delete;
+
+  Intersection nearest(const glm::vec3& origin, const glm::vec3& direction) const;
+  // Whether nothing lies within distance.
+  bool visible(const glm::vec3& origin, const glm::vec3& direction, float distance) const;
+
+  static std::string version();  // "Embree 3.13.5"
+
+ private:
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+};
+
+inline Intersection Bvh::nearest(const glm::vec3& o, const glm::vec3& d) const {
+  RTCRayHit query;
+  query.ray.org_x = o.x, query.ray.org_y = o.y, query.ray.org_z = o.z;
+  query.ray.dir_x = d.x, query.ray.dir_y = d.y, query.ray.dir_z = d.z;
+  query.ray.tnear = 0, query.ray.tfar = 1e30f;
+  query.ray.time = 0, query.ray.mask = ~0u, query.ray.id = 0, query.ray.flags = 0;
+  query.hit.geomID = query.hit.primID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect1(scene_, &query, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene_, &context, &query);
+#endif
+  return {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
+}
+
+inline bool Bvh::visible(const glm::vec3& o, const glm::vec3& d, float distance) const {
+  RTCRay ray;
+  ray.org_x = o.x, ray.org_y = o.y, ray.org_z = o.z;
+  ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
+  ray.tnear = 0, ray.tfar = distance;
+  ray.time = 0, ray.mask = ~0u, ray.id = 0, ray.flags = 0;
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded1(scene_, &ray, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene_, &context, &ray);
+#endif
+  return ray.tfar >= 0;
+}
+
+}  // namespace malus::embree

@@ -1,0 +1,75 @@
+#include "render/embree/renderer.h"
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range2d.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "render/embree/methods.h"
+#include "render/embree/tile.h"
+#include "render/scene/methods.h"
+
+namespace malus::embree {
+using Clock = std::chrono::steady_clock;
+
+namespace {
+double sinceMs(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+constexpr std::size_t kTileSide = 16;
+}  // namespace
+
+struct Renderer::Impl {
+  pack::Scene const* source;
+  render::FloatScene scene;
+  int threads;
+  double buildMs = 0;
+  std::unique_ptr<Bvh> bvh;
+};
+
+Renderer::Renderer(const pack::Scene& scene, unsigned threads) : impl_(std::make_unique<Impl>()) {
+  const auto start = Clock::now();
+  impl_->source = &scene;
+  impl_->scene = render::floatScene(scene);
+  impl_->threads = static_cast<int>(threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
+  impl_->bvh = std::make_unique<Bvh>(impl_->scene, threads);
+  impl_->buildMs = sinceMs(start);
+}
+
+Renderer::~Renderer() = default;
+
+std::string Renderer::device() const { return fmt::format("{}, {} threads", Bvh::version(), impl_->threads); }
+
+render::Picture Renderer::render(std::string_view name, const render::View& view) const {
+  const render::MethodInfo& info = render::methodNamed(name);
+  const Method* method = nullptr;
+  for (const Method* m : allMethods())
+    if (m->name == name) method = m;
+
+  render::Picture picture;
+  picture.width = view.region.width;
+  picture.height = view.region.height;
+  picture.channels = info.hasStokes ? render::kStokesChannels : render::kColourChannels;
+  picture.pixels.resize(picture.channels * picture.width * picture.height);
+  picture.device = device();
+  const gpu::Frame frame = render::frameOf(*impl_->source, view);
+
+  const auto start = Clock::now();
+  std::atomic<std::uint64_t> rays{0};
+  tbb::task_arena arena(impl_->threads);
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range2d<std::uint32_t>(0, view.region.height, kTileSide, 0, view.region.width, kTileSide),
+                      [&](const tbb::blocked_range2d<std::uint32_t>& r) {
+                        rays += method->renderTile({impl_->bvh.get(), &impl_->scene, &frame, r.cols().begin(), r.rows().begin(),
+                                                    r.cols().end(), r.rows().end(), picture.pixels.data()});
+                      });
+  });
+  picture.cost.traceMs = picture.cost.wallMs = sinceMs(start);
+  picture.cost.buildMs = impl_->buildMs;
+  picture.cost.rays = rays;
+  return picture;
+}
+
+}  // namespace malus::embree

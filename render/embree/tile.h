@@ -1,0 +1,25 @@
+// One method's rendering of a tile; each method is a translation unit of its own (method_tracer.h).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "render/embree/embree.h"
+#include "shaders/gpu/scene.h"
+
+namespace malus::embree {
+
+struct TileInput {
+  const Bvh* bvh;
+  const render::FloatScene* scene;
+  const gpu::Frame* frame;
+  std::uint32_t beginX, beginY, endX, endY;  // within the region
+  float* pixels;                             // the region's
+};
+
+struct Method {
+  const char* name;
+  std::uint64_t (*renderTile)(const TileInput&);  // returns the number of rays
+};
+
+}  // namespace malus::embree

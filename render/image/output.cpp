@@ -1,0 +1,75 @@
+#include "render/image/output.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+
+namespace malus::render {
+
+image::Image toImage(const Picture& picture, const pack::Pack& pack, const View& view, const std::string& renderer,
+                     const std::string& method) {
+  image::Image result;
+  result.width = static_cast<int>(picture.width);
+  result.height = static_cast<int>(picture.height);
+  result.channels = {"R", "G", "B"};
+  if (picture.channels == kStokesChannels)
+    for (const char* s : {"S0", "S1", "S2", "S3"})
+      for (const char* c : {"R", "G", "B"}) result.channels.push_back(fmt::format("{}.{}", s, c));
+  result.pixels = picture.pixels;
+
+  const pack::Camera& camera = pack.scene.camera;
+  const glm::dvec3 eye = camera.position + pack.scene.origin;
+  const auto dot = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+  // Row vectors times this matrix: OpenEXR's convention; the camera looks along -z.
+  std::vector<float> worldToCamera;
+  for (int row = 0; row < 4; ++row) {
+    const auto entry = [&](const glm::dvec3& axis) { return static_cast<float>(row < 3 ? axis[row] : -dot(eye, axis)); };
+    worldToCamera.insert(worldToCamera.end(), {entry(camera.right), entry(camera.up), entry(-camera.forward), row < 3 ? 0.0f : 1.0f});
+  }
+  result.attributes = {
+      {"worldToCamera", worldToCamera},
+      {"malus:scene", pack.scene.name},
+      {"malus:pack", fmt::format("{:016x}", pack.hash)},
+      {"malus:renderer", renderer},
+      {"malus:method", method},
+      {"malus:device", picture.device},
+      {"malus:depth", static_cast<double>(view.depth)},
+      {"malus:samples", static_cast<double>(view.samples)},
+      {"malus:verticalFovDegrees", camera.verticalFovDegrees},
+      {"malus:analyser", fmt::format("{:g} {:g} {:g} {:g}", view.analyser[0], view.analyser[1], view.analyser[2], view.analyser[3])},
+      {"malus:region", fmt::format("{} {} {} {} of {} {}", view.region.x, view.region.y, view.region.width, view.region.height, view.width, view.height)},
+  };
+  return result;
+}
+
+std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureEv) {
+  const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
+  if (r < 0 || g < 0 || b < 0) throw Error("", "a PNG needs channels R, G and B");
+  const double gain = std::exp2(exposureEv);
+  const auto encode = [&](float radiance) {
+    constexpr double kLinear = 0.7;
+    double x = std::isnan(radiance) ? 0 : std::clamp(static_cast<double>(radiance) * gain, 0.0, 1e6);
+    if (x > kLinear) x = kLinear + (1 - kLinear) * (1 - std::exp(-(x - kLinear) / (1 - kLinear)));
+    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(s * 255));
+  };
+  const std::size_t channels = image.channels.size(), count = image.pixels.size() / channels;
+  std::vector<std::uint8_t> bytes(count * 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* p = image.pixels.data() + i * channels;
+    bytes[3 * i] = encode(p[r]), bytes[3 * i + 1] = encode(p[g]), bytes[3 * i + 2] = encode(p[b]);
+  }
+  return bytes;
+}
+
+void writePicture(const std::filesystem::path& path, const image::Image& image, double exposureEv) {
+  const std::string extension = path.extension().string();
+  if (extension == ".exr") image::writeExr(path, image);
+  else if (extension == ".png") image::writePng(path, image.width, image.height, 3, toneMapped(image, exposureEv));
+  else throw Error(path.string(), "unknown kind of picture", ".exr or .png", extension.empty() ? "no extension" : extension);
+}
+
+}  // namespace malus::render

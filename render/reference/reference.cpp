@@ -1,0 +1,285 @@
+#include "render/reference/reference.h"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "render/embree/embree.h"
+#include "render/scene/float_scene.h"
+#include "shaders/optics/optics.h"
+
+namespace malus::reference {
+
+namespace {
+
+using glm::dmat4;
+using glm::dvec3;
+using glm::dvec4;
+using pack::MaterialKind;
+
+// Stokes vector (S0, S1, S2, S3) of each colour, in the frame of the light it belongs to.
+using Light = std::array<dvec4, 3>;
+using Mueller = std::array<dmat4, 3>;
+
+Light unpolarized(const dvec3& radiance) {
+  return {dvec4(radiance.x, 0, 0, 0), dvec4(radiance.y, 0, 0, 0), dvec4(radiance.z, 0, 0, 0)};
+}
+Light operator+(const Light& a, const Light& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Light operator*(const Mueller& m, const Light& l) { return {m[0] * l[0], m[1] * l[1], m[2] * l[2]}; }
+
+// Rows as one writes them; glm's constructor takes columns.
+dmat4 rows(const std::array<double, 16>& r) {
+  return glm::transpose(dmat4(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9], r[10], r[11], r[12], r[13], r[14], r[15]));
+}
+
+// [[A, B, 0, 0], [B, A, 0, 0], [0, 0, Re X, -Im X], [0, 0, Im X, Re X]]
+dmat4 interfaceMatrix(double s, double p, double xRe, double xIm) {
+  const double a = (s + p) / 2, b = (s - p) / 2;
+  return rows({a, b, 0, 0, b, a, 0, 0, 0, 0, xRe, -xIm, 0, 0, xIm, xRe});
+}
+
+// A frame turned by f: (S1, S2) -> [[cos 2f, sin 2f], [-sin 2f, cos 2f]] (S1, S2).
+dmat4 turnMatrix(double cos2, double sin2) { return rows({1, 0, 0, 0, 0, cos2, sin2, 0, 0, -sin2, cos2, 0, 0, 0, 0, 1}); }
+
+// From the canonical frame of a ray in direction d to the frame whose x is the s direction of normal n.
+dmat4 toSurface(const dvec3& d, const dvec3& n) {
+  dvec3 x, y;
+  double cos2, sin2;
+  f64::canonicalFrame(-d, x, y);
+  f64::sDirectionTurn(n, x, y, cos2, sin2);
+  return turnMatrix(cos2, sin2);
+}
+Light turned(const dmat4& turn, const Light& l) { return {turn * l[0], turn * l[1], turn * l[2]}; }
+
+struct Interface {
+  Mueller reflection;
+  Mueller transmission;  // T_s, T_p = 1 - R: of metals only their diffuse light's weight
+  dvec3 meanTransmittance;
+};
+
+Interface interfaceOf(const pack::Material& m, double c, double n1, double n2) {
+  Interface result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int colour = static_cast<int>(i);
+    const bool metal = m.kind == MaterialKind::metal;
+    const f64::Reflectance r = metal ? f64::conductorReflectance(c, n1, m.eta[colour], m.k[colour]) : f64::dielectricReflectance(c, n1, n2);
+    const double cross = metal ? 0 : f64::dielectricTransmittance(c, n1, n2).x;
+    result.reflection[i] = interfaceMatrix(r.rs, r.rp, r.xRe, r.xIm);
+    result.transmission[i] = interfaceMatrix(1 - r.rs, 1 - r.rp, cross, 0);
+    result.meanTransmittance[colour] = 1 - (r.rs + r.rp) / 2;
+  }
+  return result;
+}
+
+struct Tracer {
+  const pack::Scene& scene;
+  const embree::Bvh& bvh;
+  std::vector<dvec3> fillTransmittance;  // per material
+  std::uint64_t rays = 0;
+
+  // A hit whose point was found again in double on the triangle that Embree names.
+  struct Hit {
+    dvec3 d, position, error, face, normal;
+    double c;
+    bool outside;
+    const pack::Material* material;
+    std::size_t materialIndex;
+  };
+
+  bool intersect(const dvec3& origin, const dvec3& queryOrigin, const dvec3& d, Hit& hit) {
+    ++rays;
+    const embree::Intersection at = bvh.nearest(glm::vec3(queryOrigin), glm::vec3(d));
+    if (at.mesh == embree::Intersection::kMiss) return false;
+    const pack::Mesh& mesh = scene.meshes[at.mesh];
+    const glm::uvec3 t = mesh.triangles[at.triangle];
+    const dvec3 p0(mesh.positions[t.x]), p1(mesh.positions[t.y]), p2(mesh.positions[t.z]);
+    const dvec3 across = glm::cross(p1 - p0, p2 - p0);
+    const double area2 = glm::length(across);
+    hit.d = d;
+    hit.materialIndex = mesh.material;
+    hit.material = &scene.materials[mesh.material];
+    hit.face = area2 > 0 ? across / area2 : -d;
+
+    // The ray meets the plane at distance s; barycentric coordinates from signed areas there.
+    double b1 = at.b1, b2 = at.b2;
+    const double slope = glm::dot(d, hit.face);
+    if (area2 > 0 && slope != 0) {
+      const dvec3 q = origin + d * (glm::dot(p0 - origin, hit.face) / slope);
+      const double u = glm::dot(glm::cross(p0 - p2, q - p2), hit.face) / area2;
+      const double v = glm::dot(glm::cross(p1 - p0, q - p0), hit.face) / area2;
+      // At a grazing plane the float hit is the better one.
+      if (std::abs(u - b1) < 1e-2 && std::abs(v - b2) < 1e-2) b1 = u, b2 = v;
+    }
+    const double b0 = 1 - b1 - b2;
+    hit.position = p0 * b0 + p1 * b1 + p2 * b2;
+    hit.error = f64::hitPointError(p0, p1, p2, b0, b1, b2, 0x1p-24);  // the next query is made in float
+    hit.outside = glm::dot(d, hit.face) < 0;
+    const dvec3 interpolated = mesh.normals.empty() ? hit.face
+                                                    : dvec3(mesh.normals[t.x]) * b0 + dvec3(mesh.normals[t.y]) * b1 + dvec3(mesh.normals[t.z]) * b2;
+    hit.normal = f64::shadingNormal(d, hit.face, glm::length(interpolated) > 0 ? interpolated : hit.face);
+    if (!hit.outside) hit.face = -hit.face;
+    hit.c = f64::clampUnit(-glm::dot(d, hit.normal));
+    return true;
+  }
+
+  dvec3 queryAbove(const Hit& h) const { return f64::rayOrigin(h.position, h.error, h.face, 0x1p-24); }
+  dvec3 queryBelow(const Hit& h) const { return f64::rayOrigin(h.position, h.error, -h.face, 0x1p-24); }
+
+  dvec3 environment(const dvec3& d) const {
+    const pack::Environment& e = scene.environment;
+    if (e.size == 0) return e.radiance;
+    double u, v;
+    f64::octahedralFromDirection(d, u, v);
+    const double x = u * e.size + 0.5, y = v * e.size + 0.5;
+    const auto ix = std::min(static_cast<std::size_t>(x), std::size_t{e.size}), iy = std::min(static_cast<std::size_t>(y), std::size_t{e.size});
+    const double fx = x - static_cast<double>(ix), fy = y - static_cast<double>(iy);
+    const std::size_t row = e.size + 2, at = iy * row + ix;
+    const auto texel = [&](std::size_t i) { return dvec3(e.texels[i]); };
+    return (texel(at) * (1 - fx) + texel(at + 1) * fx) * (1 - fy) + (texel(at + row) * (1 - fx) + texel(at + row + 1) * fx) * fy;
+  }
+
+  dvec3 fillIrradiance(const dvec3& n) const {
+    dvec3 result;
+    const auto& c = scene.environment.irradiance;
+    for (int i = 0; i < 3; ++i)
+      result[i] = f64::irradiancePolynomial(n, c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i], c[6][i], c[7][i], c[8][i]);
+    return result;
+  }
+
+  // Diffuse radiance below the interface, and highlight radiance along the mirror direction.
+  void directLight(const Hit& h, std::uint32_t depth, const dvec3& mirror, dvec3& diffuse, dvec3& highlight) {
+    const pack::Material& m = *h.material;
+    diffuse = highlight = dvec3(0);
+    const bool isDiffuse = m.albedo.x > 0 || m.albedo.y > 0 || m.albedo.z > 0, isGlossy = m.highlightStrength > 0 && depth > 0;
+    if (!isDiffuse && !isGlossy) return;
+    for (const pack::PointLight& light : scene.lights) {
+      const dvec3 toLight = light.position - h.position;
+      const double distance = glm::length(toLight);
+      const dvec3 l = toLight / distance;
+      const double c = glm::dot(h.normal, l);
+      if (c <= 0 || glm::dot(h.face, l) <= 0) continue;
+      const double lobe = isGlossy ? m.highlightStrength * f64::phongLobe(mirror, l, static_cast<int>(m.highlightExponent)) : 0;
+      if (!isDiffuse && lobe <= 0) continue;
+      ++rays;
+      if (!bvh.visible(glm::vec3(queryAbove(h)), glm::vec3(l), static_cast<float>(distance))) continue;
+      const dvec3 arriving = light.intensity / (distance * distance);
+      const dvec3 entering = m.kind == MaterialKind::lambert ? dvec3(1) : interfaceOf(m, std::min(c, 1.0), m.outsideEta, m.eta.y).meanTransmittance;
+      if (isDiffuse) diffuse += f64::lambertRadiance(m.albedo, arriving * c, entering);
+      highlight += arriving * lobe;
+    }
+    if (isDiffuse && scene.environment.diffuseFill > 0)
+      diffuse += f64::lambertRadiance(m.albedo, fillIrradiance(h.normal) * scene.environment.diffuseFill, fillTransmittance[h.materialIndex]);
+    const double basic = 1 / (m.outsideEta * m.outsideEta);
+    diffuse *= basic;
+    highlight *= basic;
+  }
+
+  // Light that comes back along a ray, in the ray's canonical frame, as basic radiance.
+  Light trace(const dvec3& origin, const dvec3& queryOrigin, const dvec3& d, std::uint32_t depth) {
+    Hit h;
+    if (!intersect(origin, queryOrigin, d, h)) return unpolarized(environment(d));
+    const pack::Material& m = *h.material;
+
+    // Surfaces without an interface.
+    if (m.kind == MaterialKind::emitter) return unpolarized(h.outside ? m.radiance / (m.outsideEta * m.outsideEta) : dvec3(0));
+    dvec3 diffuse, highlight;
+    if (m.kind == MaterialKind::lambert) {
+      directLight(h, depth, h.normal, diffuse, highlight);
+      return unpolarized(diffuse);
+    }
+
+    // Interfaces: from the index on this side to the one beyond.
+    const bool glass = m.kind == MaterialKind::glass;
+    if (glass && depth == 0) return unpolarized(dvec3(0));
+    const double n1 = !glass || h.outside ? m.outsideEta : m.eta.y, n2 = !glass || h.outside ? m.eta.y : m.outsideEta;
+    dvec3 through(0);
+    if (glass) {
+      through = f64::refractedDirection(d, h.normal, h.c, n1, n2);
+      if (glm::dot(through, h.face) >= 0) {
+        h.normal = h.face;
+        h.c = f64::clampUnit(-glm::dot(d, h.face));
+        through = f64::refractedDirection(d, h.normal, h.c, n1, n2);
+      }
+    }
+    const Interface interface = interfaceOf(m, h.c, n1, n2);
+    const dvec3 mirror = f64::mirrorDirection(d, h.normal, h.c);
+    directLight(h, depth, mirror, diffuse, highlight);
+
+    // What leaves in the surface's frame: diffuse light through the interface, the mirror ray reflected, the
+    // refracted ray transmitted; then back to the ray's own frame.
+    Light toEye = glass ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
+    if (depth > 0) {
+      const Light arriving = turned(toSurface(mirror, h.normal), trace(h.position, queryAbove(h), mirror, depth - 1));
+      toEye = toEye + interface.reflection * (arriving + unpolarized(highlight));
+      if (glass && !f64::refractionTerms(h.c, n1, n2).total) {
+        const Light below = turned(toSurface(through, h.normal), trace(h.position, queryBelow(h), through, depth - 1));
+        toEye = toEye + interface.transmission * below;
+      }
+    }
+    return turned(glm::transpose(toSurface(d, h.normal)), toEye);
+  }
+};
+
+}  // namespace
+
+render::Picture render(const pack::Scene& scene, const render::View& view, unsigned threads) {
+  const auto start = std::chrono::steady_clock::now();
+  const render::FloatScene floats = render::floatScene(scene);
+  const embree::Bvh bvh(floats, threads);
+  std::vector<dvec3> fill;
+  for (const pack::Material& m : scene.materials) fill.push_back(render::hemisphereTransmittance(m));
+  const auto built = std::chrono::steady_clock::now();
+
+  render::Picture picture;
+  picture.width = view.region.width;
+  picture.height = view.region.height;
+  picture.channels = render::kStokesChannels;
+  picture.pixels.resize(picture.channels * picture.width * picture.height);
+  picture.device = fmt::format("double precision on {}", embree::Bvh::version());
+  const pack::Camera& camera = scene.camera;
+  const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi), tanX = tanY * view.width / view.height;
+  const double toRadiance = camera.mediumEta * camera.mediumEta;
+  std::atomic<std::uint64_t> rays{0};
+
+  const auto row = [&](std::uint32_t y) {
+    Tracer tracer{scene, bvh, fill};
+    for (std::uint32_t x = 0; x < view.region.width; ++x) {
+      Light sum = unpolarized(dvec3(0));
+      for (std::uint32_t j = 0; j < view.samples; ++j)
+        for (std::uint32_t i = 0; i < view.samples; ++i) {
+          const double px = (view.region.x + x + (i + 0.5) / view.samples) / view.width;
+          const double py = (view.region.y + y + (j + 0.5) / view.samples) / view.height;
+          const dvec3 d = f64::cameraDirection(camera.right, camera.up, camera.forward, tanX, tanY, px, py);
+          // The camera's frame of this ray: x across d and up, the s direction of a surface with normal up.
+          sum = sum + turned(toSurface(d, camera.up), tracer.trace(camera.position, camera.position, d, view.depth));
+        }
+      float* out = picture.pixels.data() + (std::size_t{y} * view.region.width + x) * picture.channels;
+      const double scale = toRadiance / (static_cast<double>(view.samples) * view.samples);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const dvec4 s = sum[c] * scale;
+        out[c] = static_cast<float>(s[0] * view.analyser[0] + s[1] * view.analyser[1] + s[2] * view.analyser[2] + s[3] * view.analyser[3]);
+        for (std::size_t k = 0; k < 4; ++k) out[3 + 3 * k + c] = static_cast<float>(s[static_cast<int>(k)]);
+      }
+    }
+    rays += tracer.rays;
+  };
+  const auto traceAll = [&] { tbb::parallel_for(std::uint32_t{0}, view.region.height, row); };
+  if (threads == 0) traceAll();
+  else tbb::task_arena(static_cast<int>(threads)).execute(traceAll);
+
+  const auto ms = [](auto from, auto to) { return std::chrono::duration<double, std::milli>(to - from).count(); };
+  picture.cost.buildMs = ms(start, built);
+  picture.cost.traceMs = picture.cost.wallMs = ms(built, std::chrono::steady_clock::now());
+  picture.cost.rays = rays;
+  return picture;
+}
+
+}  // namespace malus::reference

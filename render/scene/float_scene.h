@@ -1,0 +1,35 @@
+// A scene in the float structs that both renderers draw from (shaders/gpu/scene.h), in one place: so that
+// Embree and Vulkan see the same numbers.
+#pragma once
+
+#include <vector>
+
+#include "bake/pack/scene.h"
+#include "render/scene/view.h"
+#include "shaders/gpu/scene.h"
+
+namespace malus::render {
+
+struct FloatScene {
+  std::vector<gpu::Material> materials;
+  std::vector<gpu::PointLight> lights;
+  std::vector<gpu::Mesh> meshes;
+  std::vector<std::uint32_t> meshTriangles;  // triangles of each mesh
+  std::vector<std::uint32_t> meshVertices;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;  // one a position; of flat meshes (0, 0, 0)
+  std::vector<glm::uvec3> triangles;  // indices within their mesh
+  std::vector<glm::vec3> environmentTexels;  // with their border; one texel where there is no map
+};
+
+FloatScene floatScene(const pack::Scene& scene);
+gpu::Frame frameOf(const pack::Scene& scene, const View& view);
+
+// Mean transmittance of a dielectric interface, or 1 - R of a metal, for light from all directions of a
+// hemisphere (cosine weighted), per colour.
+glm::dvec3 hemisphereTransmittance(const pack::Material& material);
+
+// Kind of surface, hence hit group, of a material.
+gpu::SurfaceKind surfaceKind(pack::MaterialKind kind);
+
+}  // namespace malus::render

@@ -1,0 +1,132 @@
+#include "render/vulkan/pipeline.h"
+
+#include <cstring>
+
+#include "render/vulkan/check.h"
+#include "render/vulkan/shader_cache.h"
+
+namespace malus::vulkan {
+
+namespace {
+
+VkShaderStageFlagBits flagOf(Stage stage) {
+  switch (stage) {
+    case Stage::raygen: return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
+    case Stage::miss: return VK_SHADER_STAGE_MISS_BIT_KHR;
+    case Stage::closestHit: return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
+    case Stage::compute: return VK_SHADER_STAGE_COMPUTE_BIT;
+  }
+  return VK_SHADER_STAGE_COMPUTE_BIT;
+}
+
+// Modules live until the pipeline is made.
+struct Modules {
+  const Device& device;
+  std::vector<VkShaderModule> list;
+  ~Modules() {
+    for (VkShaderModule m : list) vkDestroyShaderModule(device.get(), m, nullptr);
+  }
+};
+
+constexpr std::uint32_t kFirstHitGroup = 3;  // after ray generation and two misses
+
+VkDeviceSize alignedTo(VkDeviceSize value, VkDeviceSize alignment) { return (value + alignment - 1) / alignment * alignment; }
+
+}  // namespace
+
+Pipeline::Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene, VkDescriptorSetLayout bindings, std::uint32_t recursion)
+    : device_(device) {
+  Modules modules{device, {}};
+  std::vector<VkPipelineShaderStageCreateInfo> stages;
+  std::vector<VkRayTracingShaderGroupCreateInfoKHR> groups;
+  for (const StageSource& source : stageSources()) {
+    const std::vector<std::uint32_t> spirv = cachedSpirv(variant, source);
+    VkShaderModuleCreateInfo module{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    module.codeSize = spirv.size() * sizeof(std::uint32_t);
+    module.pCode = spirv.data();
+    modules.list.push_back(VK_NULL_HANDLE);
+    check(vkCreateShaderModule(device.get(), &module, nullptr, &modules.list.back()), "vkCreateShaderModule");
+    VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+    stage.stage = flagOf(source.stage);
+    stage.module = modules.list.back();
+    stage.pName = "main";
+    VkRayTracingShaderGroupCreateInfoKHR group{VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
+    group.generalShader = group.closestHitShader = group.anyHitShader = group.intersectionShader = VK_SHADER_UNUSED_KHR;
+    const auto index = static_cast<std::uint32_t>(stages.size());
+    if (source.stage == Stage::closestHit) {
+      group.type = VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
+      group.closestHitShader = index;
+    } else {
+      group.type = VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
+      group.generalShader = index;
+    }
+    stages.push_back(stage);
+    groups.push_back(group);
+  }
+
+  VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+  layout.setLayoutCount = 1;
+  layout.pSetLayouts = &bindings;
+  check(vkCreatePipelineLayout(device.get(), &layout, nullptr, &layout_), "vkCreatePipelineLayout");
+  VkRayTracingPipelineCreateInfoKHR info{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
+  info.stageCount = static_cast<std::uint32_t>(stages.size());
+  info.pStages = stages.data();
+  info.groupCount = static_cast<std::uint32_t>(groups.size());
+  info.pGroups = groups.data();
+  info.maxPipelineRayRecursionDepth = recursion;
+  info.layout = layout_;
+  try {
+    check(device.createRayTracingPipelines(device.get(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_), "vkCreateRayTracingPipelinesKHR");
+    createTable(scene);
+  } catch (...) {
+    if (pipeline_) vkDestroyPipeline(device.get(), pipeline_, nullptr);
+    vkDestroyPipelineLayout(device.get(), layout_, nullptr);
+    throw;
+  }
+}
+
+Pipeline::~Pipeline() {
+  if (pipeline_) vkDestroyPipeline(device_.get(), pipeline_, nullptr);
+  if (layout_) vkDestroyPipelineLayout(device_.get(), layout_, nullptr);
+}
+
+void Pipeline::createTable(const render::FloatScene& scene) {
+  const auto& limits = device_.rayTracing();
+  const auto groupCount = static_cast<std::uint32_t>(stageSources().size());
+  const std::size_t handleBytes = limits.shaderGroupHandleSize;
+  std::vector<std::byte> handles(handleBytes * groupCount);
+  check(device_.getRayTracingShaderGroupHandles(device_.get(), pipeline_, 0, groupCount, handles.size(), handles.data()), "vkGetRayTracingShaderGroupHandlesKHR");
+
+  // Ray generation, two misses, one hit record a mesh.
+  const VkDeviceSize stride = alignedTo(handleBytes, limits.shaderGroupHandleAlignment), base = limits.shaderGroupBaseAlignment;
+  const VkDeviceSize missAt = alignedTo(stride, base), hitAt = missAt + alignedTo(2 * stride, base);
+  std::vector<std::byte> records(hitAt + stride * scene.meshes.size());
+  const auto put = [&](VkDeviceSize at, std::uint32_t group) { std::memcpy(records.data() + at, handles.data() + group * handleBytes, handleBytes); };
+  put(0, 0);
+  put(missAt, 1);
+  put(missAt + stride, 2);
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) put(hitAt + stride * i, kFirstHitGroup + scene.materials[scene.meshes[i].material].kind);
+
+  // The table's start must be aligned; a little room makes it so on every driver.
+  std::vector<std::byte> padded(records.size() + base);
+  Buffer probe(device_, padded.size(), VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+               VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  const VkDeviceAddress start = alignedTo(probe.address(), base);
+  std::memcpy(padded.data() + (start - probe.address()), records.data(), records.size());
+  Buffer staging(device_, padded.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  staging.write(padded);
+  device_.submit([&](VkCommandBuffer commands) {
+    const VkBufferCopy copy{0, 0, padded.size()};
+    vkCmdCopyBuffer(commands, staging.get(), probe.get(), 1, &copy);
+  });
+  table_ = std::move(probe);
+  raygen_ = {start, stride, stride};
+  miss_ = {start + missAt, stride, 2 * stride};
+  hit_ = {start + hitAt, stride, stride * scene.meshes.size()};
+}
+
+void Pipeline::trace(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) const {
+  device_.cmdTraceRays(commands, &raygen_, &miss_, &hit_, &callable_, width, height, 1);
+}
+
+}  // namespace malus::vulkan

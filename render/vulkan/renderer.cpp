@@ -1,0 +1,279 @@
+#include "render/vulkan/renderer.h"
+
+#include <chrono>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+#include "render/scene/float_scene.h"
+#include "render/scene/methods.h"
+#include "render/vulkan/acceleration.h"
+#include "render/vulkan/check.h"
+#include "render/vulkan/pipeline.h"
+
+namespace malus::vulkan {
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+double sinceMs(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+template <typename T>
+std::span<const std::byte> bytesOf(const std::vector<T>& values) {
+  return std::as_bytes(std::span(values));
+}
+
+// The bindings of shaders/stages/bindings.glsl.
+enum Binding : std::uint32_t { kTlas, kPixels, kFrame, kMaterials, kLights, kMeshes, kTriangles, kPositions, kNormals, kTexels, kCounter, kBindings };
+
+constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+constexpr VkBufferUsageFlags kBuildInput =
+    kStorage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+// Descriptor set with one entry a binding, and its layout and pool.
+class Bindings {
+ public:
+  explicit Bindings(const Device& device) : device_(device) {
+    std::vector<VkDescriptorSetLayoutBinding> list;
+    for (std::uint32_t i = 0; i < kBindings; ++i)
+      list.push_back({i, i == kTlas ? VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
+                      VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR, nullptr});
+    VkDescriptorSetLayoutCreateInfo layout{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    layout.bindingCount = kBindings;
+    layout.pBindings = list.data();
+    check(vkCreateDescriptorSetLayout(device.get(), &layout, nullptr, &layout_), "vkCreateDescriptorSetLayout");
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBindings - 1}};
+    VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    pool.maxSets = 1;
+    pool.poolSizeCount = 2;
+    pool.pPoolSizes = sizes;
+    check(vkCreateDescriptorPool(device.get(), &pool, nullptr, &pool_), "vkCreateDescriptorPool");
+    VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    allocate.descriptorPool = pool_;
+    allocate.descriptorSetCount = 1;
+    allocate.pSetLayouts = &layout_;
+    check(vkAllocateDescriptorSets(device.get(), &allocate, &set_), "vkAllocateDescriptorSets");
+  }
+  ~Bindings() {
+    if (pool_) vkDestroyDescriptorPool(device_.get(), pool_, nullptr);
+    if (layout_) vkDestroyDescriptorSetLayout(device_.get(), layout_, nullptr);
+  }
+  Bindings(const Bindings&) = delete;
+  Bindings& operator=(const Bindings&) = delete;
+
+  VkDescriptorSetLayout layout() const { return layout_; }
+  const VkDescriptorSet& set() const { return set_; }
+
+  void bind(Binding binding, const Buffer& buffer) {
+    const VkDescriptorBufferInfo info{buffer.get(), 0, VK_WHOLE_SIZE};
+    VkWriteDescriptorSet write = writeOf(binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    write.pBufferInfo = &info;
+    vkUpdateDescriptorSets(device_.get(), 1, &write, 0, nullptr);
+  }
+  void bind(VkAccelerationStructureKHR top) {
+    VkWriteDescriptorSetAccelerationStructureKHR info{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
+    info.accelerationStructureCount = 1;
+    info.pAccelerationStructures = &top;
+    VkWriteDescriptorSet write = writeOf(kTlas, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
+    write.pNext = &info;
+    vkUpdateDescriptorSets(device_.get(), 1, &write, 0, nullptr);
+  }
+
+ private:
+  VkWriteDescriptorSet writeOf(Binding binding, VkDescriptorType type) const {
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = set_;
+    write.dstBinding = binding;
+    write.descriptorCount = 1;
+    write.descriptorType = type;
+    return write;
+  }
+  const Device& device_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+// Two timestamps around the trace.
+class Timestamps {
+ public:
+  explicit Timestamps(const Device& device) : device_(device) {
+    if (device.timestampPeriodNs() == 0) return;
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = 2;
+    check(vkCreateQueryPool(device.get(), &info, nullptr, &pool_), "vkCreateQueryPool");
+  }
+  ~Timestamps() {
+    if (pool_) vkDestroyQueryPool(device_.get(), pool_, nullptr);
+  }
+  Timestamps(const Timestamps&) = delete;
+  Timestamps& operator=(const Timestamps&) = delete;
+
+  void begin(VkCommandBuffer commands) const {
+    if (!pool_) return;
+    vkCmdResetQueryPool(commands, pool_, 0, 2);
+    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, pool_, 0);
+  }
+  void end(VkCommandBuffer commands) const {
+    if (pool_) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR, pool_, 1);
+  }
+  std::optional<double> elapsedMs() const {
+    if (!pool_) return std::nullopt;
+    std::uint64_t ticks[2] = {};
+    check(vkGetQueryPoolResults(device_.get(), pool_, 0, 2, sizeof ticks, ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT), "vkGetQueryPoolResults");
+    return static_cast<double>(ticks[1] - ticks[0]) * device_.timestampPeriodNs() * 1e-6;
+  }
+
+ private:
+  const Device& device_;
+  VkQueryPool pool_ = VK_NULL_HANDLE;
+};
+
+}  // namespace
+
+struct Renderer::Impl {
+  Impl(const pack::Scene& source, const Options& options)
+      : instance(options.threads),
+        device(instance, options.device),
+        scene(source),
+        floats(render::floatScene(source)),
+        materials(uploaded(device, bytesOf(floats.materials), kStorage)),
+        lights(uploaded(device, bytesOf(floats.lights), kStorage)),
+        meshes(uploaded(device, bytesOf(floats.meshes), kStorage)),
+        triangles(uploaded(device, bytesOf(floats.triangles), kBuildInput)),
+        positions(uploaded(device, bytesOf(floats.positions), kBuildInput)),
+        normals(uploaded(device, bytesOf(floats.normals), kStorage)),
+        texels(uploaded(device, bytesOf(floats.environmentTexels), kStorage)),
+        frame(device, sizeof(gpu::Frame), kStorage, kHost),
+        counter(device, sizeof(std::uint32_t), kStorage, kHost),
+        acceleration(device, floats, positions, triangles),
+        bindings(device),
+        timestamps(device) {
+    bindings.bind(acceleration.top());
+    bindings.bind(kFrame, frame);
+    bindings.bind(kMaterials, materials);
+    bindings.bind(kLights, lights);
+    bindings.bind(kMeshes, meshes);
+    bindings.bind(kTriangles, triangles);
+    bindings.bind(kPositions, positions);
+    bindings.bind(kNormals, normals);
+    bindings.bind(kTexels, texels);
+    bindings.bind(kCounter, counter);
+  }
+
+  const Pipeline& pipelineFor(const Variant& variant, std::uint32_t recursion);
+  render::Picture trace(const Variant& variant, const render::View& view);
+
+  Instance instance;
+  Device device;
+  const pack::Scene& scene;
+  render::FloatScene floats;
+  Buffer materials, lights, meshes, triangles, positions, normals, texels, frame, counter, pixels, readBack;
+  Acceleration acceleration;
+  Bindings bindings;
+  Timestamps timestamps;
+  std::map<std::pair<Variant, std::uint32_t>, std::unique_ptr<Pipeline>> pipelines;
+  double buildMs = 0;
+};
+
+Renderer::Renderer(const pack::Scene& scene, const Options& options) {
+  const auto start = Clock::now();
+  impl_ = std::make_unique<Impl>(scene, options);
+  impl_->buildMs = sinceMs(start);
+}
+
+Renderer::~Renderer() = default;
+
+std::string Renderer::device() const { return fmt::format("{}, {}", impl_->device.physical().name, impl_->device.physical().driver); }
+
+std::uint32_t Renderer::maxDepth() const {
+  const std::uint32_t limit = impl_->device.rayTracing().maxRayRecursionDepth;
+  return limit < 2 ? 0 : limit - 2;  // the camera ray, and a shadow ray from the last hit
+}
+
+const Pipeline& Renderer::Impl::pipelineFor(const Variant& variant, std::uint32_t recursion) {
+  std::unique_ptr<Pipeline>& pipeline = pipelines[{variant, recursion}];
+  if (!pipeline) pipeline = std::make_unique<Pipeline>(device, variant, floats, bindings.layout(), recursion);
+  return *pipeline;
+}
+
+render::Picture Renderer::Impl::trace(const Variant& variant, const render::View& view) {
+  const auto preparing = Clock::now();
+  const Pipeline& pipeline = pipelineFor(variant, view.depth + 2);
+  render::Picture picture;
+  picture.width = view.region.width;
+  picture.height = view.region.height;
+  picture.channels = render::methodNamed(variant.method).hasStokes ? render::kStokesChannels : render::kColourChannels;
+  picture.pixels.resize(picture.channels * picture.width * picture.height);
+  const VkDeviceSize bytes = picture.pixels.size() * sizeof(float);
+  if (pixels.sizeBytes() < bytes) {
+    pixels = Buffer(device, bytes, kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    readBack = Buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, kHost);
+    bindings.bind(kPixels, pixels);
+  }
+  gpu::Frame constants = render::frameOf(scene, view);
+  const std::uint32_t zero = 0;
+  counter.write(std::as_bytes(std::span(&zero, 1)));
+
+  const auto dispatch = [&](const gpu::Frame& f) {
+    frame.write(std::as_bytes(std::span(&f, 1)));
+    device.submit([&](VkCommandBuffer commands) {
+      vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.get());
+      vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.layout(), 0, 1, &bindings.set(), 0, nullptr);
+      timestamps.begin(commands);
+      pipeline.trace(commands, f.regionWidth, f.regionHeight);
+      timestamps.end(commands);
+      const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_HOST_READ_BIT};
+      vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+      const VkBufferCopy copy{0, 0, std::size_t{f.regionWidth} * f.regionHeight * picture.channels * sizeof(float)};
+      vkCmdCopyBuffer(commands, pixels.get(), readBack.get(), 1, &copy);
+    });
+  };
+
+  // Drivers finish compiling at the first trace: one pixel warms them up, outside of the time.
+  if (!variant.countRays) {
+    gpu::Frame one = constants;
+    one.regionWidth = one.regionHeight = 1;
+    dispatch(one);
+  }
+  picture.cost.buildMs = buildMs + sinceMs(preparing);
+
+  const auto start = Clock::now();
+  dispatch(constants);
+  const double wallMs = sinceMs(start);
+  readBack.read(std::as_writable_bytes(std::span(picture.pixels)));
+  picture.cost.wallMs = sinceMs(start);
+  picture.cost.traceMs = timestamps.elapsedMs().value_or(wallMs);
+  std::uint32_t rays = 0;
+  counter.read(std::as_writable_bytes(std::span(&rays, 1)));
+  picture.cost.rays = rays;
+  instance.requireNoMessages();
+  return picture;
+}
+
+render::Picture Renderer::render(std::string_view method, const render::View& view) {
+  if (view.depth > maxDepth())
+    throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name), fmt::format("at most {}", maxDepth()), fmt::format("{}", view.depth));
+  render::Picture picture = impl_->trace(variantFor(impl_->scene, method), view);
+  picture.device = device();
+  return picture;
+}
+
+std::uint64_t Renderer::countRays(std::string_view method, const render::View& view) {
+  Variant variant = variantFor(impl_->scene, method);
+  variant.countRays = true;
+  return impl_->trace(variant, view).cost.rays;
+}
+
+std::vector<DeviceDescription> devices() {
+  const Instance instance(0);
+  std::vector<DeviceDescription> result;
+  for (const PhysicalDevice& d : describeDevices(instance)) result.push_back({d.name, d.driver, d.problem});
+  return result;
+}
+
+}  // namespace malus::vulkan

@@ -1,0 +1,88 @@
+#include "render/vulkan/shader_cache.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+#include <xxhash.h>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/base/error.h"
+#include "render/vulkan/glsl_compiler.h"
+
+namespace malus::vulkan {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint32_t kSpirvMagic = 0x07230203;
+
+fs::path cacheFolder() {
+  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return fs::path(folder) / "malus" / "spirv";
+  if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "malus" / "spirv";
+  return {};
+}
+
+// The text with every include put in its place: what the key has to cover.
+void expand(const Variant& variant, std::string_view text, std::set<std::string>& seen, std::string& out) {
+  out += text;
+  for (std::size_t at = text.find("#include \""); at != std::string_view::npos; at = text.find("#include \"", at + 1)) {
+    const std::size_t begin = at + 10, end = text.find('"', begin);
+    const std::string path(text.substr(begin, end - begin));
+    if (seen.insert(path).second) expand(variant, includedSource(variant, path), seen, out);
+  }
+}
+
+std::string keyOf(const Variant& variant, const StageSource& source) {
+  std::string all = glslangVersion() + preamble(variant);
+  std::set<std::string> seen;
+  expand(variant, stageText(source), seen, all);
+  const XXH128_hash_t hash = XXH3_128bits(all.data(), all.size());
+  return fmt::format("{:016x}{:016x}.spv", hash.high64, hash.low64);
+}
+
+// A file ends with the hash of what comes before, so that a damaged one is compiled anew.
+std::vector<std::uint32_t> load(const fs::path& path) {
+  try {
+    const std::vector<std::byte> bytes = readFile(path, std::size_t{1} << 26);
+    if (bytes.size() < 28 || bytes.size() % 4 != 0) return {};
+    std::uint64_t stored = 0;
+    std::memcpy(&stored, bytes.data() + bytes.size() - 8, 8);
+    if (stored != XXH3_64bits(bytes.data(), bytes.size() - 8)) return {};
+    std::vector<std::uint32_t> words((bytes.size() - 8) / 4);
+    std::memcpy(words.data(), bytes.data(), words.size() * 4);
+    return words.front() == kSpirvMagic ? words : std::vector<std::uint32_t>{};
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+void save(const fs::path& path, const std::vector<std::uint32_t>& words) {
+  try {
+    fs::create_directories(path.parent_path());
+    std::vector<std::byte> bytes(words.size() * 4 + 8);
+    std::memcpy(bytes.data(), words.data(), words.size() * 4);
+    const std::uint64_t hash = XXH3_64bits(bytes.data(), words.size() * 4);
+    std::memcpy(bytes.data() + words.size() * 4, &hash, 8);
+    writeFile(path, bytes);
+  } catch (const std::exception&) {  // without a cache the next run compiles again
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> cachedSpirv(const Variant& variant, const StageSource& source) {
+  const fs::path folder = cacheFolder();
+  const fs::path file = folder.empty() ? fs::path() : folder / keyOf(variant, source);
+  if (!file.empty())
+    if (std::vector<std::uint32_t> words = load(file); !words.empty()) return words;
+  std::vector<std::uint32_t> words = compileGlsl(stageText(source), preamble(variant), source.stage, source.path,
+                                                 [&](std::string_view path) { return includedSource(variant, path); });
+  if (!file.empty()) save(file, words);
+  return words;
+}
+
+}  // namespace malus::vulkan

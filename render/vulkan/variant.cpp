@@ -1,0 +1,55 @@
+#include "render/vulkan/variant.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "shaders/sources.h"
+
+namespace malus::vulkan {
+
+Variant variantFor(const pack::Scene& scene, std::string_view method) {
+  Variant variant;
+  variant.method = method;
+  variant.pointLights = !scene.lights.empty();
+  variant.fill = scene.environment.diffuseFill > 0;
+  return variant;
+}
+
+std::string preamble(const Variant& variant) {
+  std::string text =
+      "#extension GL_EXT_ray_tracing : require\n"
+      "#extension GL_EXT_scalar_block_layout : require\n"
+      "#extension GL_GOOGLE_include_directive : require\n";
+  text += fmt::format("#define MALUS_METHOD \"{}\"\n", variant.method);
+  if (!variant.pointLights) text += "#define MALUS_NO_POINT_LIGHTS\n";
+  if (!variant.fill) text += "#define MALUS_NO_FILL\n";
+  if (variant.countRays) text += "#define MALUS_COUNT_RAYS\n";
+  return text;
+}
+
+const std::vector<StageSource>& stageSources() {
+  static const std::vector<StageSource> kSources = {
+      {"shaders/stages/raygen.rgen", Stage::raygen},      {"shaders/stages/environment.rmiss", Stage::miss},
+      {"shaders/stages/shadow.rmiss", Stage::miss},       {"shaders/stages/lambert.rchit", Stage::closestHit},
+      {"shaders/stages/paint.rchit", Stage::closestHit},  {"shaders/stages/metal.rchit", Stage::closestHit},
+      {"shaders/stages/glass.rchit", Stage::closestHit},  {"shaders/stages/emitter.rchit", Stage::closestHit},
+  };
+  return kSources;
+}
+
+std::string_view includedSource(const Variant& variant, std::string_view path) {
+  if (path != "shaders/methods/selected.h") return shaders::source(path);
+  std::string file = variant.method;
+  std::replace(file.begin(), file.end(), '-', '_');
+  return shaders::source(fmt::format("shaders/methods/{}.h", file));
+}
+
+std::string stageText(const StageSource& source) {
+  std::string text = "#version 460\n";
+  for (const char* file : {"shaders/gpu/language.glsl", "shaders/optics/math.h", "shaders/optics/all.h", "shaders/gpu/scene.h", "shaders/methods/selected.h"})
+    text += fmt::format("#include \"{}\"\n", file);
+  return text + fmt::format("#include \"{}\"\n", source.path);
+}
+
+}  // namespace malus::vulkan

@@ -1,0 +1,43 @@
+// A variant of the shaders: the method, and which effects the scene calls for. Named by a set of macros
+// that glslang gets as a preamble; what a macro leaves out costs nothing.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bake/pack/scene.h"
+
+namespace malus::vulkan {
+
+struct Variant {
+  std::string method = "fresnel";
+  bool pointLights = true;
+  bool fill = true;
+  bool countRays = false;
+  auto operator<=>(const Variant&) const = default;
+};
+
+// What the scene calls for.
+Variant variantFor(const pack::Scene& scene, std::string_view method);
+
+// #version, extensions and macros of the variant.
+std::string preamble(const Variant& variant);
+
+enum class Stage { raygen, miss, closestHit, compute };
+
+// One shader of the pipeline: its file, and the stage.
+struct StageSource {
+  std::string_view path;
+  Stage stage;
+};
+// Ray generation, environment miss, shadow miss, then a closest hit for every gpu::SurfaceKind in order.
+const std::vector<StageSource>& stageSources();
+
+// Text of a file by its path, "shaders/methods/selected.h" being the variant's method.
+std::string_view includedSource(const Variant& variant, std::string_view path);
+
+// The whole text of a stage: language, optics, method, then the stage's file, as #include lines.
+std::string stageText(const StageSource& source);
+
+}  // namespace malus::vulkan

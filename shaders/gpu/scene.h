@@ -1,0 +1,87 @@
+// Structs that C++ and GLSL share, laid out by GLSL's scalar rules (a vec3 is 12 bytes, aligned to 4).
+// Everything is relative to the scene's origin, in metres, radiance in W/(m^2 sr) per colour.
+#ifdef __cplusplus
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace malus::gpu {
+using uint = std::uint32_t;
+using vec3 = glm::vec3;
+using vec4 = glm::vec4;
+#define MALUS_SIZE(T, bytes) static_assert(sizeof(T) == (bytes))
+#else
+#define MALUS_SIZE(T, bytes)
+#endif
+
+// Kinds of surface, each with a hit group of its own.
+#ifdef __cplusplus
+enum SurfaceKind : uint { kLambert, kPaint, kMetal, kGlass, kEmitter, kSurfaceKinds };
+#else
+const uint kLambert = 0u;
+const uint kPaint = 1u;
+const uint kMetal = 2u;
+const uint kGlass = 3u;
+const uint kEmitter = 4u;
+#endif
+
+struct Material {
+  vec3 eta;                // real part of the index; dielectrics use eta.y in every colour
+  vec3 k;                  // imaginary part: eta - i k
+  vec3 albedo;             // diffuse reflectance; 0: none
+  vec3 radiance;           // emitted, divided by the square of the index it is emitted into
+  vec3 fillTransmittance;  // mean transmittance of the interface for light from all directions
+  float outsideEta;        // index on the side that the normals point to
+  float basicScale;        // 1 / outsideEta^2: radiance to basic radiance
+  float highlightStrength; // 0: none
+  int highlightExponent;
+  uint kind;               // SurfaceKind
+};
+MALUS_SIZE(Material, 80);
+
+struct PointLight {
+  vec3 position;
+  vec3 intensity;  // W/sr
+};
+MALUS_SIZE(PointLight, 24);
+
+struct Mesh {
+  uint firstTriangle;
+  uint firstVertex;  // of its positions and, where it has them, of its normals
+  uint material;
+  uint hasNormals;  // 0: flat, normals are those of the faces
+};
+MALUS_SIZE(Mesh, 16);
+
+struct Frame {
+  vec3 eye;
+  vec3 right;  // orthonormal camera axes
+  vec3 up;
+  vec3 forward;
+  float tanX;  // tangents of half the field of view
+  float tanY;
+  float basicToRadiance;  // square of the index that the camera stands in
+  vec4 analyser;          // first row of the Mueller matrix in front of the camera
+  uint width;             // of the whole picture
+  uint height;
+  uint regionX;  // the part that is rendered
+  uint regionY;
+  uint regionWidth;
+  uint regionHeight;
+  uint samples;  // rays per pixel and axis
+  int depth;     // most specular interactions
+  int lightCount;
+  int environmentSize;  // texels per side of the octahedral map without its border; 0: constant
+  vec3 environment;     // radiance where environmentSize is 0
+  float fill;           // share of the environment's irradiance on diffuse surfaces
+  vec3 irradiance[9];   // coefficients of irradiancePolynomial, per colour
+};
+MALUS_SIZE(Frame, 240);
+
+#ifdef __cplusplus
+}  // namespace malus::gpu
+#endif
+#undef MALUS_SIZE

@@ -1,0 +1,90 @@
+// Factors of the methods that keep s and p powers apart (the paper's): R_s, R_p for reflection and
+// T_s, T_p = 1 - R_s, 1 - R_p, which for lossless dielectrics are the flux transmittances (0 in total
+// reflection) and for conductors the paper's weight of the diffuse light below.
+
+struct Factors {
+  real3 rs;
+  real3 rp;
+};
+
+FN Factors dielectricFactors(real c, real n1, real n2) {
+  Reflectance r = dielectricReflectance(c, n1, n2);
+  Factors f;
+  f.rs = splat3(r.rs);
+  f.rp = splat3(r.rp);
+  return f;
+}
+FN Factors conductorFactors(real c, real n1, real3 n2, real3 k2) {
+  Reflectance x = conductorReflectance(c, n1, n2.x, k2.x);
+  Reflectance y = conductorReflectance(c, n1, n2.y, k2.y);
+  Reflectance z = conductorReflectance(c, n1, n2.z, k2.z);
+  Factors f;
+  f.rs = make3(x.rs, y.rs, z.rs);
+  f.rp = make3(x.rp, y.rp, z.rp);
+  return f;
+}
+FN real3 meanTransmittance(Factors f) { return splat3(R(1.0)) - (f.rs + f.rp) * R(0.5); }
+
+// Light about to meet, or leaving, a surface: powers along the surface's s and p directions.
+struct Light {
+  real3 s;
+  real3 p;
+};
+
+FN Light lightUnpolarized(real3 radiance) {
+  Light l;
+  l.s = radiance * R(0.5);
+  l.p = l.s;
+  return l;
+}
+FN Light lightAdd(Light a, Light b) {
+  Light l;
+  l.s = a.s + b.s;
+  l.p = a.p + b.p;
+  return l;
+}
+FN Light lightReflect(Factors f, Light l) {
+  Light r;
+  r.s = f.rs * l.s;
+  r.p = f.rp * l.p;
+  return r;
+}
+FN Light lightTransmit(Factors f, Light l) {
+  Light r;
+  r.s = (splat3(R(1.0)) - f.rs) * l.s;
+  r.p = (splat3(R(1.0)) - f.rp) * l.p;
+  return r;
+}
+FN Light lightLeave(Factors f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
+
+// Unit s direction of a surface with normal n, for a ray in direction d; the canonical x where the plane
+// of incidence does not exist.
+FN real3 sDirection(real3 d, real3 n) {
+  real3 x;
+  real3 y;
+  canonicalFrame(d * R(-1.0), x, y);
+  real nx = dot3(n, x);
+  real ny = dot3(n, y);
+  real sum = nx * nx + ny * ny;
+  mask none = equalR(sum, R(0.0));
+  real inverse = R(1.0) / sqrtR(selectR(none, R(1.0), sum));
+  real a = selectR(none, R(1.0), R(0.0) - ny * inverse);
+  real b = selectR(none, R(0.0), nx * inverse);
+  return x * a + y * b;
+}
+
+// Stokes vector, in the canonical frame, of powers along a unit direction s across the ray and across s.
+// s = 0 stands for light without a direction, whose powers are equal.
+FN Stokes stokesOfPowers(real3 s, real3 p, real3 sDir, real3 d) {
+  real3 x;
+  real3 y;
+  canonicalFrame(d * R(-1.0), x, y);
+  real a = dot3(sDir, x);
+  real b = dot3(sDir, y);
+  Stokes k;
+  k.s0 = s + p;
+  k.s1 = (s - p) * ((a - b) * (a + b));
+  k.s2 = (s - p) * (R(2.0) * a * b);
+  k.s3 = splat3(R(0.0));
+  return k;
+}

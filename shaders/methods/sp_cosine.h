@@ -1,0 +1,39 @@
+// Method `sp-cosine`: the paper's 3.1. As `sp`, with the s direction kept as one number: the cosine
+// between s and the canonical x of the ray, s taken modulo sign so that its y is not negative. The sine
+// comes from (1 - c)(1 + c), the best that a cosine near 1 allows: a step of the cosine there turns s by
+// up to 3.5e-4 rad. 28 bytes. A cosine of 2 marks light without a direction.
+
+#include "shaders/methods/powers.h"
+
+CONST int kPayloadBytes = 28;
+CONST int kHasStokes = 0;
+
+struct Payload {
+  real3 s;
+  real3 p;
+  real cosine;
+};
+
+FN real payloadDepth(Payload p) { return p.s.x; }
+FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.s.x = depth; }
+
+#include "shaders/methods/s_cosine.h"
+
+FN Payload payloadSource(real3 radiance) {
+  Payload p;
+  p.s = radiance * R(0.5);
+  p.p = p.s;
+  p.cosine = R(2.0);
+  return p;
+}
+FN Stokes payloadStokes(Payload p, real3 d) { return stokesOfPowers(p.s, p.p, sFromCosine(p.cosine, d), d); }
+
+FN Light lightReceive(Payload p, real3 d, real3 n) { return receivePowers(p.s, p.p, p.cosine, d, n); }
+
+FN Payload payloadSend(Light l, real3 d, real3 n) {
+  Payload p;
+  p.s = l.s;
+  p.p = l.p;
+  p.cosine = cosineFromS(d, n);
+  return p;
+}

@@ -1,0 +1,48 @@
+// Method `sp-ratio`: the paper's 3.2. As `sp-cosine`, with I_p kept as one number for all colours,
+// ratio = sum I_p / sum I_s. Where the sum of I_s is under 1e-20 of
+// that of I_p (0, above all) the powers change places: I_p is kept as if it
+// were I_s, the ratio is 0 and the s direction is the p direction (the cosine that is 90 degrees away),
+// so no light is lost. 20 bytes.
+
+#include "shaders/methods/powers.h"
+
+CONST int kPayloadBytes = 20;
+CONST int kHasStokes = 0;
+
+struct Payload {
+  real3 s;
+  real ratio;
+  real cosine;
+};
+
+FN real payloadDepth(Payload p) { return p.s.x; }
+FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.s.x = depth; }
+
+#include "shaders/methods/s_cosine.h"
+
+FN Payload payloadSource(real3 radiance) {
+  Payload p;
+  p.s = radiance * R(0.5);
+  p.ratio = R(1.0);
+  p.cosine = R(2.0);
+  return p;
+}
+FN Stokes payloadStokes(Payload p, real3 d) {
+  return stokesOfPowers(p.s, p.s * p.ratio, sFromCosine(p.cosine, d), d);
+}
+
+FN Light lightReceive(Payload p, real3 d, real3 n) { return receivePowers(p.s, p.s * p.ratio, p.cosine, d, n); }
+
+FN Payload payloadSend(Light l, real3 d, real3 n) {
+  real sumS = l.s.x + l.s.y + l.s.z;
+  real sumP = l.p.x + l.p.y + l.p.z;
+  mask dark = lessEqualR(sumS, sumP * R(1e-20));
+  // A direction at 90 degrees to (c, +sqrt(1 - c^2)), its y not negative: (-sign(c) sqrt(1 - c^2), |c|).
+  real c = cosineFromS(d, n);
+  real across = R(0.0) - signNotZero(c) * sqrtR(maxR((R(1.0) - c) * (R(1.0) + c), R(0.0)));
+  Payload p;
+  p.s = select3(dark, l.p, l.s);
+  p.ratio = selectR(dark, R(0.0), sumP / selectR(dark, R(1.0), sumS));
+  p.cosine = selectR(dark, across, c);
+  return p;
+}

@@ -1,0 +1,31 @@
+// Method `stokes`: full Stokes vectors per colour in the ray's canonical frame. 48 bytes.
+
+#include "shaders/methods/mueller.h"
+
+CONST int kPayloadBytes = 48;
+CONST int kHasStokes = 1;
+
+struct Payload {
+  Stokes stokes;
+};
+
+FN real payloadDepth(Payload p) { return p.stokes.s0.x; }
+FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.stokes.s0.x = depth; }
+
+FN Payload payloadSource(real3 radiance) {
+  Payload p;
+  p.stokes = stokesUnpolarized(radiance);
+  return p;
+}
+FN Stokes payloadStokes(Payload p, real3 d) { return p.stokes; }
+
+FN Light lightReceive(Payload p, real3 d, real3 n) {
+  Light l;
+  l.stokes = stokesToSurface(p.stokes, d, n);
+  return l;
+}
+FN Payload payloadSend(Light l, real3 d, real3 n) {
+  Payload p;
+  p.stokes = stokesFromSurface(l.stokes, d, n);
+  return p;
+}

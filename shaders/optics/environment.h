@@ -1,0 +1,34 @@
+// Environment light without trigonometry.
+
+// Octahedral map of the sphere onto [0, 1]^2. Source: Cigolle et al., A Survey of Efficient
+// Representations for Independent Unit Vectors, JCGT 3(2), 2014.
+FN void octahedralFromDirection(real3 d, OUT(real) u, OUT(real) v) {
+  real scale = R(1.0) / (absR(d.x) + absR(d.y) + absR(d.z));
+  real x = d.x * scale;
+  real y = d.y * scale;
+  mask lower = lessR(d.z, R(0.0));
+  real foldX = (R(1.0) - absR(y)) * signNotZero(x);
+  real foldY = (R(1.0) - absR(x)) * signNotZero(y);
+  u = R(0.5) + R(0.5) * selectR(lower, foldX, x);
+  v = R(0.5) + R(0.5) * selectR(lower, foldY, y);
+}
+
+FN real3 directionFromOctahedral(real u, real v) {
+  real x = R(2.0) * u - R(1.0);
+  real y = R(2.0) * v - R(1.0);
+  real z = R(1.0) - absR(x) - absR(y);
+  mask lower = lessR(z, R(0.0));
+  real unfoldX = (R(1.0) - absR(y)) * signNotZero(x);
+  real unfoldY = (R(1.0) - absR(x)) * signNotZero(y);
+  return normalize3(make3(selectR(lower, unfoldX, x), selectR(lower, unfoldY, y), z));
+}
+
+// Irradiance of a distant environment on a surface with normal n, from nine numbers per colour that
+// already hold the factors of the clamped cosine. Source: Ramamoorthi and Hanrahan, An Efficient
+// Representation for Irradiance Environment Maps, 2001. Order of c: 1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2.
+FN real irradiancePolynomial(real3 n, real c0, real c1, real c2, real c3, real c4, real c5, real c6, real c7, real c8) {
+  real linear = c1 * n.y + c2 * n.z + c3 * n.x;
+  real mixed = c4 * n.x * n.y + c5 * n.y * n.z + c7 * n.x * n.z;
+  real squares = c6 * (R(3.0) * n.z * n.z - R(1.0)) + c8 * (n.x - n.y) * (n.x + n.y);
+  return maxR(c0 + linear + mixed + squares, R(0.0));
+}

@@ -1,0 +1,118 @@
+// Fresnel equations of a smooth interface: what share of the power is reflected and transmitted, s and p,
+// and the cross terms that carry phase. Light arrives in a medium of real index n1 at an angle whose
+// cosine c is in [0, 1], on a medium of index n2 - i k2 (time dependence e^{+i w t}, roots with Im <= 0).
+// Signs and stable forms: shaders/optics/CONVENTIONS.md. Sources: Born and Wolf, Principles of Optics,
+// 1.5 and 14.2; the forms in eta^2 - 1 avoid the cancellation of (c - t)/(c + t) near an index match.
+
+// Powers and X = r_p conj(r_s); the reflection Mueller matrix needs no more.
+struct Reflectance {
+  real rs;   // |r_s|^2, in [0, 1]
+  real rp;   // |r_p|^2, in [0, 1]
+  real xRe;  // Re X
+  real xIm;  // Im X
+};
+
+// Flux transmittances (dielectrics only); x = sqrt(ts tp).
+struct Transmittance {
+  real ts;
+  real tp;
+  real x;
+};
+
+// What both share: t = sqrt(eta^2 - sin^2), with eta = n2/n1.
+struct Refraction {
+  real eta;       // n2/n1
+  real etaSq;     // eta^2
+  real etaSqM1;   // eta^2 - 1, from the two indices and not from their rounded ratio
+  real sinSq;     // sin^2 of the angle of incidence
+  real t;         // sqrt(eta^2 - sin^2): eta times the transmitted cosine; 0 in total reflection
+  real tau;       // sqrt(sin^2 - eta^2) in total reflection, else 0
+  mask total;     // total reflection
+  mask matched;   // n1 == n2: no interface
+};
+
+FN Refraction refractionTerms(real c, real n1, real n2) {
+  Refraction f;
+  f.eta = n2 / n1;
+  f.etaSq = f.eta * f.eta;
+  f.etaSqM1 = ((n2 - n1) * (n2 + n1)) / (n1 * n1);
+  f.sinSq = (R(1.0) - c) * (R(1.0) + c);
+  real tSq = f.etaSqM1 + c * c;
+  f.total = lessR(tSq, R(0.0));
+  f.matched = equalR(f.etaSqM1, R(0.0));
+  f.t = sqrtR(maxR(tSq, R(0.0)));
+  f.tau = sqrtR(maxR(R(0.0) - tSq, R(0.0)));
+  return f;
+}
+
+FN Reflectance dielectricReflectance(real c, real n1, real n2) {
+  Refraction f = refractionTerms(c, n1, n2);
+  // Partial reflection: r_s = -(eta^2 - 1)/(c + t)^2, rho = r_p/r_s = (sin^2 - c t)/(sin^2 + c t).
+  real sum = c + f.t;
+  real rs = f.etaSqM1 / selectR(orM(f.matched, f.total), R(1.0), sum * sum);
+  real ct = c * f.t;
+  real rho = (f.sinSq - ct) / selectR(f.matched, R(1.0), f.sinSq + ct);
+  real rsSq = minR(rs * rs, R(1.0));
+  // Total reflection: t = -i tau, R = 1, X = (sin^2 + i c tau)^2 / |sin^2 + i c tau|^2.
+  real ctau = c * f.tau;
+  real norm = selectR(f.total, f.sinSq * f.sinSq + ctau * ctau, R(1.0));
+  Reflectance r;
+  r.rs = selectR(f.total, R(1.0), rsSq);
+  r.rp = selectR(f.total, R(1.0), minR(rsSq * rho * rho, R(1.0)));
+  r.xRe = selectR(f.total, (f.sinSq - ctau) * (f.sinSq + ctau) / norm, rsSq * rho);
+  r.xIm = selectR(f.total, R(2.0) * f.sinSq * ctau / norm, R(0.0));
+  return r;
+}
+
+FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
+  Refraction f = refractionTerms(c, n1, n2);
+  mask none = orM(f.matched, f.total);
+  real four = R(4.0) * c * f.t;
+  real s = selectR(none, R(1.0), c + f.t);
+  real p = selectR(none, R(1.0), f.etaSq * c + f.t);
+  real through = selectR(f.total, R(0.0), R(1.0));
+  Transmittance t;
+  t.ts = selectR(none, through, minR(four / (s * s), R(1.0)));
+  t.tp = selectR(none, through, minR(four * f.etaSq / (p * p), R(1.0)));
+  t.x = selectR(none, through, minR(four * f.eta / (s * p), R(1.0)));
+  return t;
+}
+
+// Conductor of index n2 - i k2, k2 >= 0; with k2 = 0 it is a dielectric that only reflects.
+FN Reflectance conductorReflectance(real c, real n1, real n2, real k2) {
+  real inverse = R(1.0) / n1;
+  real n = n2 * inverse;
+  real k = k2 * inverse;
+  real sinSq = (R(1.0) - c) * (R(1.0) + c);
+  // eta^2 - 1 and z = t^2 = (eta^2 - 1) + c^2, complex; Im <= 0.
+  real eRe = ((n2 - n1) * (n2 + n1)) * inverse * inverse - k * k;
+  real eIm = R(-2.0) * n * k;
+  real zRe = eRe + c * c;
+  // Root of z with Im <= 0: the larger part from the modulus, the other from Im z.
+  real zAbs = sqrtR(zRe * zRe + eIm * eIm);
+  real larger = sqrtR(R(0.5) * (zAbs + absR(zRe)));
+  real smaller = absR(eIm) / selectR(equalR(larger, R(0.0)), R(1.0), R(2.0) * larger);
+  mask positive = lessEqualR(R(0.0), zRe);
+  real tRe = selectR(positive, larger, smaller);
+  real tIm = R(0.0) - selectR(positive, smaller, larger);
+  // R_s = |eta^2 - 1|^2 / |c + t|^4
+  real qRe = c + tRe;
+  real qSq = qRe * qRe + tIm * tIm;
+  real eOverQ = (eRe * eRe + eIm * eIm);
+  mask matched = equalR(eOverQ, R(0.0));
+  real rs = eOverQ / selectR(matched, R(1.0), qSq * qSq);
+  // rho = (sin^2 - c t)/(sin^2 + c t)
+  real aRe = sinSq - c * tRe;
+  real aIm = R(0.0) - c * tIm;
+  real bRe = sinSq + c * tRe;
+  real bIm = c * tIm;
+  real bSq = selectR(matched, R(1.0), bRe * bRe + bIm * bIm);
+  real rhoRe = (aRe * bRe + aIm * bIm) / bSq;
+  real rhoIm = (aIm * bRe - aRe * bIm) / bSq;
+  Reflectance r;
+  r.rs = minR(rs, R(1.0));
+  r.rp = minR(r.rs * ((aRe * aRe + aIm * aIm) / bSq), R(1.0));
+  r.xRe = r.rs * rhoRe;
+  r.xIm = r.rs * rhoIm;
+  return r;
+}

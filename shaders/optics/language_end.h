@@ -1,0 +1,6 @@
+// Undoes language_begin.h.
+#undef FN
+#undef CONST
+#undef OUT
+#undef INOUT
+#undef R

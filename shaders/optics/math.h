@@ -1,0 +1,36 @@
+// Every operation that the shared files call beside + - * / on real and real3. A build on another number
+// type (a SIMD batch, the two-lane type of the tests) supplies these instead of this file; so the shared
+// files hold no `if`, no `?:` and no `bool` on data, no swizzles, no constructors, no trigonometry.
+
+FN real3 make3(real x, real y, real z) {
+  real3 v;
+  v.x = x;
+  v.y = y;
+  v.z = z;
+  return v;
+}
+FN real3 splat3(real x) { return make3(x, x, x); }
+
+FN mask lessR(real a, real b) { return a < b; }
+FN mask lessEqualR(real a, real b) { return a <= b; }
+FN mask equalR(real a, real b) { return a == b; }
+FN mask andM(mask a, mask b) { return a && b; }
+FN mask orM(mask a, mask b) { return a || b; }
+FN mask notM(mask a) { return !a; }
+
+FN real selectR(mask m, real a, real b) { return m ? a : b; }
+FN real minR(real a, real b) { return a < b ? a : b; }
+FN real maxR(real a, real b) { return a > b ? a : b; }
+
+#ifdef __cplusplus
+FN real sqrtR(real x) { return std::sqrt(x); }
+FN real absR(real x) { return std::abs(x); }
+#else
+FN real sqrtR(real x) { return sqrt(x); }
+FN real absR(real x) { return abs(x); }
+#endif
+
+FN real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+FN real3 cross3(real3 a, real3 b) {
+  return make3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}

@@ -1,0 +1,30 @@
+// The shared optics for C++, in float (malus::f32) and double (malus::f64). What each function computes,
+// its units and its source stand in the files that all.h lists; signs and frames in CONVENTIONS.md.
+#pragma once
+
+#include <cmath>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "shaders/optics/language_begin.h"
+
+namespace malus::f32 {
+using real = float;
+using real2 = glm::vec2;
+using real3 = glm::vec3;
+using mask = bool;
+#include "shaders/optics/math.h"
+#include "shaders/optics/all.h"
+}  // namespace malus::f32
+
+namespace malus::f64 {
+using real = double;
+using real2 = glm::dvec2;
+using real3 = glm::dvec3;
+using mask = bool;
+#include "shaders/optics/math.h"
+#include "shaders/optics/all.h"
+}  // namespace malus::f64
+
+#include "shaders/optics/language_end.h"

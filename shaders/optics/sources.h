@@ -1,0 +1,14 @@
+// Light that a surface sends to the eye from a point light: diffuse and highlight.
+
+// Radiance of a Lambert surface. irradiance: power per area that reaches the surface, cosine included;
+// entering: transmittance of the interface above it at the light's angle (1 where there is none).
+FN real3 lambertRadiance(real3 albedo, real3 irradiance, real3 entering) {
+  return albedo * irradiance * entering * (R(1.0) / kPi);
+}
+
+// Normalized Phong lobe, in 1/sr: (m + 1)/(2 pi) cos^m of the angle between the mirror direction and the
+// light. Source: Lafortune and Willems, Using the modified Phong reflectance model, 1994.
+FN real phongLobe(real3 mirror, real3 toLight, int exponent) {
+  real c = maxR(dot3(mirror, toLight), R(0.0));
+  return (real(exponent) + R(1.0)) / (R(2.0) * kPi) * powInteger(c, exponent);
+}

@@ -1,0 +1,35 @@
+// Where a ray meets a triangle: the normal to shade with, and origins of further rays.
+
+// Normal to shade with, against the ray. geometric: unit normal of the face; interpolated: of the
+// vertices, any length but 0, on the same side. Both are turned against d; where the interpolated one
+// then faces away from the ray, or sends the mirror direction below the face, the geometric one is taken.
+FN real3 shadingNormal(real3 d, real3 geometric, real3 interpolated) {
+  real side = R(0.0) - signNotZero(dot3(d, geometric));
+  real3 g = geometric * side;
+  real3 n = normalize3(interpolated) * side;
+  real c = R(0.0) - dot3(d, n);
+  real3 mirror = d + n * (R(2.0) * c);
+  mask usable = andM(lessR(R(0.0), c), lessR(R(0.0), dot3(mirror, g)));
+  return select3(usable, n, g);
+}
+
+// Bound on the rounding error of a point b0 p0 + b1 p1 + b2 p2 per axis: gamma(7) times the sum of
+// absolute terms, gamma(n) = n u/(1 - n u), u the unit roundoff. Source: Pharr, Jakob and Humphreys,
+// Physically Based Rendering, 4th edition, 6.8.5.
+FN real3 hitPointError(real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, real unitRoundoff) {
+  real gamma7 = R(7.0) * unitRoundoff / (R(1.0) - R(7.0) * unitRoundoff);
+  return make3((absR(b0 * p0.x) + absR(b1 * p1.x) + absR(b2 * p2.x)) * gamma7,
+               (absR(b0 * p0.y) + absR(b1 * p1.y) + absR(b2 * p2.y)) * gamma7,
+               (absR(b0 * p0.z) + absR(b1 * p1.z) + absR(b2 * p2.z)) * gamma7);
+}
+
+// Origin of a ray that leaves p on the side that n points to, off the box of size error about p, and one
+// rounding step further. n is the unit face normal, turned to the side that the ray leaves to. Source: as
+// above, 6.8.6.
+FN real3 rayOrigin(real3 p, real3 error, real3 n, real unitRoundoff) {
+  real distance = dot3(error, make3(absR(n.x), absR(n.y), absR(n.z)));
+  real3 o = p + n * distance;
+  real step = R(2.0) * unitRoundoff;
+  return make3(o.x + signNotZero(n.x) * absR(o.x) * step, o.y + signNotZero(n.y) * absR(o.y) * step,
+               o.z + signNotZero(n.z) * absR(o.z) * step);
+}

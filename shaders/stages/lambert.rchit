@@ -1,0 +1,4 @@
+#include "shaders/stages/hit.glsl"
+#include "shaders/surfaces/lambert.h"
+
+void main() { result = shadeLambert(loadHit(), hitMaterial()); }

@@ -1,0 +1,24 @@
+// Rays that a stage sends: what shaders/surfaces calls traceRay and visible.
+layout(location = 1) rayPayloadEXT Payload childPayload;
+layout(location = 2) rayPayloadEXT uint shadowPayload;
+
+void countRay() {
+#ifdef MALUS_COUNT_RAYS
+  atomicAdd(rayCount, 1u);
+#endif
+}
+
+Payload traceRay(vec3 origin, vec3 direction, float depth) {
+  countRay();
+  payloadSetDepth(childPayload, depth);
+  traceRayEXT(tlas, gl_RayFlagsOpaqueEXT, 0xffu, 0u, 1u, 0u, origin, 0.0, direction, 1e30, 1);
+  return childPayload;
+}
+
+bool visible(vec3 origin, vec3 direction, float distanceToLight) {
+  countRay();
+  shadowPayload = 1u;
+  traceRayEXT(tlas, gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xffu,
+              0u, 1u, 1u, origin, 0.0, direction, distanceToLight, 2);
+  return shadowPayload == 0u;
+}

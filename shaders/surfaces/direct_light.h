@@ -1,0 +1,63 @@
+// Light that point lights and the environment's fill send to the eye by way of a surface, before the
+// interface that it leaves through. Every surface blocks a point light.
+
+struct DirectLight {
+  real3 diffuse;    // radiance of the Lambert layer
+  real3 highlight;  // radiance in the mirror direction
+};
+
+// Transmittance of the material's interface, mean of s and p, for light at an angle with cosine c.
+FN real3 enteringTransmittance(Material m, real c) {
+  if (m.kind == kPaint) return meanTransmittance(dielectricFactors(c, m.outsideEta, m.eta.y));
+  if (m.kind == kMetal) return meanTransmittance(conductorFactors(c, m.outsideEta, m.eta, m.k));
+  return splat3(R(1.0));
+}
+
+FN real3 fillIrradiance(real3 n) {
+  real3 e;
+  e.x = irradiancePolynomial(n, frame.irradiance[0].x, frame.irradiance[1].x, frame.irradiance[2].x,
+                             frame.irradiance[3].x, frame.irradiance[4].x, frame.irradiance[5].x,
+                             frame.irradiance[6].x, frame.irradiance[7].x, frame.irradiance[8].x);
+  e.y = irradiancePolynomial(n, frame.irradiance[0].y, frame.irradiance[1].y, frame.irradiance[2].y,
+                             frame.irradiance[3].y, frame.irradiance[4].y, frame.irradiance[5].y,
+                             frame.irradiance[6].y, frame.irradiance[7].y, frame.irradiance[8].y);
+  e.z = irradiancePolynomial(n, frame.irradiance[0].z, frame.irradiance[1].z, frame.irradiance[2].z,
+                             frame.irradiance[3].z, frame.irradiance[4].z, frame.irradiance[5].z,
+                             frame.irradiance[6].z, frame.irradiance[7].z, frame.irradiance[8].z);
+  return e;
+}
+
+FN DirectLight directLight(Hit h, Material m, real3 mirror) {
+  DirectLight sum;
+  sum.diffuse = splat3(R(0.0));
+  sum.highlight = splat3(R(0.0));
+  bool isDiffuse = maxR(m.albedo.x, maxR(m.albedo.y, m.albedo.z)) > R(0.0);
+  bool isGlossy = m.highlightStrength > R(0.0) && h.depth > R(0.5);
+#ifndef MALUS_NO_POINT_LIGHTS
+  if (isDiffuse || isGlossy) {
+    for (int i = 0; i < frame.lightCount; ++i) {
+      real3 origin = originAbove(h);
+      real3 toLight = lights[i].position - origin;
+      real distanceSq = dot3(toLight, toLight);
+      real distanceToLight = sqrtR(distanceSq);
+      real3 l = toLight * (R(1.0) / distanceToLight);
+      real c = dot3(h.normal, l);
+      if (c <= R(0.0) || dot3(h.face, l) <= R(0.0)) continue;
+      real lobe = isGlossy ? m.highlightStrength * phongLobe(mirror, l, m.highlightExponent) : R(0.0);
+      if (!isDiffuse && lobe <= R(0.0)) continue;
+      if (!visible(origin, l, distanceToLight)) continue;
+      real3 arriving = lights[i].intensity * (R(1.0) / distanceSq);
+      if (isDiffuse)
+        sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, arriving * c, enteringTransmittance(m, minR(c, R(1.0))));
+      sum.highlight = sum.highlight + arriving * lobe;
+    }
+  }
+#endif
+#ifndef MALUS_NO_FILL
+  if (isDiffuse && frame.fill > R(0.0))
+    sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, fillIrradiance(h.normal) * frame.fill, m.fillTransmittance);
+#endif
+  sum.diffuse = sum.diffuse * m.basicScale;
+  sum.highlight = sum.highlight * m.basicScale;
+  return sum;
+}

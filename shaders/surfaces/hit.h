@@ -1,0 +1,41 @@
+// Where a ray met a surface. The files of this folder are shared by both renderers; beside the optics and
+// one method they call what the renderer supplies: `frame`, `lights[]`, `environmentTexels[]`,
+// traceRay(origin, direction, depth) and visible(origin, direction, distance).
+
+struct Hit {
+  real3 d;         // unit direction of the ray, away from the eye
+  real3 position;  // of the hit
+  real3 error;     // bound on its rounding error
+  real3 face;      // unit normal of the face, against the ray
+  real3 normal;    // unit normal to shade with, against the ray
+  real c;          // cosine of the angle of incidence, in [0, 1]
+  mask outside;    // the side that the mesh's normals point to was hit
+  real depth;      // specular interactions left
+};
+
+CONST real kUnitRoundoff = R(5.9604644775390625e-8);  // 2^-24, of float
+
+// d: ray; p0..p2: corners, counter-clockwise seen from outside; b1, b2: barycentric coordinates of p1, p2;
+// interpolated: normal of the vertices there, or 0 for a flat mesh.
+FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 interpolated, real depth) {
+  real b0 = R(1.0) - b1 - b2;
+  real3 across = cross3(p1 - p0, p2 - p0);
+  real areaSq = dot3(across, across);
+  // A triangle without area has no normal: it is shaded as if it faced the ray.
+  real3 face = select3(lessR(R(0.0), areaSq), across * (R(1.0) / sqrtR(maxR(areaSq, R(1e-38)))), d * R(-1.0));
+  Hit h;
+  h.d = d;
+  h.position = p0 * b0 + p1 * b1 + p2 * b2;
+  h.error = hitPointError(p0, p1, p2, b0, b1, b2, kUnitRoundoff);
+  h.outside = lessR(dot3(d, face), R(0.0));
+  mask flatMesh = equalR(dot3(interpolated, interpolated), R(0.0));
+  h.normal = shadingNormal(d, face, select3(flatMesh, face, interpolated));
+  h.face = face * selectR(h.outside, R(1.0), R(-1.0));
+  h.c = clampUnit(R(0.0) - dot3(d, h.normal));
+  h.depth = depth;
+  return h;
+}
+
+// Origin of a ray that leaves on the side of the eye.
+FN real3 originAbove(Hit h) { return rayOrigin(h.position, h.error, h.face, kUnitRoundoff); }
+FN real3 originBelow(Hit h) { return rayOrigin(h.position, h.error, h.face * R(-1.0), kUnitRoundoff); }

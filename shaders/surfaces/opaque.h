@@ -1,0 +1,13 @@
+// Surfaces that reflect and let nothing through: what lies under the interface leaves through it, what
+// comes along the mirror direction is reflected (the paper's section 2, for every method).
+FN Payload shadeOpaque(Hit h, Material m, Factors f) {
+  real3 mirror = mirrorDirection(h.d, h.normal, h.c);
+  DirectLight direct = directLight(h, m, mirror);
+  Light toEye = lightLeave(f, direct.diffuse);
+  if (h.depth > R(0.5)) {
+    Light arriving = lightReceive(traceRay(originAbove(h), mirror, h.depth - R(1.0)), mirror, h.normal);
+    arriving = lightAdd(arriving, lightUnpolarized(direct.highlight));
+    toEye = lightAdd(toEye, lightReflect(f, arriving));
+  }
+  return payloadSend(toEye, h.d, h.normal);
+}

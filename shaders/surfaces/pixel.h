@@ -1,0 +1,31 @@
+// From a position in the picture to what the camera records: the Stokes vector in the camera's frame of
+// that ray, as radiance.
+FN Stokes cameraSample(real px, real py) {
+  real3 d = cameraDirection(frame.right, frame.up, frame.forward, frame.tanX, frame.tanY, px, py);
+  real cos2;
+  real sin2;
+  cameraFrameTurn(d, frame.up, cos2, sin2);
+  Stokes s = payloadStokes(traceRay(frame.eye, d, real(frame.depth)), d);
+  return stokesTurn(s, cos2, sin2);
+}
+
+// Mean over the fixed grid of samples of a pixel.
+FN Stokes cameraPixel(uint x, uint y) {
+  Stokes sum = stokesUnpolarized(splat3(R(0.0)));
+  for (uint j = 0u; j < frame.samples; ++j)
+    for (uint i = 0u; i < frame.samples; ++i) {
+      real px = (real(x) + (real(i) + R(0.5)) / real(frame.samples)) / real(frame.width);
+      real py = (real(y) + (real(j) + R(0.5)) / real(frame.samples)) / real(frame.height);
+      sum = stokesAdd(sum, cameraSample(px, py));
+    }
+  real scale = frame.basicToRadiance / real(frame.samples * frame.samples);
+  sum.s0 = sum.s0 * scale;
+  sum.s1 = sum.s1 * scale;
+  sum.s2 = sum.s2 * scale;
+  sum.s3 = sum.s3 * scale;
+  return sum;
+}
+
+FN real3 cameraColour(Stokes s) {
+  return analysed(s, frame.analyser.x, frame.analyser.y, frame.analyser.z, frame.analyser.w);
+}

@@ -1,0 +1,68 @@
+#include "meshprep/clean/weld.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+using test::errorOf;
+
+TEST(Weld, EqualPositionsBecomeTheFirstOfThem) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  EXPECT_EQ(weld(mesh, 0), 2u);
+  EXPECT_EQ(mesh.positions, (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {1, 3, 2}}));
+}
+
+TEST(Weld, NegativeZeroIsZero) {
+  Mesh mesh;
+  mesh.positions = {{0.0, 1, 2}, {-0.0, 1, 2}};
+  EXPECT_EQ(weld(mesh, 0), 1u);
+}
+
+TEST(Weld, TheNextDoubleIsAnotherPlace) {
+  Mesh mesh;
+  mesh.positions = {{1, 0, 0}, {std::nextafter(1.0, 2.0), 0, 0}};
+  EXPECT_EQ(weld(mesh, 0), 0u);
+  EXPECT_EQ(weld(mesh, 1e-12), 1u);
+}
+
+TEST(Weld, ToleranceReachesAcrossCellsAndTakesTheNearest) {
+  Mesh mesh;
+  mesh.positions = {{0.99, 0, 0}, {2.2, 0, 0}, {1.8, 0, 0}, {-1e-9, -1e-9, -1e-9}, {1e-9, 1e-9, 1e-9}};
+  mesh.triangles = {{2, 3, 4}};
+  EXPECT_EQ(weld(mesh, 0.98), 2u);
+  // The third joined the second (0.4 away), not the first (0.81 away); the last two met over a cell's corner.
+  EXPECT_EQ(mesh.positions.size(), 3u);
+  EXPECT_EQ(mesh.triangles[0], glm::uvec3(1, 2, 2));
+}
+
+TEST(Weld, ChainsDoNotCollapse) {
+  Mesh mesh;
+  for (int i = 0; i < 11; ++i) mesh.positions.emplace_back(i * 0.6, 0, 0);
+  EXPECT_EQ(weld(mesh, 1.0), 5u);
+  for (std::size_t i = 1; i < mesh.positions.size(); ++i) EXPECT_GT(mesh.positions[i].x - mesh.positions[i - 1].x, 1.0);
+}
+
+TEST(Weld, RefusesAToleranceBelowTheRoundingOfCoordinates) {
+  Mesh mesh;
+  mesh.positions = {{1e10, 0, 0}};
+  EXPECT_TRUE(test::contains(errorOf([&] { weld(mesh, 1e-9); }), "too small"));
+}
+
+TEST(Weld, CleanMeshIsUntouched) {
+  Mesh mesh = test::sphere(5, 8);
+  const Mesh before = mesh;
+  EXPECT_EQ(weld(mesh, 0), 0u);
+  EXPECT_EQ(mesh.positions, before.positions);
+  EXPECT_EQ(mesh.triangles, before.triangles);
+}
+
+}  // namespace
+}  // namespace malus::prep

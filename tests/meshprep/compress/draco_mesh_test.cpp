@@ -1,0 +1,341 @@
+#include "meshprep/compress/draco_mesh.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/normals/crease_normals.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::compress {
+namespace {
+
+using prep::test::contains;
+using prep::test::errorOf;
+
+TriangleMesh fromMesh(const prep::Mesh& mesh) {
+  TriangleMesh result;
+  for (const glm::dvec3& p : mesh.positions) result.positions.emplace_back(p);
+  result.normals = mesh.normals;
+  result.triangles = mesh.triangles;
+  return result;
+}
+
+TriangleMesh withNormals(prep::Mesh mesh, double creaseDegrees = 40) {
+  prep::addCreaseNormals(mesh, creaseDegrees);
+  return fromMesh(mesh);
+}
+
+Limits limitsOf(const TriangleMesh& mesh) {
+  return {static_cast<std::uint32_t>(mesh.positions.size()), static_cast<std::uint32_t>(mesh.triangles.size())};
+}
+
+Settings settingsFor(const TriangleMesh& mesh, int positionBits = 20) {
+  Settings settings;
+  settings.grid = gridFor(mesh.positions, positionBits);
+  return settings;
+}
+
+void expectEqual(const TriangleMesh& a, const TriangleMesh& b) {
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+// Whether every vertex of `decoded` lies within the tolerance of one of `source`, and the other way around.
+void expectSamePlaces(const TriangleMesh& source, const TriangleMesh& decoded, float tolerance) {
+  for (const auto& [from, to] : {std::pair{&source, &decoded}, std::pair{&decoded, &source}})
+    for (const glm::vec3& p : from->positions)
+      EXPECT_TRUE(std::any_of(to->positions.begin(), to->positions.end(),
+                              [&, &place = p](const glm::vec3& q) { return glm::distance(place, q) <= tolerance; }));
+}
+
+TEST(DracoMesh, SphereGoesThroughEdgebreaker) {
+  const TriangleMesh mesh = withNormals(prep::test::sphere(31, 64));
+  const Encoded encoded = encode(mesh, settingsFor(mesh));
+  EXPECT_EQ(encoded.method, "edgebreaker");
+  EXPECT_GT(encoded.positionErrorMax, 0);
+  EXPECT_LT(encoded.positionErrorMax, 3e-6f);
+  EXPECT_GT(encoded.normalErrorMaxDegrees, 0);
+  EXPECT_LT(encoded.normalErrorMaxDegrees, 0.06f);
+  expectEqual(decode(encoded.bytes, limitsOf(mesh), "x"), encoded.decoded);
+  expectSamePlaces(mesh, encoded.decoded, encoded.positionErrorMax);
+  const Limits claimed = claimedCounts(encoded.bytes, "x");
+  EXPECT_EQ(claimed.vertices, limitsOf(mesh).vertices);
+  EXPECT_EQ(claimed.triangles, limitsOf(mesh).triangles);
+}
+
+TEST(DracoMesh, OrientationAndVolumeSurvive) {
+  const TriangleMesh mesh = fromMesh(prep::test::sphere(31, 64));
+  const auto volume = [](const TriangleMesh& m) {
+    double sum = 0;
+    for (const glm::uvec3& t : m.triangles)
+      sum += glm::dot(glm::dvec3(m.positions[t.x]),
+                      glm::cross(glm::dvec3(m.positions[t.y]), glm::dvec3(m.positions[t.z]))) /
+             6;
+    return sum;
+  };
+  EXPECT_NEAR(volume(encode(mesh, settingsFor(mesh)).decoded), volume(mesh), 1e-4);
+  EXPECT_GT(volume(mesh), 4.1);
+}
+
+TEST(DracoMesh, SplitCubeOpenSurfaceAndSeveralBodies) {
+  prep::Mesh open = prep::test::sphere(15, 32);
+  open.triangles.resize(open.triangles.size() - 200);
+  std::vector<bool> used(open.positions.size());
+  for (const prep::Mesh& m :
+       {prep::test::cube(), open, prep::test::joined(prep::test::sphere(7, 9), prep::test::cube(1, {5, 5, 5}))}) {
+    const TriangleMesh mesh = withNormals(m);
+    const Encoded encoded = encode(mesh, settingsFor(mesh));
+    EXPECT_EQ(encoded.decoded.positions.size(), mesh.positions.size());
+    EXPECT_EQ(encoded.decoded.triangles.size(), mesh.triangles.size());
+    expectEqual(decode(encoded.bytes, limitsOf(mesh), "x"), encoded.decoded);
+  }
+}
+
+TEST(DracoMesh, SameInputSameBytes) {
+  const TriangleMesh mesh = withNormals(prep::test::sphere(15, 32));
+  EXPECT_EQ(encode(mesh, settingsFor(mesh)).bytes, encode(mesh, settingsFor(mesh)).bytes);
+}
+
+TEST(DracoMesh, EqualPositionsDecodeEquallyInEveryMesh) {
+  // Two halves of a sphere on one grid, one with normals: their common rim must stay common, bit by bit.
+  const prep::Mesh whole = prep::test::sphere(16, 24);
+  std::map<std::vector<float>, int> rim;
+  prep::Mesh halves[2];
+  for (prep::Mesh& half : halves) half.positions = whole.positions;
+  for (const glm::uvec3& t : whole.triangles) {
+    const double x = whole.positions[t.x].x + whole.positions[t.y].x + whole.positions[t.z].x;
+    halves[x > 0.4 ? 1 : 0].triangles.push_back(t);
+  }
+  Settings settings;
+  settings.grid = {glm::vec3(-1.3f, -2.1f, -1.7f), 4.9f, 18};
+  std::map<std::size_t, glm::vec3> decodedAt[2];
+  for (int h = 0; h < 2; ++h) {
+    // Unreferenced vertices force the sequential encoding, which keeps the order that this test needs.
+    TriangleMesh mesh = fromMesh(halves[h]);
+    if (h == 1) mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
+    const Encoded encoded = encode(mesh, settings);
+    EXPECT_EQ(encoded.method, "sequential");
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) decodedAt[h][i] = encoded.decoded.positions[i];
+  }
+  EXPECT_EQ(decodedAt[0], decodedAt[1]);
+
+  // And edgebreaker decodes to the same values as sequential.
+  const TriangleMesh mesh = fromMesh(whole);
+  const Encoded encoded = encode(mesh, settings);
+  EXPECT_EQ(encoded.method, "edgebreaker");
+  for (const glm::vec3& p : encoded.decoded.positions)
+    EXPECT_TRUE(std::any_of(decodedAt[0].begin(), decodedAt[0].end(), [&](const auto& q) { return q.second == p; }));
+}
+
+TEST(DracoMesh, NonManifoldDegenerateAndLooseFallBackToSequential) {
+  // Many copies around a common edge, so that edgebreaker would be smaller if it were right.
+  prep::Mesh fan;
+  fan.positions = {{0, 0, 0}, {0, 0, 1}};
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    fan.positions.emplace_back(std::cos(i * 0.1), std::sin(i * 0.1), 0.5);
+    fan.triangles.emplace_back(0, 1, i + 2);
+  }
+  prep::Mesh degenerate = prep::test::sphere(15, 32);
+  degenerate.triangles.emplace_back(3, 3, 4);
+  prep::Mesh loose = prep::test::sphere(15, 32);
+  loose.positions.emplace_back(0, 0, 0);
+  for (const prep::Mesh& m : {fan, degenerate, loose}) {
+    const TriangleMesh mesh = fromMesh(m);
+    const Encoded encoded = encode(mesh, settingsFor(mesh));
+    EXPECT_EQ(encoded.method, "sequential");
+    EXPECT_EQ(encoded.decoded.triangles, mesh.triangles);
+    expectEqual(decode(encoded.bytes, limitsOf(mesh), "x"), encoded.decoded);
+  }
+}
+
+TEST(DracoMesh, CoarseGridMayCollapseTrianglesButNotLoseThem) {
+  const TriangleMesh mesh = withNormals(prep::test::sphere(31, 64));
+  for (const int bits : {1, 2, 4, 8, 11, 16, 22}) {
+    const Encoded encoded = encode(mesh, settingsFor(mesh, bits));
+    EXPECT_EQ(encoded.decoded.triangles.size(), mesh.triangles.size()) << bits;
+    EXPECT_EQ(encoded.decoded.positions.size(), mesh.positions.size()) << bits;
+  }
+}
+
+TEST(DracoMesh, NormalBits) {
+  const TriangleMesh mesh = withNormals(prep::test::sphere(31, 64));
+  float last = 180;
+  for (const int bits : {4, 8, 10, 12, 14}) {
+    Settings settings = settingsFor(mesh);
+    settings.normalBits = bits;
+    const Encoded encoded = encode(mesh, settings);
+    EXPECT_LT(encoded.normalErrorMaxDegrees, last);
+    last = encoded.normalErrorMaxDegrees;
+    for (const glm::vec3& n : encoded.decoded.normals) EXPECT_NEAR(glm::length(n), 1, 1e-6);
+  }
+}
+
+TEST(DracoMesh, GridOfAPointAndOfAFarMesh) {
+  const std::vector<glm::vec3> point = {glm::vec3(3)};
+  EXPECT_EQ(gridFor(point, 20).range, 1);
+  const TriangleMesh far = fromMesh(prep::test::cube(0.5, {1e5, 1e5, -1e5}));
+  EXPECT_LT(encode(far, settingsFor(far)).positionErrorMax, 0.05f);
+  const std::vector<glm::vec3> bad = {glm::vec3(std::numeric_limits<float>::infinity())};
+  EXPECT_FALSE(errorOf([&] { gridFor(bad, 20); }).empty());
+  const std::vector<glm::vec3> wide = {glm::vec3(-3e38f), glm::vec3(3e38f)};
+  EXPECT_TRUE(contains(errorOf([&] { gridFor(wide, 20); }), "too large"));
+}
+
+TEST(DracoMesh, RefusesBadInput) {
+  const TriangleMesh good = withNormals(prep::test::cube());
+  const Settings settings = settingsFor(good);
+  const auto refused = [&](auto change) {
+    TriangleMesh mesh = good;
+    Settings changed = settings;
+    change(mesh, changed);
+    return errorOf([&] { encode(mesh, changed); });
+  };
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = std::numeric_limits<float>::quiet_NaN(); }),
+                       "not finite"));
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = 1.5f; }), "outside of the grid"));
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = -0.5f; }), "outside of the grid"));
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.normals[2] = glm::vec3(0); }), "unit length"));
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.normals.pop_back(); }), "number of normals"));
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.triangles[1].z = 24; }), "not there"));
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.triangles.clear(); }), "empty"));
+  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.positionBits = 0; }), "1 to 22"));
+  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.normalBits = 31; }), "2 to 16"));
+  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.range = 0; }), "no cube"));
+}
+
+TEST(DracoMesh, OtherCountsAreRefusedBeforeDecoding) {
+  const TriangleMesh mesh = withNormals(prep::test::cube());
+  const Encoded encoded = encode(mesh, settingsFor(mesh));
+  EXPECT_TRUE(contains(errorOf([&] {
+                         decode(encoded.bytes, {23, 12}, "a.drc");
+                       }),
+                       "a.drc: Draco data of another mesh"));
+  EXPECT_FALSE(errorOf([&] { decode(encoded.bytes, {24, 13}, "x"); }).empty());
+}
+
+// Sets the most memory that this process may take, for a scope. Not under the address sanitizer, which maps
+// terabytes of shadow.
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(rlim_t bytes) {
+#if !defined(__SANITIZE_ADDRESS__)
+    getrlimit(RLIMIT_AS, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = std::min(bytes, before_.rlim_max);
+    setrlimit(RLIMIT_AS, &limit);
+#else
+    static_cast<void>(bytes);
+#endif
+  }
+  ~MemoryLimit() {
+#if !defined(__SANITIZE_ADDRESS__)
+    setrlimit(RLIMIT_AS, &before_);
+#endif
+  }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+ private:
+  [[maybe_unused]] rlimit before_{};
+};
+
+// Decodes bytes that may be anything; what comes back must be a mesh of the promised size.
+void expectErrorOrMesh(const std::vector<std::byte>& bytes, const Limits& limits) {
+  try {
+    const TriangleMesh mesh = decode(bytes, limits, "damaged");
+    ASSERT_EQ(mesh.positions.size(), limits.vertices);
+    ASSERT_EQ(mesh.triangles.size(), limits.triangles);
+    for (const glm::uvec3& t : mesh.triangles) ASSERT_LT(std::max({t.x, t.y, t.z}), limits.vertices);
+    for (const glm::vec3& p : mesh.positions)
+      ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    for (const glm::vec3& n : mesh.normals) ASSERT_NEAR(glm::length(n), 1, 1e-5);
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string_view(error.what()).starts_with("damaged")) << error.what();
+  }
+}
+
+// Both encodings, with and without normals.
+std::vector<Encoded> samples() {
+  std::vector<Encoded> result;
+  prep::Mesh loose = prep::test::sphere(3, 5);
+  loose.positions.emplace_back(0, 0, 0);
+  for (const prep::Mesh& m : {prep::test::sphere(3, 5), loose}) {
+    TriangleMesh mesh = fromMesh(m);
+    result.push_back(encode(mesh, settingsFor(mesh)));
+    mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0.6f, 0.8f));
+    result.push_back(encode(mesh, settingsFor(mesh)));
+  }
+  return result;
+}
+
+TEST(DracoMesh, EveryFlippedBitIsAnErrorOrAMesh) {
+  const MemoryLimit limit(rlim_t{4} << 30);
+  for (const Encoded& sample : samples()) {
+    for (std::size_t bit = 0; bit < 8 * sample.bytes.size(); ++bit) {
+      std::vector<std::byte> flipped = sample.bytes;
+      flipped[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
+      expectErrorOrMesh(flipped, limitsOf(sample.decoded));
+    }
+  }
+}
+
+TEST(DracoMesh, EveryByteOfEveryValueIsAnErrorOrAMesh) {
+  const MemoryLimit limit(rlim_t{4} << 30);
+  for (const Encoded& sample : samples()) {
+    for (std::size_t i = 0; i < sample.bytes.size(); ++i)
+      for (const unsigned value : {0x00u, 0x01u, 0x7fu, 0x80u, 0xffu}) {
+        std::vector<std::byte> changed = sample.bytes;
+        changed[i] = static_cast<std::byte>(value);
+        expectErrorOrMesh(changed, limitsOf(sample.decoded));
+        if (i + 4 > changed.size()) continue;
+        std::fill_n(changed.begin() + static_cast<std::ptrdiff_t>(i), 4, static_cast<std::byte>(value));
+        expectErrorOrMesh(changed, limitsOf(sample.decoded));
+      }
+  }
+}
+
+TEST(DracoMesh, TruncatedAnywhereIsAnErrorOrAMesh) {
+  const MemoryLimit limit(rlim_t{4} << 30);
+  for (const Encoded& sample : samples())
+    for (std::size_t size = 0; size < sample.bytes.size(); ++size)
+      expectErrorOrMesh({sample.bytes.begin(), sample.bytes.begin() + static_cast<std::ptrdiff_t>(size)},
+                        limitsOf(sample.decoded));
+}
+
+TEST(DracoMesh, HugeClaimsAreRefusedWithoutAllocating) {
+  // A header that claims 2^31 points, and an edgebreaker one that claims 2^32 - 1 split symbols.
+  const auto bytes = [](std::initializer_list<unsigned> values) {
+    std::vector<std::byte> result;
+    for (const char c : std::string_view("DRACO")) result.push_back(static_cast<std::byte>(c));
+    for (const unsigned value : values) result.push_back(static_cast<std::byte>(value));
+    return result;
+  };
+  const MemoryLimit limit(rlim_t{4} << 30);
+  EXPECT_TRUE(contains(errorOf([&] {
+                         decode(bytes({2, 2, 1, 0, 0, 0, 1, 0x80, 0x80, 0x80, 0x80, 8, 1}), {3, 1}, "x");
+                       }),
+                       "2147483648"));
+  EXPECT_TRUE(contains(errorOf([&] {
+                         decode(bytes({2, 2, 1, 1, 0, 0, 0, 3, 1, 0, 1, 0xff, 0xff, 0xff, 0xff, 15}), {3, 1}, "x");
+                       }),
+                       "split symbols"));
+  EXPECT_TRUE(contains(errorOf([&] {
+                         decode(bytes({2, 2, 1, 0, 0, 0, 1, 0xff, 0xff, 0xff, 0xff, 0xff, 1}), {3, 1}, "x");
+                       }),
+                       "32 bits"));
+  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 1, 1, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "another version"));
+  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 2, 0, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "no mesh"));
+  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 2, 1, 0, 0, 0x80, 1, 3}), {3, 1}, "x"); }), "metadata"));
+  EXPECT_TRUE(contains(errorOf([&] { decode({}, {3, 1}, "x"); }), "cut short"));
+  EXPECT_TRUE(contains(errorOf([&] { claimedCounts(bytes({2}), "x"); }), "cut short"));
+}
+
+}  // namespace
+}  // namespace malus::compress

@@ -1,0 +1,61 @@
+#include "meshprep/read/read_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/meshprep/read/binary_files.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+using test::contains;
+using test::errorOf;
+using test::TemporaryFile;
+
+TEST(ReadMesh, MissingFileFolderAndUnknownExtension) {
+  EXPECT_TRUE(contains(errorOf([] { readMesh("/no/such/file.obj"); }), "/no/such/file.obj: cannot open"));
+  EXPECT_TRUE(contains(errorOf([] { readMesh("mesh.gltf"); }), ".obj, .ply, .stl or .off, found .gltf"));
+  EXPECT_TRUE(contains(errorOf([] { readMesh("mesh"); }), "no extension"));
+  const std::filesystem::path folder = test::temporaryPath(".obj");
+  std::filesystem::create_directory(folder);
+  EXPECT_TRUE(contains(errorOf([&] { readMesh(folder); }), "not a regular file"));
+  std::filesystem::remove(folder);
+}
+
+TEST(ReadMesh, EmptyFile) {
+  for (const char* extension : {".obj", ".ply", ".stl", ".off"}) {
+    const TemporaryFile file(extension, "");
+    EXPECT_TRUE(contains(errorOf([&] { readMesh(file.path()); }), "is empty")) << extension;
+  }
+}
+
+TEST(ReadMesh, ExtensionsInUpperCase) {
+  const TemporaryFile file(".OBJ", test::objText(test::cube()));
+  EXPECT_EQ(readMesh(file.path()).faceCount(), 12u);
+}
+
+TEST(ReadMesh, OneFormatAfterAnother) {
+  // OpenMesh's readers keep what they found in the last file.
+  const TemporaryFile binary(".ply", test::binaryPly());
+  const TemporaryFile text(
+      ".ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const TemporaryFile off(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(readMesh(binary.path()).faceCount(), 4u);
+    EXPECT_EQ(readMesh(off.path()).faceCount(), 1u);
+    EXPECT_EQ(readMesh(text.path()).faceCount(), 1u);
+  }
+}
+
+TEST(ReadMesh, NumbersOfEverySizeAgreeWithOpenMesh) {
+  std::string text;
+  for (int exponent = -45; exponent <= 38; ++exponent)
+    text += fmt::format("v 1.23456789e{} -3.4e{} {}\n", exponent, exponent, exponent / 7.0);
+  const TemporaryFile file(".obj", text + "f 1 2 3\n");
+  EXPECT_EQ(readMesh(file.path()).positions.size(), 84u);
+}
+
+}  // namespace
+}  // namespace malus::prep

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include "meshprep/read/read_mesh.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+using test::contains;
+using test::errorOf;
+using test::TemporaryFile;
+
+Polygons read(const std::string& text) { return readMesh(TemporaryFile(".off", text).path()); }
+
+void expectRefused(const std::string& text, const std::string& place, const std::string& part) {
+  const std::string error = errorOf([&] { read(text); });
+  EXPECT_TRUE(contains(error, place)) << text << "\n" << error;
+  EXPECT_TRUE(contains(error, part)) << text << "\n" << error;
+}
+
+const std::string kPoints = "0 0 0\n1 0 0\n1 1 0\n0 1 0.1\n";
+
+TEST(ScanOff, PlainFile) {
+  const Polygons polygons = read("OFF\n4 2 0\n" + kPoints + "3 0 1 2\n4 0 1 2 3\n");
+  EXPECT_EQ(polygons.positions[3], glm::dvec3(0, 1, 0.1));
+  EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2, 3}));
+}
+
+TEST(ScanOff, CommentsBlankLinesCrLfAndCountsOnTheFirstLine) {
+  EXPECT_EQ(
+      read("# a\n\nOFF # b\n# c\n4 1 0 # d\n\n0 0 0 # e\n# f\n1 0 0\n1 1 0\n0 1 0\n# g\n3 0 1 2 # h\n#i").faceCount(),
+      1u);
+  EXPECT_EQ(read("OFF 4 1 0\n" + kPoints + "3 0 1 2\n").faceCount(), 1u);
+  EXPECT_EQ(read("OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n").faceCount(), 1u);
+}
+
+TEST(ScanOff, ColoursNormalsAndTextureCoordinatesAreSkipped) {
+  EXPECT_EQ(read("OFF\n4 2 0\n" + kPoints + "3 0 1 2 255 0 0\n3 0 2 3 0.1 0.2 0.3 1\n").faceCount(), 2u);
+  EXPECT_EQ(read("COFF\n3 1 0\n0 0 0 1 2 3 4\n1 0 0 1 2 3 4\n0 1 0 1 2 3 4\n3 0 1 2\n").faceCount(), 1u);
+  EXPECT_EQ(
+      read("STCNOFF\n3 1 0\n0 0 0 0 0 1 1 2 3 4 .5 .5\n1 0 0 0 0 1 1 2 3 4 .5 .5\n0 1 0 0 0 1 1 2 3 4 .5 .5\n3 0 1 2\n")
+          .positions[1],
+      glm::dvec3(1, 0, 0));
+}
+
+TEST(ScanOff, CountsMustBeBackedByTheFile) {
+  expectRefused("OFF\n4000000000 1 0\n", ".off:2:", "4000000000");
+  expectRefused("OFF\n3 4000000000 0\n", ".off:2:", "4000000000");
+  expectRefused("OFF\n-3 1 0\n", ".off:2:", "-3");
+  expectRefused("OFF\n4 2 0\n" + kPoints + "3 0 1 2\n", ".off", "ends too early");
+  expectRefused("OFF\n4 1 0\n0.00000 0.00000 0\n1.00000 0.000000 0\n", ".off", "ends too early");
+  expectRefused("OFF\n4 1 0\n" + kPoints + "3 0 1 2\n3 0 2 3\n", ".off:8:", "more than the header counts");
+  expectRefused("OFF\n4 1\n" + kPoints + "3 0 1 2\n", ".off:2:", "edges");
+}
+
+TEST(ScanOff, BadNumbersAndIndices) {
+  expectRefused("OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", ".off:3:", "nan");
+  expectRefused("OFF\n3 1 0\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ".off:3:", "nothing");
+  expectRefused("OFF\n4 1 0\n" + kPoints + "3 0 1 4\n", ".off:7:", "below 4, found 4");
+  expectRefused("OFF\n4 1 0\n" + kPoints + "3 0 1 -1\n", ".off:7:", "-1");
+  expectRefused("OFF\n4 1 0\n" + kPoints + "2 0 1\n", ".off:7:", "at least 3");
+  expectRefused("OFF\n4 1 0\n" + kPoints + "4 0 1 2\n", ".off:7:", "4 corners");
+  expectRefused("OFF\n4 1 0\n" + kPoints + "4000000000 0 1 2\n", ".off:7:", "corners");
+}
+
+TEST(ScanOff, OtherVariantsAreRefused) {
+  expectRefused("OFF BINARY\n", ".off:1:", "binary");
+  expectRefused("4OFF\n", ".off:1:", "dimension");
+  expectRefused("nOFF\n3\n", ".off:1:", "dimension");
+  expectRefused("4 1 0\n", ".off:1:", "dimension");
+  expectRefused("SKEL\n", ".off:1:", "OFF");
+  expectRefused("OFF\n0 0 0\n", ".off", "no vertices");
+}
+
+}  // namespace
+}  // namespace malus::prep

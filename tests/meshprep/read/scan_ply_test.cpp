@@ -1,0 +1,165 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/read/read_mesh.h"
+#include "tests/meshprep/read/binary_files.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+using test::binaryPly;
+using test::contains;
+using test::errorOf;
+using test::PlyOptions;
+using test::TemporaryFile;
+
+Polygons read(const std::string& text) { return readMesh(TemporaryFile(".ply", text).path()); }
+
+void expectRefused(const std::string& text, const std::string& place, const std::string& part) {
+  const std::string error = errorOf([&] { read(text); });
+  EXPECT_TRUE(contains(error, place)) << text.substr(0, 400) << "\n" << error;
+  EXPECT_TRUE(contains(error, part)) << text.substr(0, 400) << "\n" << error;
+}
+
+std::string ascii(const std::string& faceProperties = "property list uchar int vertex_indices\n",
+                  const std::string& data = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", const std::string& more = "") {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + more +
+         "element face 1\n" + faceProperties + "end_header\n" + data;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  text.replace(text.find(from), from.size(), to);
+  return text;
+}
+
+void expectTetrahedron(const PlyOptions& options) {
+  const Polygons polygons = read(binaryPly(options));
+  ASSERT_EQ(polygons.positions.size(), 4u);
+  EXPECT_EQ(polygons.positions[3].z, options.doubles ? 0.1 : static_cast<double>(0.1f));
+  EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}));
+}
+
+TEST(ScanPly, BinaryOfEveryKind) {
+  PlyOptions options;
+  expectTetrahedron(options);
+  options.bigEndian = true;
+  expectTetrahedron(options);
+  options.doubles = true;
+  expectTetrahedron(options);
+  options.bigEndian = false;
+  expectTetrahedron(options);
+  options.countType = "int";
+  expectTetrahedron(options);
+  options.indexType = "uint";
+  expectTetrahedron(options);
+  options.indexType = "ushort";
+  options.indexBytes = 2;
+  expectTetrahedron(options);
+  options.indexType = "uchar";
+  options.indexBytes = 1;
+  expectTetrahedron(options);
+}
+
+TEST(ScanPly, OtherPropertiesAreSkipped) {
+  PlyOptions options;
+  options.moreVertexProperties = "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty double q\n";
+  options.moreVertexBytes = 11;
+  options.moreFaceProperties = "property ushort a\nproperty float b\n";
+  options.moreFaceBytes = 6;
+  expectTetrahedron(options);
+}
+
+TEST(ScanPly, BinaryWithCrLfIsRefused) {
+  PlyOptions options;
+  options.lineEnd = "\r\n";
+  expectRefused(binaryPly(options), ".ply:2:", "CR LF");
+}
+
+TEST(ScanPly, AsciiVariants) {
+  EXPECT_EQ(read(ascii()).faceCount(), 1u);
+  std::string crLf;
+  for (const char c : ascii()) crLf += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  EXPECT_EQ(read(crLf).faceCount(), 1u);
+  EXPECT_EQ(read(ascii("property list uchar int vertex_index\nproperty float q\n", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7\n"))
+                .faceCount(),
+            1u);
+  EXPECT_EQ(read(replaced(ascii(), "element vertex",
+                          "comment end_header\ncomment\nobj_info element vertex 7\nelement vertex"))
+                .positions.size(),
+            3u);
+  EXPECT_EQ(read(replaced(ascii(), "end_header", "element edge 0\nproperty int vertex1\nend_header")).faceCount(), 1u);
+}
+
+TEST(ScanPly, TruncatedAnywhereIsAnError) {
+  const std::string whole = binaryPly();
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_FALSE(errorOf([&] { read(whole.substr(0, size)); }).empty()) << size;
+  const std::string text = ascii();
+  for (std::size_t size = 0; size + 2 < text.size(); ++size)
+    EXPECT_FALSE(errorOf([&] { read(text.substr(0, size)); }).empty()) << size;
+}
+
+TEST(ScanPly, EveryFlippedBitIsAnErrorOrAMesh) {
+  const std::string whole = binaryPly();
+  for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+    std::string flipped = whole;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
+    try {
+      const Polygons polygons = read(flipped);
+      for (const std::uint32_t corner : polygons.corners) ASSERT_LT(corner, polygons.positions.size());
+    } catch (const Error& error) {
+      EXPECT_TRUE(contains(error.what(), ".ply")) << error.what();
+    }
+  }
+}
+
+TEST(ScanPly, BadNumbersAndIndices) {
+  expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"),
+                ".ply:11:", "nan");
+  expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+                ".ply:13:", "below 3");
+  expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n3 0 -1 2\n"), ".ply:13:", "-1");
+  expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n2 0 1\n"),
+                ".ply:13:", "at least 3");
+  expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), ".ply:11:", "3");
+  std::string bytes = binaryPly();
+  std::string nan;
+  test::putReal(nan, std::numeric_limits<double>::quiet_NaN(), false);
+  bytes.replace(bytes.find("end_header\n") + 11 + 16, 4, nan);
+  expectRefused(bytes, ", byte ", "bad number in vertex 1");
+}
+
+TEST(ScanPly, HeadersThatOpenMeshMisreadsAreRefused) {
+  expectRefused(replaced(ascii(), "end_header\n", ""), ".ply", "unknown statement");
+  expectRefused("ply\nformat ascii 1.0\nelement vertex 3\n", ".ply", "end_header");
+  expectRefused(replaced(ascii(), "element face 1\nproperty list uchar int vertex_indices",
+                         "element tristrips 1\nproperty list int int vertex_indices"),
+                ".ply:7:", "tristrips");
+  expectRefused(ascii("property list float int vertex_indices\n"), ".ply:8:", "number of corners");
+  expectRefused(ascii("property list ushort int vertex_indices\n"), ".ply:8:", "ushort");
+  expectRefused(ascii("property list uchar float vertex_indices\n"), ".ply:9:", "whole numbers");
+  expectRefused(ascii("property list uchar int corners\n"), ".ply:9:", "vertex_indices");
+  expectRefused(ascii("property float q\nproperty list uchar int vertex_indices\n"), ".ply:10:", "first");
+  expectRefused(ascii("property list uchar int vertex_indices\nproperty list uchar float texcoord\n"),
+                ".ply:10:", "second list");
+  expectRefused(ascii("property list uchar int vertex_indices\n", "", "property list uchar int q\n"),
+                ".ply:7:", "list");
+  expectRefused(ascii("property list uchar int vertex_indices\n", "", "property quad q\n"), ".ply:7:", "quad");
+  expectRefused(ascii("property list uchar int vertex_indices\n", "", "property float x\n"), ".ply:10:", "twice");
+  expectRefused(replaced(ascii(), "float z", "int z"), ".ply:9:", "coordinates");
+  expectRefused(replaced(ascii(), "format ascii 1.0", "comment x\nformat ascii 1.0"), ".ply:2:", "format");
+  expectRefused(replaced(ascii(), "ascii", "binary"), ".ply:2:", "binary");
+  expectRefused(replaced(ascii(), "1.0", "2.0"), ".ply:2:", "version");
+  expectRefused(replaced(ascii(), "vertex 3", "vertex 4000000000"), ".ply:3:", "4000000000");
+  expectRefused(replaced(ascii(), "vertex 3", "vertex -1"), ".ply:3:", "-1");
+  expectRefused(replaced(ascii(), "ply", "Ply"), ".ply:1:", "ply");
+  expectRefused(replaced(ascii(), "face 1", "face 0"), ".ply", "more than the header counts");
+  expectRefused(
+      replaced(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n"), "face 1", "face 0"), ".ply",
+      "no faces");
+}
+
+}  // namespace
+}  // namespace malus::prep

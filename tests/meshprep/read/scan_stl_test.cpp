@@ -1,0 +1,100 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/read/read_mesh.h"
+#include "tests/meshprep/read/binary_files.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+using test::binaryStl;
+using test::contains;
+using test::errorOf;
+using test::TemporaryFile;
+
+Polygons read(const std::string& text) { return readMesh(TemporaryFile(".stl", text).path()); }
+
+void expectRefused(const std::string& text, const std::string& place, const std::string& part) {
+  const std::string error = errorOf([&] { read(text); });
+  EXPECT_TRUE(contains(error, place)) << text << "\n" << error;
+  EXPECT_TRUE(contains(error, part)) << text << "\n" << error;
+}
+
+const std::string kFacet =
+    "  facet normal 0 0 1\n    outer loop\n      vertex 0 0 0\n      vertex 1 0 0\n      vertex 0 1 0.1\n"
+    "    endloop\n  endfacet\n";
+
+TEST(ScanStl, BinaryKeepsEveryCorner) {
+  const Polygons polygons = read(binaryStl(test::tetrahedronTriangles()));
+  EXPECT_EQ(polygons.faceCount(), 4u);
+  EXPECT_EQ(polygons.positions.size(), 12u);
+  EXPECT_EQ(polygons.positions[5], glm::dvec3(0, 0, static_cast<double>(0.1f)));
+}
+
+TEST(ScanStl, BinaryThatBeginsWithSolidIsBinary) {
+  EXPECT_EQ(read(binaryStl(test::tetrahedronTriangles(), "solid by a careless exporter")).faceCount(), 4u);
+}
+
+TEST(ScanStl, FacesWithoutAreaAreKeptForCounting) {
+  auto triangles = test::tetrahedronTriangles();
+  triangles.insert(triangles.begin() + 1, {1, 1, 1, 1, 1, 1, 2, 2, 2});
+  triangles.push_back({0, 0, 0, 0, 1, 0, -0.0f, 0, 0});
+  EXPECT_EQ(read(binaryStl(triangles)).faceCount(), 6u);
+}
+
+TEST(ScanStl, AsciiOfOneOrMoreSolids) {
+  EXPECT_EQ(read("solid\n" + kFacet + kFacet + "endsolid\n").faceCount(), 2u);
+  EXPECT_EQ(read("solid a\n" + kFacet + "endsolid a\nsolid b\n" + kFacet + "endsolid b").faceCount(), 2u);
+  EXPECT_EQ(read("solid a\n" + kFacet + "endsolid a\n").positions[2], glm::dvec3(0, 1, 0.1));
+}
+
+TEST(ScanStl, NamesThatLookLikeStatementsAreHarmless) {
+  EXPECT_EQ(read("solid outer facet normal\n" + kFacet + "endsolid outer loop\n").faceCount(), 1u);
+}
+
+TEST(ScanStl, UpperCaseIsReadOrRefused) {
+  std::string upper;
+  for (const char c : "solid x\n" + kFacet + "endsolid x\n")
+    upper += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  EXPECT_EQ(read(upper).faceCount(), 1u);
+}
+
+TEST(ScanStl, TruncatedAnywhereIsAnError) {
+  const std::string whole = binaryStl(test::tetrahedronTriangles());
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_FALSE(errorOf([&] { read(whole.substr(0, size)); }).empty()) << size;
+  const std::string text = "solid x\n" + kFacet + "endsolid";
+  for (std::size_t size = 0; size < text.size(); ++size)
+    EXPECT_FALSE(errorOf([&] { read(text.substr(0, size)); }).empty()) << size;
+}
+
+TEST(ScanStl, EveryFlippedBitIsAnErrorOrAMesh) {
+  const std::string whole = binaryStl(test::tetrahedronTriangles());
+  for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+    std::string flipped = whole;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
+    try {
+      EXPECT_EQ(read(flipped).faceCount(), 4u);
+    } catch (const Error& error) {
+      EXPECT_TRUE(contains(error.what(), ".stl")) << error.what();
+    }
+  }
+}
+
+TEST(ScanStl, BadFiles) {
+  auto triangles = test::tetrahedronTriangles();
+  triangles[2][4] = std::numeric_limits<float>::infinity();
+  expectRefused(binaryStl(triangles), ", byte 212", "bad number in face 2");
+  expectRefused(binaryStl({}), ".stl", "no vertices");
+  expectRefused(binaryStl(test::tetrahedronTriangles()) + "x", ".stl", "284 bytes for its 4 faces, found 285 bytes");
+  expectRefused("solid x\n" + kFacet, ".stl", "endsolid");
+  expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n", ".stl:4:", "nan");
+  expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n\nvertex 1 0 0\n", ".stl:5:", "vertex");
+  expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0 0\n", ".stl:4:", "x y z");
+  expectRefused("hello", ".stl", "\"solid\"");
+}
+
+}  // namespace
+}  // namespace malus::prep

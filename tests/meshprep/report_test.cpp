@@ -1,0 +1,58 @@
+#include "meshprep/report.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+Report example() {
+  Report report;
+  report.source = "a.obj";
+  report.input.vertices = 36;
+  report.input.faces = 12;
+  report.output.vertices = 24;
+  report.output.triangles = 11;
+  report.steps = {{"vertices-welded", 28}, {"faces-dropped-duplicate", 1}, {"faces-turned-over", 0}};
+  report.components = {{12, true, true, 0, 1.5}};
+  return report;
+}
+
+TEST(Report, JsonHasEveryField) {
+  Report report = example();
+  nlohmann::json json = toJson(report);
+  EXPECT_EQ(json["input"]["vertices"], 36);
+  EXPECT_EQ(json["input"]["faces"], 12);
+  EXPECT_EQ(json["output"]["vertices"], 24);
+  EXPECT_EQ(json["output"]["triangles"], 11);
+  ASSERT_EQ(json["steps"].size(), 3u);
+  EXPECT_EQ(json["steps"][1]["name"], "faces-dropped-duplicate");
+  EXPECT_EQ(json["steps"][1]["count"], 1);
+  EXPECT_EQ(json["components"][0]["closed"], true);
+  EXPECT_EQ(json["components"][0]["signedVolume"], 1.5);
+  EXPECT_FALSE(json.contains("errors"));
+
+  report.compression = {"edgebreaker", 321};
+  report.errors = {1e-6, 0.05};
+  json = toJson(report);
+  EXPECT_EQ(json["errors"]["positionMax"], 1e-6);
+  EXPECT_EQ(json["errors"]["normalMaxDegrees"], 0.05);
+  EXPECT_EQ(json["compression"]["bytes"], 321);
+}
+
+TEST(Report, TextShowsBeforeAndAfterAndLeavesOutWhatWasNotFound) {
+  const std::string text = toText(example());
+  EXPECT_TRUE(test::contains(text, "vertices                                    36          24"));
+  EXPECT_TRUE(test::contains(text, "faces-dropped-duplicate"));
+  EXPECT_FALSE(test::contains(text, "faces-turned-over"));
+  EXPECT_EQ(text.back(), '\n');
+}
+
+TEST(Report, CountOfAStep) {
+  EXPECT_EQ(example().count("vertices-welded"), 28u);
+  EXPECT_EQ(example().count("no-such-step"), 0u);
+}
+
+}  // namespace
+}  // namespace malus::prep

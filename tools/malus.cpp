@@ -1,0 +1,89 @@
+// The `malus` command: gathers the modules' command lines and gives every end its exit code.
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bake/cli.h"
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/base/console.h"
+#include "meshprep/base/error.h"
+#include "meshprep/cli.h"
+#include "render/cli.h"
+
+namespace {
+
+enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kPicturesDiffer = 3, kInterrupted = 130 };
+
+void onInterrupt(int) {
+  malus::removeUnfinished();
+  ::_exit(kInterrupted);
+}
+
+int fail(const char* message) {
+  malus::console::progressDone();
+  fmt::print(stderr, "malus: {}\n", message);
+  return kFailed;
+}
+
+// A full disk behind stdout shows only when it is flushed.
+int finish() {
+  if (std::fflush(stdout) != 0) return fail("cannot write to standard output");
+  return kDone;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"malus: polarized mirror and glass reflections, and what they cost", "malus"};
+  app.set_version_flag("--version", "malus " MALUS_VERSION);
+  app.require_subcommand(0, 1);
+  app.fallthrough();
+  app.failure_message(CLI::FailureMessage::simple);
+  bool listMethods = false, listMaterials = false, listDevices = false;
+  app.add_flag_callback("-q,--quiet", [] { malus::console::setVerbosity(malus::console::Verbosity::quiet); }, "no progress, no warnings")->trigger_on_parse();
+  app.add_flag_callback("-v,--verbose", [] { malus::console::setVerbosity(malus::console::Verbosity::verbose); }, "say more")->trigger_on_parse();
+  app.add_flag("--list-methods", listMethods, "list the methods of rendering");
+  app.add_flag("--list-materials", listMaterials, "list the materials with published n and k");
+  app.add_flag("--list-devices", listDevices, "list the Vulkan devices");
+  malus::prep::addPrepCommand(app);
+  malus::bake::addBakeCommand(app);
+  malus::bake::addInfoCommand(app);
+  malus::render::addRenderCommand(app);
+  malus::render::addCompareImagesCommand(app);
+  try {
+    app.parse(argc, argv);  // runs the subcommand
+    if (listMethods) malus::render::listMethods();
+    if (listMaterials) malus::bake::listMaterials();
+    if (listDevices) malus::render::listDevices();
+    if (app.get_subcommands().empty() && !listMethods && !listMaterials && !listDevices) {
+      std::fputs(app.help().c_str(), stderr);
+      return kUsage;
+    }
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? finish() : kUsage;  // 0: --help, --version
+  }
+  return finish();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, onInterrupt);
+  std::signal(SIGTERM, onInterrupt);
+  try {
+    return run(argc, argv);
+  } catch (const malus::render::PicturesDiffer&) {
+    return finish() == kDone ? kPicturesDiffer : kFailed;
+  } catch (const malus::Error& error) {
+    return fail(error.what());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory");
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
+}

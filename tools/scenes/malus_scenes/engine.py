@@ -1,0 +1,125 @@
+"""The scene engine: a V-twin motorcycle engine on polished black glass."""
+from . import engine_fittings as fit
+from . import engine_parts as eng
+from . import studio
+from .mesh import Soup
+from .scene import Part, total, write_scene
+from .shapes import aimed, box, placed, quad, tube
+
+EXPECTED = (10448, 12510)
+V_HALF_DEGREES = 25.0
+CRANK_HEIGHT = 0.30
+FLOOR_HEIGHT = -0.08
+# The floor's edges are parallel to the picture's, the plinth turns an edge to the camera.
+CAMERA_AZIMUTH_DEGREES = 20.0
+LEAN = placed((0.0, CRANK_HEIGHT, 0.0), (0.0, 0.0, -V_HALF_DEGREES))
+
+# What the last vertices and triangles are spent on: (vertices, triangles) of one more of each.
+BOLT, TICK, PIPE_PIECE = (30, 16), (4, 2), (12, 24)
+
+
+def remainder(vertices, triangles):
+    """Numbers of bolts, ticks and pipe pieces with exactly these vertices and triangles, the number of
+    bolts as close to 22 as can be. Raises ValueError where there are none."""
+    for bolts in sorted(range(16, 41), key=lambda n: abs(n - 22)):
+        for pieces in range(10, 80):
+            left_v = vertices - bolts * BOLT[0] - pieces * PIPE_PIECE[0]
+            left_t = triangles - bolts * BOLT[1] - pieces * PIPE_PIECE[1]
+            ticks = left_t // TICK[1]
+            if 20 <= ticks <= 80 and (ticks * TICK[0], ticks * TICK[1]) == (left_v, left_t):
+                return bolts, ticks, pieces
+    raise ValueError(f"engine: no bolts, ticks and pipes have {vertices} vertices and {triangles} triangles")
+
+
+def both(soup):
+    """A cylinder's part at both places: leaning forward as modelled, leaning back mirrored in x."""
+    front = Soup().add(soup, LEAN)
+    rear = Soup().add(front, lambda p: (-p[0], p[1], p[2])).flipped()
+    return front.add(rear)
+
+
+def sky():
+    """A dark studio: a glow behind the engine, soft boxes at both sides and above, cards in front that the
+    chrome of the covers looks into."""
+    gradient = studio.smooth_steps([(-90, (0.03, 0.03, 0.033)), (-30, (0.10, 0.10, 0.108)), (-6, (0.055, 0.056, 0.062)),
+                                    (50, (0.035, 0.036, 0.042)), (90, (0.04, 0.04, 0.045))])
+    lights = [studio.Box(-17, -20, 36, 8, (0.50, 0.50, 0.52), edge=34),
+              studio.Box(200, 60, 80, 34, (3.4, 3.4, 3.5)),
+              studio.Box(-106, 24, 40, 62, (4.6, 4.7, 5.0)),
+              studio.Box(74, 26, 34, 56, (3.9, 3.7, 3.4)),
+              studio.Box(203, -3, 64, 30, (1.35, 1.35, 1.38), edge=9),
+              studio.Box(158, 12, 10, 46, (1.6, 1.6, 1.65)),
+              studio.Box(0, 62, 130, 18, (2.6, 2.6, 2.7))]
+    return studio.render(1024, 512, lambda elevation, azimuth: gradient(elevation), lights)
+
+
+def parts(bolt_count, tick_count, pipe_pieces):
+    shell, boot = eng.spark_plug()
+    boot_end = LEAN((0.0, 0.352 + 0.060 * 0.447, 0.068 + 0.060 * 0.894))
+    at_gauge = placed((-0.262, 0.470, 0.100), (-18.0, 8.0, 0.0))
+    at_sight = placed((0.0, 0.205, 0.1179))
+    stacks = [aimed((x, 0.500, 0.105), fit.STACK_AXIS) for x in (-0.047, 0.047)]
+    cam_bolts = bolt_count * 3 // 5
+
+    case = Soup().add(eng.crankcase()).add(eng.lifter_blocks())
+    cylinders = both(eng.barrel()).add(both(eng.head()))
+    covers = Soup().add(eng.cam_cover()).add(eng.gearbox_cover())
+    chrome = Soup().add(both(eng.pushrod_tubes())).add(fit.exhaust()).add(fit.oil_filter())
+    bolts = both(eng.rocker_bolts()).add(both(shell))
+    bolts.add(eng.cover_bolts(eng.CAM_COVER_EDGE, 0.1178, cam_bolts))
+    bolts.add(eng.cover_bolts(eng.GEARBOX_COVER_EDGE, 0.1138, bolt_count - cam_bolts))
+    aluminium = Soup().add(fit.sight_bezel(), at_sight).add(fit.gauge_cup(), at_gauge)
+    for place in stacks:
+        chrome.add(fit.velocity_stack(), place)
+        aluminium.add(fit.carburettor(), place)
+    black = Soup().add(eng.primary_cover()).add(fit.starter()).add(fit.coil()).add(both(boot))
+    cables = fit.cables(boot_end, (-boot_end[0], boot_end[1], boot_end[2]))
+    red = both(eng.rocker_cover()).add(eng.points_cover())
+    glass = Soup().add(fit.gauge_glass(), at_gauge).add(fit.sight_glass(), at_sight)
+    y = FLOOR_HEIGHT
+    return [
+        Part("case", "case", case), Part("cylinders", "cylinders", cylinders),
+        Part("fins", "cylinders", both(eng.barrel_fins()), crease=115.0),
+        Part("covers", "chrome", covers), Part("bright", "chrome", chrome, "ply", crease=55.0),
+        Part("bolts", "chrome", bolts, "ply"), Part("fittings", "aluminium", aluminium, "off", crease=35.0),
+        Part("black", "black", black), Part("cables", "black", cables, crease=65.0), Part("red", "red", red), Part("glass", "glass", glass, "stl"),
+        Part("gaskets", "copper", both(eng.head_gasket())),
+        Part("oil-lines", "copper", fit.oil_lines(pipe_pieces), crease=65.0),
+        Part("dial", "white", Soup().add(fit.gauge_face(), at_gauge), flat=True),
+        Part("ticks", "black", Soup().add(fit.gauge_dial(tick_count), at_gauge), flat=True),
+        Part("needle", "red", Soup().add(fit.gauge_needle(), at_gauge), flat=True),
+        Part("floor", "black-glass", quad((-2.4, y, 0.60), (2.4, y, 0.60), (2.4, y, -1.5), (-2.4, y, -1.5)), flat=True,
+             instances=[{"rotateDegrees": [0.0, CAMERA_AZIMUTH_DEGREES, 0.0]}]),
+        Part("plinth", "plinth", box((0.33, 0.14, 0.33), (0.0, y + 0.07, 0.0)).add(box((0.19, 0.10, 0.19), (0.0, y + 0.1901, 0.0))),
+             instances=[{"rotateDegrees": [0.0, CAMERA_AZIMUTH_DEGREES + 45.0, 0.0], "translate": [-0.08, 0.0, 0.0]}]),
+    ]
+
+
+def write(folder):
+    vertices, triangles = total(parts(20, 20, 20))
+    spent = [20 * sum(kind) for kind in zip(BOLT, TICK, PIPE_PIECE)]
+    pieces = parts(*remainder(EXPECTED[0] - vertices + spent[0], EXPECTED[1] - triangles + spent[1]))
+    materials = {
+        "case": {"type": "metal", "preset": "aluminium"},
+        "cylinders": {"type": "paint", "eta": 1.6, "albedo": [0.022, 0.022, 0.024]},
+        "chrome": {"type": "metal", "preset": "chromium"},
+        "aluminium": {"type": "metal", "preset": "aluminium"},
+        "copper": {"type": "metal", "preset": "copper"},
+        "black": {"type": "paint", "eta": 1.5, "albedo": 0.02},
+        "red": {"type": "paint", "eta": 1.5, "albedo": [0.42, 0.012, 0.016], "highlight": {"exponent": 400, "strength": 1}},
+        "white": {"type": "lambert", "albedo": 0.8},
+        "glass": {"type": "glass", "preset": "bk7"},
+        "black-glass": {"type": "mirror-glass", "eta": 1.9},
+        "plinth": {"type": "mirror-glass", "preset": "bk7"},
+    }
+    settings = {
+        "name": "engine", "title": "A V-twin motorcycle engine", "origin": [0.0, 0.35, 0.0],
+        "camera": {"position": [0.48, 0.92, 1.70], "target": [-0.15, 0.275, 0.0], "up": [0.0, 1.0, 0.0],
+                   "verticalFovDegrees": 31.0},
+        "resolution": [2048, 2048], "depth": 8, "exposureEv": 0.0,
+        "environment": {"image": "studio.hdr", "scale": 1.0, "diffuseFill": 0.8},
+        "lights": [{"type": "point", "position": [-1.2, 2.2, 2.0], "intensity": [7.0, 6.8, 6.4]},
+                   {"type": "point", "position": [1.8, 1.6, -0.9], "intensity": [3.5, 3.7, 4.2]}],
+    }
+    write_scene(folder, settings, materials, pieces, EXPECTED, sky(), "")
+    return total(pieces)

@@ -1,0 +1,102 @@
+"""The scene glass-wall: two glass slabs, one seen in the other with crossed planes of incidence.
+
+The camera sees the upright slab near Brewster's angle; its mirror image shows the leaning slab, met near
+Brewster's angle again, in which the skylight stands. The first plane of incidence is level, the second
+upright: the twice reflected skylight goes out.
+"""
+import math
+
+from . import studio
+from .scene import Part, total, write_scene
+from .shapes import box, quad, strip
+
+EXPECTED = (36, 28)
+CAMERA = {"position": [0.15, 1.16, 4.6], "target": [0.12, 0.76, 0.0], "up": [0.0, 1.0, 0.0], "verticalFovDegrees": 32.0}
+
+# The upright slab recedes from the left front to the middle.
+UPRIGHT = {"width": 3.0, "height": 1.95, "turn": 65.0, "middle": (-1.02, 0.35)}
+# The leaning slab: `slope` from the level, turned to the upright one's mirror direction; its lower edge
+# stands on the floor about `foot`. The box behind it is turned alike and carries it.
+LEANING = {"width": 2.3, "length": 1.80, "turn": -58.0, "slope": 41.0, "foot": (0.66, -0.32)}
+BOX = {"size": (1.0, 0.80, 0.74)}
+THICKNESS = 0.02
+
+
+def slab(width, height):
+    """Front (+z) and back (-z) face of a pane, no rims: the normals point out of the glass."""
+    x, y, z = width / 2, height / 2, THICKNESS / 2
+    soup = quad((-x, -y, z), (x, -y, z), (x, y, z), (-x, y, z))
+    return soup.add(quad((x, -y, -z), (-x, -y, -z), (-x, y, -z), (x, y, -z)))
+
+
+def rounded(values):
+    return [round(v, 4) + 0.0 for v in values]
+
+
+def leaning_instance():
+    turn, slope = math.radians(LEANING["turn"]), math.radians(LEANING["slope"])
+    # From the lower edge to the middle of the slab: up the slope, away from the side it faces.
+    run = 0.5 * LEANING["length"] * math.cos(slope)
+    x, z = LEANING["foot"]
+    middle = (x - run * math.sin(turn), 0.5 * LEANING["length"] * math.sin(slope) + THICKNESS, z - run * math.cos(turn))
+    return {"rotateDegrees": [LEANING["slope"] - 90.0, LEANING["turn"], 0.0], "translate": rounded(middle)}
+
+
+def box_instance():
+    """The box's upper front edge touches the back of the leaning slab."""
+    turn, slope = math.radians(LEANING["turn"]), math.radians(LEANING["slope"])
+    width, height, depth = BOX["size"]
+    run = height / math.tan(slope) + 0.5 * depth + 0.002
+    x, z = LEANING["foot"]
+    return {"rotateDegrees": [0.0, LEANING["turn"], 0.0],
+            "translate": rounded((x - run * math.sin(turn), 0.5 * height, z - run * math.cos(turn)))}
+
+
+def room():
+    """Floor and back wall: one sheet, folded once."""
+    return strip([(12.0, 0.0, 3.4), (12.0, 0.0, -2.6), (12.0, 4.0, -2.6)], (-16.0, 0.0, 0.0))
+
+
+def folded_sheet():
+    """A sheet of metal that stands like an open book."""
+    return strip([(-0.42, 0.0, 0.16), (0.0, 0.0, 0.0), (0.46, 0.0, 0.20)], (0.0, 1.05, 0.0))
+
+
+def sky():
+    gradient = studio.smooth_steps([(-90, (0.02, 0.02, 0.025)), (0, (0.08, 0.09, 0.11)), (35, (0.12, 0.13, 0.16)),
+                                    (90, (0.08, 0.09, 0.12))])
+    lights = [studio.Box(58, 76, 76, 66, (13.0, 12.3, 11.2), edge=2.2, panes=(7, 6), bar=2.8),
+              studio.Box(-100, 16, 30, 64, (2.6, 2.7, 3.0), edge=16),
+              studio.Box(93, 8, 16, 60, (2.4, 2.3, 2.1), edge=6)]
+    return studio.render(1024, 512, lambda elevation, azimuth: gradient(elevation), lights)
+
+
+def write(folder):
+    x, z = UPRIGHT["middle"]
+    parts = [
+        Part("slab-upright", "glass", slab(UPRIGHT["width"], UPRIGHT["height"]), "obj", sheet=True,
+             instances=[{"rotateDegrees": [0.0, UPRIGHT["turn"], 0.0], "translate": rounded((x, UPRIGHT["height"] / 2 + 0.002, z))}]),
+        Part("slab-leaning", "glass", slab(LEANING["width"], LEANING["length"]), "obj", sheet=True,
+             instances=[leaning_instance()]),
+        Part("box", "chromium", box(BOX["size"]).flipped(), "stl", flat=True, blemishes=(1, 1), instances=[box_instance()]),
+        Part("room", "room", room(), "ply", flat=True),
+        Part("sheet", "copper", folded_sheet(), "off", flat=True, blemishes=(1, 1),
+             instances=[{"rotateDegrees": [0.0, -8.0, 0.0], "translate": [-0.2, 0.0, -1.7]}]),
+    ]
+    materials = {
+        "glass": {"type": "glass", "preset": "bk7"},
+        "chromium": {"type": "metal", "preset": "chromium"},
+        "copper": {"type": "metal", "preset": "copper"},
+        "room": {"type": "paint", "eta": 1.5, "albedo": [0.022, 0.050, 0.066]},
+    }
+    settings = {
+        "name": "glass-wall", "title": "Two glass slabs, a metal box and a folded sheet",
+        "origin": [0.0, 0.0, 0.0],
+        "camera": CAMERA,
+        "resolution": [1920, 1080], "depth": 6, "exposureEv": 0.0,
+        "environment": {"image": "skylight.hdr", "scale": 1.0, "diffuseFill": 0.3},
+        "lights": [{"type": "point", "position": [0.9, 3.1, -0.9], "intensity": [30.0, 28.5, 26.0]},
+                   {"type": "point", "position": [1.8, 3.0, 5.0], "intensity": [18.0, 18.4, 19.6]}],
+    }
+    write_scene(folder, settings, materials, parts, EXPECTED, sky(), "")
+    return total(parts)

@@ -1,0 +1,78 @@
+"""A scene on its way to disk: parts with their meshes, counted as `malus prep` counts, and scene.json."""
+import json
+
+from .mesh import Soup, prepare
+from .mesh_files import with_blemishes, write_mesh
+from .studio import write_hdr
+
+
+class Part:
+    """One entry of `meshes` in scene.json with its soup. `format` is the file's ending. Instances are
+    dictionaries as scene.json has them. `blemishes` are (duplicate, degenerate) faces in the file."""
+
+    def __init__(self, name, material, soup, format="obj", flat=False, sheet=False, crease=None,
+                 instances=None, welded=False, blemishes=(0, 0)):
+        self.name, self.material, self.soup, self.format = name, material, soup, format
+        self.flat, self.sheet, self.crease, self.instances = flat, sheet, crease, instances
+        self.welded, self.blemishes = welded, blemishes
+        self.prepared = prepare(soup, flat, crease if crease is not None else 40.0, name)
+
+    @property
+    def counts(self):
+        copies = len(self.instances) if self.instances else 1
+        vertices, triangles = self.prepared.counts
+        return copies * vertices, copies * triangles
+
+    def description(self):
+        entry = {"name": self.name, "file": f"meshes/{self.name}.{self.format}", "material": self.material}
+        if self.flat:
+            entry["flat"] = True
+        if self.sheet:
+            entry["sheet"] = True
+        if self.crease is not None:
+            entry["creaseDegrees"] = self.crease
+        if self.instances:
+            entry["instances"] = self.instances
+        return entry
+
+
+def total(parts):
+    return tuple(sum(values) for values in zip((0, 0), *(part.counts for part in parts)))
+
+
+def write_scene(folder, settings, materials, parts, expected, sky=None, readme=""):
+    """Writes scene.json, meshes/, the environment (`sky`: rows of RGBE pixels) and README.md. Raises
+    ValueError unless all parts together have exactly the expected (vertices, triangles)."""
+    if total(parts) != expected:
+        raise ValueError(f"{settings['name']}: {total(parts)} vertices and triangles instead of {expected}")
+    glass = {name for name, m in materials.items() if m["type"] == "glass"}
+    for part in parts:
+        if part.material in glass and not part.sheet and part.prepared.open_edges:
+            raise ValueError(f"{part.name}: a glass body with {part.prepared.open_edges} open edges")
+
+    (folder / "meshes").mkdir(parents=True, exist_ok=True)
+    for part in parts:
+        soup = with_blemishes(part.soup, *part.blemishes) if any(part.blemishes) else Soup(part.soup.polygons)
+        if prepare(soup, part.flat, part.crease if part.crease is not None else 40.0).counts != part.prepared.counts:
+            raise ValueError(f"{part.name}: the blemishes change the counts")
+        write_mesh(folder / "meshes" / f"{part.name}.{part.format}", soup, part.welded,
+                   f"{part.name}: part of the scene {settings['name']}, metres")
+    if sky:
+        write_hdr(folder / settings["environment"]["image"], sky)
+    document = {"malus": 1, **settings, "materials": materials, "meshes": [p.description() for p in parts]}
+    (folder / "scene.json").write_text(_layout(document) + "\n", encoding="utf-8", newline="\n")
+    (folder / "README.md").write_text(readme, encoding="utf-8", newline="\n")
+
+
+def _layout(value, depth=0):
+    """JSON with objects and lists of objects spread over lines, everything small on one line."""
+    flat = json.dumps(value, ensure_ascii=False)
+    if depth > 0 and len(flat) + 2 * depth <= 110 and not (depth < 2 and isinstance(value, dict)):
+        return flat
+    pad, end = "  " * (depth + 1), "  " * depth
+    if isinstance(value, dict):
+        items = [f"{pad}{json.dumps(k)}: {_layout(v, depth + 1)}" for k, v in value.items()]
+        return "{\n" + ",\n".join(items) + f"\n{end}}}"
+    if isinstance(value, list):
+        return "[\n" + ",\n".join(pad + _layout(v, depth + 1) for v in value) + f"\n{end}]"
+    return flat

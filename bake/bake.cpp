@@ -44,7 +44,8 @@ glm::dmat3 linearPart(const Transform& transform) {
 // In world space, double precision; rounding to float comes after the origin is taken off.
 prep::Mesh placed(const prep::Mesh& mesh, const Transform& transform) {
   const glm::dmat3 m = linearPart(transform);
-  const glm::dmat3 normalMatrix(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));  // det * inverse transpose
+  const glm::dmat3 normalMatrix(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
+                                glm::cross(m[0], m[1]));  // det * inverse transpose
   const bool mirrors = glm::dot(m[0], glm::cross(m[1], m[2])) < 0;
   prep::Mesh result = mesh;
   for (glm::dvec3& p : result.positions) p = m * p + transform.translate;
@@ -61,11 +62,13 @@ prep::Mesh placed(const prep::Mesh& mesh, const Transform& transform) {
 pack::Camera cameraOf(const SceneDescription& d, const glm::dvec3& origin) {
   pack::Camera camera;
   const glm::dvec3 toTarget = d.cameraTarget - d.cameraPosition;
-  if (glm::length(toTarget) == 0) throw Error(d.file.string(), "camera.target: is the camera's position", "another point");
+  if (glm::length(toTarget) == 0)
+    throw Error(d.file.string(), "camera.target: is the camera's position", "another point");
   camera.position = d.cameraPosition - origin;
   camera.forward = glm::normalize(toTarget);
   const glm::dvec3 right = glm::cross(camera.forward, d.cameraUp);
-  if (glm::length(right) <= 1e-9 * glm::length(d.cameraUp)) throw Error(d.file.string(), "camera.up: points along the view", "another direction");
+  if (glm::length(right) <= 1e-9 * glm::length(d.cameraUp))
+    throw Error(d.file.string(), "camera.up: points along the view", "another direction");
   camera.right = glm::normalize(right);
   camera.up = glm::cross(camera.right, camera.forward);
   camera.verticalFovDegrees = d.verticalFovDegrees;
@@ -83,7 +86,8 @@ void requireClosedGlass(const MeshDescription& mesh, const pack::Material& mater
 
 }  // namespace
 
-Baked bake(const SceneDescription& d, const pack::WriteSettings& settings, const std::function<void(std::string_view)>& progress) {
+Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
+           const std::function<void(std::string_view)>& progress) {
   Baked baked;
   pack::Scene& scene = baked.scene;
   scene.name = d.name;
@@ -111,7 +115,8 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings, const
     std::uint32_t material = 0;
     while (d.materials[material].name != mesh.material) ++material;
     requireClosedGlass(mesh, d.materials[material], report);
-    sources.push_back({{"file", mesh.file.lexically_relative(d.file.parent_path()).string()}, {"xxh3", hashText(mesh.file)}});
+    sources.push_back(
+        {{"file", mesh.file.lexically_relative(d.file.parent_path()).string()}, {"xxh3", hashText(mesh.file)}});
     baked.reports.push_back(std::move(report));
     for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
       world.push_back(placed(prepared, mesh.instances[i]));
@@ -133,7 +138,8 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings, const
     mesh.triangles = std::move(world[i].triangles);
   }
   scene.camera = cameraOf(d, scene.origin);
-  for (const pack::PointLight& light : d.lights) scene.lights.push_back({light.position - scene.origin, light.intensity});
+  for (const pack::PointLight& light : d.lights)
+    scene.lights.push_back({light.position - scene.origin, light.intensity});
 
   // Light from infinity.
   scene.environment.diffuseFill = d.diffuseFill;
@@ -141,17 +147,21 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings, const
     bakeConstantEnvironment(d.environmentRadiance, scene.environment);
   } else {
     progress("baking the environment");
-    bakeEnvironment(image::read(d.environmentImage), d.environmentImage.string(), d.environmentScale, d.environmentRotationDegrees, scene.environment);
-    sources.push_back({{"file", d.environmentImage.lexically_relative(d.file.parent_path()).string()}, {"xxh3", hashText(d.environmentImage)}});
+    bakeEnvironment(image::read(d.environmentImage), d.environmentImage.string(), d.environmentScale,
+                    d.environmentRotationDegrees, scene.environment);
+    sources.push_back({{"file", d.environmentImage.lexically_relative(d.file.parent_path()).string()},
+                       {"xxh3", hashText(d.environmentImage)}});
   }
   scene.effects = findEffects(scene);
 
-  scene.provenance = nlohmann::json{
-      {"malus", MALUS_VERSION},
-      {"draco", std::string(draco::kDracoVersion)},
-      {"sources", sources},
-      {"settings", {{"positionBits", settings.positionBits}, {"normalBits", settings.normalBits}}},
-  }.dump();
+  scene.provenance =
+      nlohmann::json{
+          {"malus", MALUS_VERSION},
+          {"draco", std::string(draco::kDracoVersion)},
+          {"sources", sources},
+          {"settings", {{"positionBits", settings.positionBits}, {"normalBits", settings.normalBits}}},
+      }
+          .dump();
   return baked;
 }
 

@@ -43,19 +43,28 @@ void runBake(const BakeArguments& arguments) {
   if (arguments.json) {
     nlohmann::json meshes = nlohmann::json::array();
     for (std::size_t i = 0; i < written.meshes.size(); ++i)
-      meshes.push_back({{"name", baked.scene.meshes[i].name}, {"encoding", written.meshes[i].method}, {"sizeBytes", written.meshes[i].sizeBytes}});
+      meshes.push_back({{"name", baked.scene.meshes[i].name},
+                        {"encoding", written.meshes[i].method},
+                        {"sizeBytes", written.meshes[i].sizeBytes}});
     nlohmann::json preparation = nlohmann::json::array();
     for (const prep::Report& report : baked.reports) preparation.push_back(prep::toJson(report));
-    const nlohmann::json result = {{"name", baked.scene.name}, {"output", arguments.output}, {"sizeBytes", written.bytes.size()},
-                                   {"vertices", vertices}, {"triangles", triangles}, {"meshes", meshes}, {"preparation", preparation},
+    const nlohmann::json result = {{"name", baked.scene.name},
+                                   {"output", arguments.output},
+                                   {"sizeBytes", written.bytes.size()},
+                                   {"vertices", vertices},
+                                   {"triangles", triangles},
+                                   {"meshes", meshes},
+                                   {"preparation", preparation},
                                    {"errors", {{"positionMax", positionError}, {"normalMaxDegrees", normalError}}}};
     fmt::print("{}\n", result.dump(2));
     return;
   }
-  fmt::print("{}: {} meshes, {} vertices, {} triangles -> {} ({} bytes, geometry {:.1f} bytes a triangle,\n"
-             "  positions within {:.3g} m, normals within {:.3g} degrees)\n",
-             baked.scene.name, baked.scene.meshes.size(), vertices, triangles, arguments.output, written.bytes.size(),
-             static_cast<double>(geometryBytes) / static_cast<double>(std::max<std::uint64_t>(triangles, 1)), positionError, normalError);
+  fmt::print(
+      "{}: {} meshes, {} vertices, {} triangles -> {} ({} bytes, geometry {:.1f} bytes a triangle,\n"
+      "  positions within {:.3g} m, normals within {:.3g} degrees)\n",
+      baked.scene.name, baked.scene.meshes.size(), vertices, triangles, arguments.output, written.bytes.size(),
+      static_cast<double>(geometryBytes) / static_cast<double>(std::max<std::uint64_t>(triangles, 1)), positionError,
+      normalError);
 }
 
 }  // namespace
@@ -65,8 +74,12 @@ void addBakeCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bake", "Bakes a scene description into a scene pack");
   command->add_option("scene", arguments->input, "scene.json (schema: bake/SCENE.md)")->required();
   command->add_option("-o,--output", arguments->output, "the pack to write")->required();
-  command->add_option("--position-bits", arguments->settings.positionBits, "bits of the scene's position grid")->check(CLI::Range(8, 22))->capture_default_str();
-  command->add_option("--normal-bits", arguments->settings.normalBits, "bits of the normals")->check(CLI::Range(6, 16))->capture_default_str();
+  command->add_option("--position-bits", arguments->settings.positionBits, "bits of the scene's position grid")
+      ->check(CLI::Range(8, 22))
+      ->capture_default_str();
+  command->add_option("--normal-bits", arguments->settings.normalBits, "bits of the normals")
+      ->check(CLI::Range(6, 16))
+      ->capture_default_str();
   command->add_flag("--json", arguments->json, "print the result as JSON");
   command->callback([arguments] { runBake(*arguments); });
 }
@@ -87,14 +100,16 @@ void addInfoCommand(CLI::App& app) {
       fmt::print("{}\n", infoJson(pack).dump(2));
     } else {
       std::fputs(infoText(pack).c_str(), stdout);
-      if (arguments->verify) fmt::print("verified: {} sections, every hash, count, index and number\n", pack.sections.size());
+      if (arguments->verify)
+        fmt::print("verified: {} sections, every hash, count, index and number\n", pack.sections.size());
     }
   });
 }
 
 void listMaterials() {
   for (const OpticalConstants& m : materialLibrary())
-    fmt::print("{:<14} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}  {}\n", m.name, m.eta.x, m.eta.y, m.eta.z, m.k.x, m.k.y, m.k.z, m.source);
+    fmt::print("{:<14} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}  {}\n", m.name, m.eta.x, m.eta.y, m.eta.z,
+               m.k.x, m.k.y, m.k.z, m.source);
 }
 
 }  // namespace malus::bake

@@ -14,42 +14,69 @@ json infoJson(const pack::Pack& pack) {
   json meshes = json::array(), materials = json::array(), effects = json::array(), sections = json::array();
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const pack::Mesh& m = scene.meshes[i];
-    meshes.push_back({{"name", m.name}, {"vertices", m.positions.size()}, {"triangles", m.triangles.size()},
-                      {"material", scene.materials[m.material].name}, {"sheet", m.sheet}, {"encoding", pack.compression[i]}});
+    meshes.push_back({{"name", m.name},
+                      {"vertices", m.positions.size()},
+                      {"triangles", m.triangles.size()},
+                      {"material", scene.materials[m.material].name},
+                      {"sheet", m.sheet},
+                      {"encoding", pack.compression[i]}});
   }
   for (const pack::Material& m : scene.materials)
-    materials.push_back({{"name", m.name}, {"type", pack::nameOf(m.kind)}, {"eta", {m.eta.x, m.eta.y, m.eta.z}}, {"k", {m.k.x, m.k.y, m.k.z}}});
+    materials.push_back({{"name", m.name},
+                         {"type", pack::nameOf(m.kind)},
+                         {"eta", {m.eta.x, m.eta.y, m.eta.z}},
+                         {"k", {m.k.x, m.k.y, m.k.z}}});
   for (const pack::Effect& e : scene.effects) effects.push_back({{"name", e.name}, {"on", e.on}, {"reason", e.reason}});
   for (const pack::Section& s : pack.sections)
-    sections.push_back({{"id", s.id}, {"version", s.version}, {"offset", s.offset}, {"sizeBytes", s.sizeBytes}, {"hash", hex(s.hash)}});
+    sections.push_back({{"id", s.id},
+                        {"version", s.version},
+                        {"offset", s.offset},
+                        {"sizeBytes", s.sizeBytes},
+                        {"hash", hex(s.hash)}});
   // Provenance is JSON that a baker wrote; a pack may come from anywhere.
   json provenance = json::parse(scene.provenance, nullptr, false);
   if (provenance.is_discarded()) provenance = nullptr;
-  return {{"formatVersion", pack.formatVersion}, {"hash", hex(pack.hash)}, {"name", scene.name}, {"title", scene.title},
-          {"resolution", {scene.width, scene.height}}, {"depth", scene.depth}, {"vertices", scene.vertexCount()},
-          {"triangles", scene.triangleCount()}, {"geometryHash", hex(pack::canonicalGeometryHash(scene))}, {"meshes", meshes},
-          {"materials", materials}, {"lights", scene.lights.size()}, {"effects", effects}, {"sections", sections}, {"provenance", provenance}};
+  return {{"formatVersion", pack.formatVersion},
+          {"hash", hex(pack.hash)},
+          {"name", scene.name},
+          {"title", scene.title},
+          {"resolution", {scene.width, scene.height}},
+          {"depth", scene.depth},
+          {"vertices", scene.vertexCount()},
+          {"triangles", scene.triangleCount()},
+          {"geometryHash", hex(pack::canonicalGeometryHash(scene))},
+          {"meshes", meshes},
+          {"materials", materials},
+          {"lights", scene.lights.size()},
+          {"effects", effects},
+          {"sections", sections},
+          {"provenance", provenance}};
 }
 
 std::string infoText(const pack::Pack& pack) {
   const pack::Scene& scene = pack.scene;
-  std::string text = fmt::format("{}  {}\n{} vertices, {} triangles, {} lights, {} x {} pixels, depth {}\npack {} (format {})\n",
-                                 scene.name, scene.title, scene.vertexCount(), scene.triangleCount(), scene.lights.size(),
-                                 scene.width, scene.height, scene.depth, hex(pack.hash), pack.formatVersion);
+  std::string text =
+      fmt::format("{}  {}\n{} vertices, {} triangles, {} lights, {} x {} pixels, depth {}\npack {} (format {})\n",
+                  scene.name, scene.title, scene.vertexCount(), scene.triangleCount(), scene.lights.size(), scene.width,
+                  scene.height, scene.depth, hex(pack.hash), pack.formatVersion);
   text += "\nmeshes\n";
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const pack::Mesh& m = scene.meshes[i];
-    text += fmt::format("  {:<24} {:>8} vertices {:>8} triangles  {}{}, {}\n", m.name, m.positions.size(), m.triangles.size(),
-                        scene.materials[m.material].name, m.sheet ? " (sheet)" : "", pack.compression[i]);
+    text += fmt::format("  {:<24} {:>8} vertices {:>8} triangles  {}{}, {}\n", m.name, m.positions.size(),
+                        m.triangles.size(), scene.materials[m.material].name, m.sheet ? " (sheet)" : "",
+                        pack.compression[i]);
   }
   text += "\nmaterials\n";
   for (const pack::Material& m : scene.materials)
-    text += fmt::format("  {:<24} {:<13} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}\n", m.name, pack::nameOf(m.kind), m.eta.x, m.eta.y, m.eta.z, m.k.x, m.k.y, m.k.z);
+    text += fmt::format("  {:<24} {:<13} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}\n", m.name,
+                        pack::nameOf(m.kind), m.eta.x, m.eta.y, m.eta.z, m.k.x, m.k.y, m.k.z);
   text += "\neffects\n";
-  for (const pack::Effect& e : scene.effects) text += fmt::format("  {:<3} {:<22} {}\n", e.on ? "on" : "off", e.name, e.reason);
+  for (const pack::Effect& e : scene.effects)
+    text += fmt::format("  {:<3} {:<22} {}\n", e.on ? "on" : "off", e.name, e.reason);
   text += "\nsections\n";
   for (const pack::Section& s : pack.sections)
-    text += fmt::format("  {} version {}  {:>9} bytes at {:>9}  {}\n", s.id, s.version, s.sizeBytes, s.offset, hex(s.hash));
+    text +=
+        fmt::format("  {} version {}  {:>9} bytes at {:>9}  {}\n", s.id, s.version, s.sizeBytes, s.offset, hex(s.hash));
   return text;
 }
 

@@ -41,14 +41,18 @@ View viewFor(const RenderArguments& a, const pack::Scene& scene) {
   const double aspect = static_cast<double>(scene.width) / scene.height;
   if (a.width > 0) view.width = a.width;
   if (a.height > 0) view.height = a.height;
-  if (a.width > 0 && a.height == 0) view.height = std::max(1u, static_cast<std::uint32_t>(std::lround(a.width / aspect)));
-  if (a.height > 0 && a.width == 0) view.width = std::max(1u, static_cast<std::uint32_t>(std::lround(a.height * aspect)));
+  if (a.width > 0 && a.height == 0)
+    view.height = std::max(1u, static_cast<std::uint32_t>(std::lround(a.width / aspect)));
+  if (a.height > 0 && a.width == 0)
+    view.width = std::max(1u, static_cast<std::uint32_t>(std::lround(a.height * aspect)));
   view.region = {0, 0, view.width, view.height};
   if (!a.region.empty()) {
     view.region = {a.region[0], a.region[1], a.region[2], a.region[3]};
     const Region& r = view.region;
-    if (r.width == 0 || r.height == 0 || r.x >= view.width || r.y >= view.height || r.width > view.width - r.x || r.height > view.height - r.y)
-      throw Error("--region", "does not lie in the picture", fmt::format("x y width height within {} x {}", view.width, view.height),
+    if (r.width == 0 || r.height == 0 || r.x >= view.width || r.y >= view.height || r.width > view.width - r.x ||
+        r.height > view.height - r.y)
+      throw Error("--region", "does not lie in the picture",
+                  fmt::format("x y width height within {} x {}", view.width, view.height),
                   fmt::format("{} {} {} {}", r.x, r.y, r.width, r.height));
   }
   view.samples = a.samples;
@@ -63,7 +67,8 @@ void runRender(const RenderArguments& a) {
       throw Error(output, "unknown kind of picture", ".exr or .png", e.empty() ? "no extension" : e.string());
   const pack::Pack pack = pack::read(a.input);
   const View view = viewFor(a, pack.scene);
-  console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, a.backend == "reference" ? "" : a.method));
+  console::progress(
+      fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, a.backend == "reference" ? "" : a.method));
   Picture picture;
   std::string method = a.method;
   if (a.backend == "reference") {
@@ -84,14 +89,24 @@ void runRender(const RenderArguments& a) {
   console::progressDone();
   const Cost& cost = picture.cost;
   if (a.json) {
-    const nlohmann::json result = {{"scene", pack.scene.name}, {"renderer", a.backend}, {"method", method}, {"device", picture.device},
-                                   {"width", picture.width}, {"height", picture.height}, {"depth", view.depth}, {"samples", view.samples},
+    const nlohmann::json result = {{"scene", pack.scene.name},
+                                   {"renderer", a.backend},
+                                   {"method", method},
+                                   {"device", picture.device},
+                                   {"width", picture.width},
+                                   {"height", picture.height},
+                                   {"depth", view.depth},
+                                   {"samples", view.samples},
                                    {"rays", cost.rays == 0 ? nlohmann::json() : nlohmann::json(cost.rays)},
-                                   {"buildMs", cost.buildMs}, {"traceMs", cost.traceMs}, {"wallMs", cost.wallMs}, {"outputs", a.outputs}};
+                                   {"buildMs", cost.buildMs},
+                                   {"traceMs", cost.traceMs},
+                                   {"wallMs", cost.wallMs},
+                                   {"outputs", a.outputs}};
     fmt::print("{}\n", result.dump(2));
   } else {
-    fmt::print("{}: {} {}, {} x {}, depth {}, {}{:.1f} ms on {}\n", pack.scene.name, a.backend, method, picture.width, picture.height, view.depth,
-               cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs, picture.device);
+    fmt::print("{}: {} {}, {} x {}, depth {}, {}{:.1f} ms on {}\n", pack.scene.name, a.backend, method, picture.width,
+               picture.height, view.depth, cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs,
+               picture.device);
   }
 }
 
@@ -113,13 +128,18 @@ void runCompareImages(const CompareArguments& arguments) {
   }
   if (!arguments.difference.empty()) writePicture(arguments.difference, differencePicture(a, b, arguments.gain), 0);
   if (arguments.json) {
-    const auto number = [](double v) { return std::isfinite(v) ? nlohmann::json(v) : nlohmann::json(); };  // JSON has no infinity
-    const nlohmann::json result = {{"mean", d.mean}, {"rms", d.rms}, {"max", number(d.max)}, {"p999", number(d.p999)}, {"outliers", d.outliers},
-                                   {"nonFinite", d.nonFinite}, {"pixels", d.pixels}, {"threshold", arguments.threshold}};
+    const auto number = [](double v) {
+      return std::isfinite(v) ? nlohmann::json(v) : nlohmann::json();
+    };  // JSON has no infinity
+    const nlohmann::json result = {{"mean", d.mean},         {"rms", d.rms},
+                                   {"max", number(d.max)},   {"p999", number(d.p999)},
+                                   {"outliers", d.outliers}, {"nonFinite", d.nonFinite},
+                                   {"pixels", d.pixels},     {"threshold", arguments.threshold}};
     fmt::print("{}\n", result.dump(2));
   } else {
-    fmt::print("mean {:.6g}  rms {:.6g}  max {:.6g}  99.9 % {:.6g}  outliers over {:g}: {} of {} pixels{}\n", d.mean, d.rms, d.max, d.p999,
-               arguments.threshold, d.outliers, d.pixels, d.nonFinite > 0 ? fmt::format(", {} with NaN or infinity", d.nonFinite) : "");
+    fmt::print("mean {:.6g}  rms {:.6g}  max {:.6g}  99.9 % {:.6g}  outliers over {:g}: {} of {} pixels{}\n", d.mean,
+               d.rms, d.max, d.p999, arguments.threshold, d.outliers, d.pixels,
+               d.nonFinite > 0 ? fmt::format(", {} with NaN or infinity", d.nonFinite) : "");
   }
   if (arguments.failOver && !(d.max <= *arguments.failOver)) throw PicturesDiffer{};
 }
@@ -130,18 +150,33 @@ void addRenderCommand(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
   CLI::App* command = app.add_subcommand("render", "Renders a scene pack");
   command->add_option("pack", a->input, "scene pack")->required();
-  command->add_option("-o,--output", a->outputs, "picture to write: .exr (all channels) or .png; may be given twice")->required()->expected(1)->take_all();
-  command->add_option("--backend", a->backend, "renderer")->check(CLI::IsMember({"vulkan", "embree", "reference"}))->capture_default_str();
-  command->add_option("--method", a->method, "how light is carried along rays")->check(CLI::IsMember(methodNames()))->capture_default_str();
-  command->add_option("--polarizer", a->polarizer, "linear polarizer in front of the camera: degrees from the picture's x axis, counter-clockwise");
-  command->add_option("--width", a->width, "picture width (default: the pack's; height keeps the aspect)")->check(CLI::Range(1u, 16384u));
+  command->add_option("-o,--output", a->outputs, "picture to write: .exr (all channels) or .png; may be given twice")
+      ->required()
+      ->expected(1)
+      ->take_all();
+  command->add_option("--backend", a->backend, "renderer")
+      ->check(CLI::IsMember({"vulkan", "embree", "reference"}))
+      ->capture_default_str();
+  command->add_option("--method", a->method, "how light is carried along rays")
+      ->check(CLI::IsMember(methodNames()))
+      ->capture_default_str();
+  command->add_option("--polarizer", a->polarizer,
+                      "linear polarizer in front of the camera: degrees from the picture's x axis, counter-clockwise");
+  command->add_option("--width", a->width, "picture width (default: the pack's; height keeps the aspect)")
+      ->check(CLI::Range(1u, 16384u));
   command->add_option("--height", a->height, "picture height")->check(CLI::Range(1u, 16384u));
-  command->add_option("--depth", a->depth, "most specular interactions along a path (default: the pack's)")->check(CLI::Range(0u, 30u));
-  command->add_option("--samples", a->samples, "rays a pixel along each axis")->check(CLI::Range(1u, 64u))->capture_default_str();
+  command->add_option("--depth", a->depth, "most specular interactions along a path (default: the pack's)")
+      ->check(CLI::Range(0u, 30u));
+  command->add_option("--samples", a->samples, "rays a pixel along each axis")
+      ->check(CLI::Range(1u, 64u))
+      ->capture_default_str();
   command->add_option("--region", a->region, "part of the picture: x y width height")->expected(4);
-  command->add_option("--threads", a->threads, "CPU threads, 0 for all")->check(CLI::Range(0u, 1024u))->capture_default_str();
+  command->add_option("--threads", a->threads, "CPU threads, 0 for all")
+      ->check(CLI::Range(0u, 1024u))
+      ->capture_default_str();
   command->add_option("--device", a->device, "Vulkan device: number or part of its name from --list-devices");
-  command->add_option("--exposure", a->exposure, "display exposure of PNG files in stops (default: the pack's)")->check(CLI::Range(-100.0, 100.0));
+  command->add_option("--exposure", a->exposure, "display exposure of PNG files in stops (default: the pack's)")
+      ->check(CLI::Range(-100.0, 100.0));
   command->add_flag("--count-rays", a->countRays, "vulkan: trace once more, untimed, to count the rays");
   command->add_flag("--json", a->json, "print the result as JSON");
   command->callback([a] { runRender(*a); });
@@ -153,10 +188,15 @@ void addCompareImagesCommand(CLI::App& app) {
   command->add_option("a", a->a, "picture")->required();
   command->add_option("b", a->b, "picture")->required();
   command->add_option("--channels", a->channels, "channels to compare")->capture_default_str();
-  command->add_option("--threshold", a->threshold, "difference over which a pixel is an outlier")->check(CLI::NonNegativeNumber)->capture_default_str();
-  command->add_option("--fail-over", a->failOver, "exit with 3 where the largest difference is over this")->check(CLI::NonNegativeNumber);
+  command->add_option("--threshold", a->threshold, "difference over which a pixel is an outlier")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--fail-over", a->failOver, "exit with 3 where the largest difference is over this")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--difference", a->difference, "picture to write: absolute difference times --gain");
-  command->add_option("--gain", a->gain, "of the difference picture")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--gain", a->gain, "of the difference picture")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_flag("--json", a->json, "print the result as JSON");
   command->callback([a] { runCompareImages(*a); });
 }
@@ -167,9 +207,11 @@ void listMethods() {
 
 void listDevices() {
   const std::vector<vulkan::DeviceDescription> devices = vulkan::devices();
-  if (devices.empty()) throw Error("Vulkan", "no device", "a driver such as Mesa's lavapipe (mesa-vulkan-drivers 24.3 or later)");
+  if (devices.empty())
+    throw Error("Vulkan", "no device", "a driver such as Mesa's lavapipe (mesa-vulkan-drivers 24.3 or later)");
   for (std::size_t i = 0; i < devices.size(); ++i)
-    fmt::print("{}  {} ({}){}\n", i, devices[i].name, devices[i].driver, devices[i].problem.empty() ? "" : ": " + devices[i].problem);
+    fmt::print("{}  {} ({}){}\n", i, devices[i].name, devices[i].driver,
+               devices[i].problem.empty() ? "" : ": " + devices[i].problem);
 }
 
 }  // namespace malus::render

@@ -7,8 +7,8 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "bake/cli.h"
 #include "meshprep/base/atomic_file.h"
@@ -45,8 +45,13 @@ int run(int argc, char** argv) {
   app.fallthrough();
   app.failure_message(CLI::FailureMessage::simple);
   bool listMethods = false, listMaterials = false, listDevices = false;
-  app.add_flag_callback("-q,--quiet", [] { malus::console::setVerbosity(malus::console::Verbosity::quiet); }, "no progress, no warnings")->trigger_on_parse();
-  app.add_flag_callback("-v,--verbose", [] { malus::console::setVerbosity(malus::console::Verbosity::verbose); }, "say more")->trigger_on_parse();
+  app.add_flag_callback(
+         "-q,--quiet", [] { malus::console::setVerbosity(malus::console::Verbosity::quiet); },
+         "no progress, no warnings")
+      ->trigger_on_parse();
+  app.add_flag_callback(
+         "-v,--verbose", [] { malus::console::setVerbosity(malus::console::Verbosity::verbose); }, "say more")
+      ->trigger_on_parse();
   app.add_flag("--list-methods", listMethods, "list the methods of rendering");
   app.add_flag("--list-materials", listMaterials, "list the materials with published n and k");
   app.add_flag("--list-devices", listDevices, "list the Vulkan devices");

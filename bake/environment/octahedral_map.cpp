@@ -19,7 +19,8 @@ constexpr double kPi = std::numbers::pi;
 // The picture as a function of direction.
 class LatLong {
  public:
-  LatLong(const image::Image& picture, std::string_view where, double scale) : width_(picture.width), height_(picture.height) {
+  LatLong(const image::Image& picture, std::string_view where, double scale)
+      : width_(picture.width), height_(picture.height) {
     const int r = picture.channel("R"), g = picture.channel("G"), b = picture.channel("B");
     if (r < 0 || g < 0 || b < 0) throw Error(where, "environment picture has no colour", "channels R, G and B");
     const auto channels = picture.channels.size();
@@ -29,7 +30,9 @@ class LatLong {
       const glm::dvec3 value(p[r], p[g], p[b]);
       for (int c = 0; c < 3; ++c)
         if (!std::isfinite(value[c]) || value[c] < 0)
-          throw Error(where, fmt::format("environment texel {}, {}", i % static_cast<std::size_t>(width_), i / static_cast<std::size_t>(width_)),
+          throw Error(where,
+                      fmt::format("environment texel {}, {}", i % static_cast<std::size_t>(width_),
+                                  i / static_cast<std::size_t>(width_)),
                       "a finite radiance of 0 or more", fmt::format("{}", value[c]));
       texels_[i] = value * scale;
     }
@@ -67,13 +70,15 @@ glm::dvec3 turnedAboutY(const glm::dvec3& d, double degrees) {
 struct Moments {
   std::array<glm::dvec3, 9> sums{};
   void add(const glm::dvec3& n, const glm::dvec3& light) {
-    const double basis[9] = {1, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3 * n.z * n.z - 1, n.x * n.z, n.x * n.x - n.y * n.y};
+    const double basis[9] = {
+        1, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3 * n.z * n.z - 1, n.x * n.z, n.x * n.x - n.y * n.y};
     for (std::size_t i = 0; i < 9; ++i) sums[i] += light * basis[i];
   }
   std::array<glm::dvec3, 9> coefficients() const {
-    const double k0 = 1 / (4 * kPi), k1 = 3 / (4 * kPi), k2 = 15 / (4 * kPi), k20 = 5 / (16 * kPi), k22 = 15 / (16 * kPi);
-    const double weights[9] = {kPi * k0,         2 * kPi / 3 * k1, 2 * kPi / 3 * k1, 2 * kPi / 3 * k1, kPi / 4 * k2,
-                               kPi / 4 * k2,     kPi / 4 * k20,    kPi / 4 * k2,     kPi / 4 * k22};
+    const double k0 = 1 / (4 * kPi), k1 = 3 / (4 * kPi), k2 = 15 / (4 * kPi), k20 = 5 / (16 * kPi),
+                 k22 = 15 / (16 * kPi);
+    const double weights[9] = {kPi * k0,     2 * kPi / 3 * k1, 2 * kPi / 3 * k1, 2 * kPi / 3 * k1, kPi / 4 * k2,
+                               kPi / 4 * k2, kPi / 4 * k20,    kPi / 4 * k2,     kPi / 4 * k22};
     std::array<glm::dvec3, 9> result = sums;
     for (std::size_t i = 0; i < 9; ++i) result[i] *= weights[i];
     return result;
@@ -92,19 +97,22 @@ void bakeEnvironment(const image::Image& picture, std::string_view where, double
     glm::dvec3 sum(0.0);
     for (const double dv : {0.25, 0.75})
       for (const double du : {0.25, 0.75})
-        sum += source.at(turnedAboutY(f64::directionFromOctahedral((i + du) / size, (j + dv) / size), -rotationDegrees));
+        sum +=
+            source.at(turnedAboutY(f64::directionFromOctahedral((i + du) / size, (j + dv) / size), -rotationDegrees));
     return sum * 0.25;
   };
   environment.size = static_cast<std::uint32_t>(size);
   const int row = size + 2;
   environment.texels.assign(static_cast<std::size_t>(row) * static_cast<std::size_t>(row), glm::vec3(0));
   const auto slot = [&](int i, int j) -> glm::vec3& {
-    return environment.texels[static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(row) + static_cast<std::size_t>(i + 1)];
+    return environment
+        .texels[static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(row) + static_cast<std::size_t>(i + 1)];
   };
   for (int j = 0; j < size; ++j)
     for (int i = 0; i < size; ++i) {
       const glm::dvec3 value = texelAt(i, j);
-      for (int c = 0; c < 3; ++c) slot(i, j)[c] = pack::floatFromHalf(pack::halfFromFloat(static_cast<float>(value[c])));
+      for (int c = 0; c < 3; ++c)
+        slot(i, j)[c] = pack::floatFromHalf(pack::halfFromFloat(static_cast<float>(value[c])));
     }
 
   // The border repeats what lies across the edges: each edge of the square is folded about its middle.

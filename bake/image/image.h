@@ -32,6 +32,7 @@ Image read(const std::filesystem::path& path);
 void writeExr(const std::filesystem::path& path, const Image& image);
 
 // 8-bit RGB or grey PNG from width * height * channels bytes, sRGB encoded already.
-void writePng(const std::filesystem::path& path, int width, int height, int channels, const std::vector<std::uint8_t>& pixels);
+void writePng(const std::filesystem::path& path, int width, int height, int channels,
+              const std::vector<std::uint8_t>& pixels);
 
 }  // namespace malus::image

@@ -20,7 +20,8 @@ std::string readImage(const std::string& path, Image& image) {
     const auto input = ImageInput::open(path);
     if (!input) return orElse(OIIO::geterror(), "unknown format");
     const ImageSpec spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64)
+    if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 ||
+        spec.nchannels < 1 || spec.nchannels > 64)
       return "unusual size";
     image.width = spec.width;
     image.height = spec.height;
@@ -67,9 +68,12 @@ std::string writeExrImage(const std::string& path, const Image& image) {
     } else if (const auto* number = std::get_if<double>(&value)) {
       spec.attribute(name, static_cast<float>(*number));
     } else if (const auto* list = std::get_if<std::vector<float>>(&value)) {
-      if (list->size() == 16) spec.attribute(name, TypeDesc::TypeMatrix44, list->data());
-      else if (list->size() == 3) spec.attribute(name, TypeDesc::TypeVector, list->data());
-      else spec.attribute(name, TypeDesc(TypeDesc::FLOAT, static_cast<int>(list->size())), list->data());
+      if (list->size() == 16)
+        spec.attribute(name, TypeDesc::TypeMatrix44, list->data());
+      else if (list->size() == 3)
+        spec.attribute(name, TypeDesc::TypeVector, list->data());
+      else
+        spec.attribute(name, TypeDesc(TypeDesc::FLOAT, static_cast<int>(list->size())), list->data());
     }
   }
   // OpenImageIO dates what it writes: an old date would differ too, so there is none.

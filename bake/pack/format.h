@@ -47,7 +47,7 @@ inline constexpr const char* kLights = "LGHT";
 inline constexpr const char* kMaterials = "MATL";
 inline constexpr const char* kMeshes = "MESH";
 inline constexpr const char* kGeometry = "GEOM";
-inline constexpr const char* kEffects = "EFCT";      // optional
-inline constexpr const char* kProvenance = "PROV";   // optional
+inline constexpr const char* kEffects = "EFCT";     // optional
+inline constexpr const char* kProvenance = "PROV";  // optional
 
 }  // namespace malus::pack

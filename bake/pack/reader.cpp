@@ -38,7 +38,9 @@ Pack readTable(std::span<const std::byte> bytes, std::string_view where) {
   header.raw(kMagic.size());
   pack.formatVersion = header.u32();
   if (pack.formatVersion != kFormatVersion)
-    throw Error(where, pack.formatVersion > kFormatVersion ? "scene pack is newer than this malus" : "scene pack is older than this malus reads",
+    throw Error(where,
+                pack.formatVersion > kFormatVersion ? "scene pack is newer than this malus"
+                                                    : "scene pack is older than this malus reads",
                 fmt::format("format version {}", kFormatVersion), fmt::format("{}", pack.formatVersion));
   const std::uint32_t count = header.u32AtMost(kMaxSections, "number of sections");
   const std::uint64_t fileBytes = header.u64();
@@ -66,19 +68,22 @@ Pack readTable(std::span<const std::byte> bytes, std::string_view where) {
     section.hash = reader.u64();
     if (section.offset % kAlignment != 0 || section.offset < end || section.offset > bytes.size() ||
         section.sizeBytes > bytes.size() - section.offset)
-      reader.fail(fmt::format("section {} lies outside the file or over another", section.id), "an offset past the last section",
+      reader.fail(fmt::format("section {} lies outside the file or over another", section.id),
+                  "an offset past the last section",
                   fmt::format("offset {}, size {}", section.offset, section.sizeBytes));
     // Padding is zero, so that no bit of the file is without meaning.
     for (std::uint64_t at = end; at < section.offset; ++at)
       if (bytes[static_cast<std::size_t>(at)] != std::byte{0})
         throw Error(fmt::format("{}, byte {}", where, at), "padding is damaged", "zero");
     end = section.offset + section.sizeBytes;
-    if (section.hash != hashOf(bytes.subspan(static_cast<std::size_t>(section.offset), static_cast<std::size_t>(section.sizeBytes))))
+    if (section.hash !=
+        hashOf(bytes.subspan(static_cast<std::size_t>(section.offset), static_cast<std::size_t>(section.sizeBytes))))
       throw Error(fmt::format("{}, byte {}", where, section.offset), fmt::format("section {} is damaged", section.id),
                   "a matching hash", "another");
     pack.sections.push_back(section);
   }
-  if (end != bytes.size()) throw Error(where, "bytes after the last section", fmt::format("{} bytes", end), fmt::format("{}", bytes.size()));
+  if (end != bytes.size())
+    throw Error(where, "bytes after the last section", fmt::format("{} bytes", end), fmt::format("{}", bytes.size()));
   return pack;
 }
 
@@ -123,7 +128,8 @@ void readEnvironment(ByteReader r, Environment& environment) {
     for (glm::vec3& t : environment.texels)
       for (int i = 0; i < 3; ++i) {
         t[i] = floatFromHalf(r.u16());
-        if (!std::isfinite(t[i]) || t[i] < 0) r.fail("environment texel", "a finite radiance of 0 or more", fmt::format("{}", t[i]));
+        if (!std::isfinite(t[i]) || t[i] < 0)
+          r.fail("environment texel", "a finite radiance of 0 or more", fmt::format("{}", t[i]));
       }
   }
   r.end();
@@ -143,7 +149,8 @@ void readLights(ByteReader r, std::vector<PointLight>& lights) {
 
 void readMaterials(ByteReader r, std::vector<Material>& materials) {
   const std::uint32_t count = r.count(124, "number of materials");
-  if (count > kMaxMaterials) r.fail("number of materials", fmt::format("at most {}", kMaxMaterials), fmt::format("{}", count));
+  if (count > kMaxMaterials)
+    r.fail("number of materials", fmt::format("at most {}", kMaxMaterials), fmt::format("{}", count));
   for (std::uint32_t i = 0; i < count; ++i) {
     Material m;
     m.name = r.text();
@@ -151,10 +158,13 @@ void readMaterials(ByteReader r, std::vector<Material>& materials) {
     m.eta = r.dvec3Between(0, kMaxEta, "index eta");
     m.k = r.dvec3Between(0, kMaxEta, "index k");
     for (int c = 0; c < 3; ++c)
-      if (m.eta[c] < kMinEta && m.k[c] < kMinEta) r.fail("index of refraction", "eta or k of at least 1e-3", "both below");
+      if (m.eta[c] < kMinEta && m.k[c] < kMinEta)
+        r.fail("index of refraction", "eta or k of at least 1e-3", "both below");
     if (m.kind == MaterialKind::glass || m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass)
       for (int c = 0; c < 3; ++c)
-        if (m.eta[c] < kMinEta || m.k[c] != 0) r.fail("index of a dielectric", "eta of at least 1e-3 and k = 0", fmt::format("eta {}, k {}", m.eta[c], m.k[c]));
+        if (m.eta[c] < kMinEta || m.k[c] != 0)
+          r.fail("index of a dielectric", "eta of at least 1e-3 and k = 0",
+                 fmt::format("eta {}, k {}", m.eta[c], m.k[c]));
     m.outsideEta = r.f64Between(kMinEta, kMaxEta, "outside index");
     m.albedo = r.dvec3Between(0, 1, "albedo");
     m.radiance = r.dvec3Between(0, kMaxLight, "radiance");
@@ -174,22 +184,27 @@ void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::string_v
     mesh.name = r.text();
     mesh.material = r.u32();
     if (mesh.material >= pack.scene.materials.size())
-      r.fail("material of a mesh", fmt::format("an index below {}", pack.scene.materials.size()), fmt::format("{}", mesh.material));
+      r.fail("material of a mesh", fmt::format("an index below {}", pack.scene.materials.size()),
+             fmt::format("{}", mesh.material));
     const std::uint32_t flags = r.u32AtMost(3, "flags of a mesh");
     mesh.sheet = (flags & 1) != 0;
-    const compress::Limits limits{r.u32AtMost(kMaxVertices, "vertices of a mesh"), r.u32AtMost(kMaxTriangles, "triangles of a mesh")};
+    const compress::Limits limits{r.u32AtMost(kMaxVertices, "vertices of a mesh"),
+                                  r.u32AtMost(kMaxTriangles, "triangles of a mesh")};
     const std::uint32_t method = r.u32AtMost(1, "encoding of a mesh");
     const std::uint64_t offset = r.u64(), size = r.u64();
     if (offset > geometry.size() || size > geometry.size() - offset)
-      r.fail(fmt::format("geometry of mesh '{}'", mesh.name), fmt::format("bytes within the {} of section GEOM", geometry.size()),
+      r.fail(fmt::format("geometry of mesh '{}'", mesh.name),
+             fmt::format("bytes within the {} of section GEOM", geometry.size()),
              fmt::format("offset {}, size {}", offset, size));
     vertices += limits.vertices;
     triangles += limits.triangles;
-    if (vertices > kMaxVertices || triangles > kMaxTriangles) r.fail("geometry is too large", "at most 2^28 vertices and triangles", "more");
+    if (vertices > kMaxVertices || triangles > kMaxTriangles)
+      r.fail("geometry is too large", "at most 2^28 vertices and triangles", "more");
     compress::TriangleMesh decoded =
         compress::decode(geometry.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size)), limits,
                          fmt::format("{}, mesh '{}'", where, mesh.name));
-    if (decoded.normals.empty() != ((flags & 2) == 0)) r.fail(fmt::format("normals of mesh '{}'", mesh.name), "as the table says", "otherwise");
+    if (decoded.normals.empty() != ((flags & 2) == 0))
+      r.fail(fmt::format("normals of mesh '{}'", mesh.name), "as the table says", "otherwise");
     mesh.positions = std::move(decoded.positions);
     mesh.normals = std::move(decoded.normals);
     mesh.triangles = std::move(decoded.triangles);
@@ -226,15 +241,19 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
     return found;
   };
   for (const Section& section : pack.sections) {
-    static const char* const kKnown[] = {kMeta, kCamera, kEnvironment, kLights, kMaterials, kMeshes, kGeometry, kEffects, kProvenance};
-    const bool known = std::any_of(std::begin(kKnown), std::end(kKnown), [&](const char* id) { return section.id == id; });
+    static const char* const kKnown[] = {kMeta,   kCamera,   kEnvironment, kLights,    kMaterials,
+                                         kMeshes, kGeometry, kEffects,     kProvenance};
+    const bool known =
+        std::any_of(std::begin(kKnown), std::end(kKnown), [&](const char* id) { return section.id == id; });
     if (!known && (section.flags & kOptional) == 0)
       throw Error(where, fmt::format("section {} is required and unknown to this malus", section.id), "a newer malus");
     if (known && section.version != 1)
-      throw Error(where, fmt::format("section {} has an unknown version", section.id), "1", fmt::format("{}", section.version));
+      throw Error(where, fmt::format("section {} has an unknown version", section.id), "1",
+                  fmt::format("{}", section.version));
   }
   const auto body = [&](std::size_t i) {
-    return bytes.subspan(static_cast<std::size_t>(pack.sections[i].offset), static_cast<std::size_t>(pack.sections[i].sizeBytes));
+    return bytes.subspan(static_cast<std::size_t>(pack.sections[i].offset),
+                         static_cast<std::size_t>(pack.sections[i].sizeBytes));
   };
   const auto reader = [&](std::size_t i) { return ByteReader(body(i), pack.sections[i].offset, where); };
   readMeta(reader(*find(kMeta, true)), pack.scene);

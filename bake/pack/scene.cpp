@@ -4,12 +4,18 @@ namespace malus::pack {
 
 std::string_view nameOf(MaterialKind kind) {
   switch (kind) {
-    case MaterialKind::lambert: return "lambert";
-    case MaterialKind::paint: return "paint";
-    case MaterialKind::mirrorGlass: return "mirror-glass";
-    case MaterialKind::metal: return "metal";
-    case MaterialKind::glass: return "glass";
-    case MaterialKind::emitter: return "emitter";
+    case MaterialKind::lambert:
+      return "lambert";
+    case MaterialKind::paint:
+      return "paint";
+    case MaterialKind::mirrorGlass:
+      return "mirror-glass";
+    case MaterialKind::metal:
+      return "metal";
+    case MaterialKind::glass:
+      return "glass";
+    case MaterialKind::emitter:
+      return "emitter";
   }
   return "unknown";
 }

@@ -24,12 +24,12 @@ inline constexpr double kMaxEta = 1e3;
 struct Material {
   std::string name;
   MaterialKind kind = MaterialKind::lambert;
-  glm::dvec3 eta{1.0};        // index eta - i k, per colour; glass uses the green one for every colour
+  glm::dvec3 eta{1.0};  // index eta - i k, per colour; glass uses the green one for every colour
   glm::dvec3 k{0.0};
-  double outsideEta = 1.0;    // index on the side that the normals point to
-  glm::dvec3 albedo{0.0};     // diffuse reflectance, 0 to 1
-  glm::dvec3 radiance{0.0};   // of an emitter
-  double highlightStrength = 0.0;  // 0: no highlight
+  double outsideEta = 1.0;              // index on the side that the normals point to
+  glm::dvec3 albedo{0.0};               // diffuse reflectance, 0 to 1
+  glm::dvec3 radiance{0.0};             // of an emitter
+  double highlightStrength = 0.0;       // 0: no highlight
   std::uint32_t highlightExponent = 0;  // 1 to 4095
 };
 
@@ -51,10 +51,10 @@ struct Camera {
 // Light from infinity: constant, or an octahedral map with a border of one texel all around that repeats
 // what lies across the map's edges (size + 2 texels a side, row by row).
 struct Environment {
-  glm::dvec3 radiance{0.0};        // where size is 0
-  std::uint32_t size = 0;          // texels a side without the border
-  std::vector<glm::vec3> texels;   // (size + 2)^2, each exactly a half float
-  double diffuseFill = 0.0;        // share of its irradiance that reaches diffuse surfaces
+  glm::dvec3 radiance{0.0};                // where size is 0
+  std::uint32_t size = 0;                  // texels a side without the border
+  std::vector<glm::vec3> texels;           // (size + 2)^2, each exactly a half float
+  double diffuseFill = 0.0;                // share of its irradiance that reaches diffuse surfaces
   std::array<glm::dvec3, 9> irradiance{};  // coefficients of irradiancePolynomial (shaders/optics/environment.h)
 };
 
@@ -64,7 +64,7 @@ struct Mesh {
   std::uint32_t material = 0;  // index into materials
   bool sheet = false;          // an open transmitting surface on purpose
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  // unit, one per position; empty: those of the faces
+  std::vector<glm::vec3> normals;     // unit, one per position; empty: those of the faces
   std::vector<glm::uvec3> triangles;  // counter-clockwise seen from outside
 };
 

@@ -19,7 +19,7 @@ struct WriteSettings {
 struct MeshCompression {
   std::string method;  // "edgebreaker" or "sequential"
   std::size_t sizeBytes = 0;
-  float positionErrorMax = 0;       // metres
+  float positionErrorMax = 0;  // metres
   float normalErrorMaxDegrees = 0;
 };
 

@@ -25,7 +25,9 @@ json parseJson(const std::filesystem::path& path) {
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
+    const auto line =
+        1 +
+        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
     throw Error(fmt::format("{}:{}", path.string(), line), "is not JSON", "bake/SCENE.md's schema", error.what());
   }
 }
@@ -41,7 +43,8 @@ void readCamera(StrictObject camera, SceneDescription& scene) {
 
 void readEnvironment(StrictObject environment, SceneDescription& scene) {
   const bool constant = environment.has("radiance"), image = environment.has("image");
-  if (constant == image) environment.fail("radiance", "and image exclude each other", "one of the two", constant ? "both" : "neither");
+  if (constant == image)
+    environment.fail("radiance", "and image exclude each other", "one of the two", constant ? "both" : "neither");
   if (constant) scene.environmentRadiance = environment.vector("radiance", 0, kBright);
   if (image) {
     scene.environmentImage = scene.file.parent_path() / environment.text("image");
@@ -60,7 +63,8 @@ pack::MaterialKind kindNamed(StrictObject& material) {
     names.emplace_back(pack::nameOf(kind));
     if (type == names.back()) return kind;
   }
-  material.fail("type", "unknown type of material", fmt::format("{}", fmt::join(names, ", ")), fmt::format("'{}'", type));
+  material.fail("type", "unknown type of material", fmt::format("{}", fmt::join(names, ", ")),
+                fmt::format("'{}'", type));
 }
 
 // The complex index: a preset's, or eta and k.
@@ -73,7 +77,8 @@ void readIndex(StrictObject& material, pack::Material& result, bool dielectric) 
     if (!found) {
       const std::string near = nearestName(name, materialNames());
       material.fail("preset", fmt::format("unknown material '{}'", name),
-                    near.empty() ? "a name from 'malus --list-materials'" : fmt::format("'{}' or another from 'malus --list-materials'", near));
+                    near.empty() ? "a name from 'malus --list-materials'"
+                                 : fmt::format("'{}' or another from 'malus --list-materials'", near));
     }
     result.eta = found->eta;
     result.k = found->k;
@@ -84,7 +89,8 @@ void readIndex(StrictObject& material, pack::Material& result, bool dielectric) 
   for (int c = 0; c < 3; ++c) {
     if (dielectric && result.k[c] != 0) material.fail("k", "of a dielectric", "0", fmt::format("{}", result.k[c]));
     if (result.eta[c] < pack::kMinEta && (dielectric || result.k[c] < pack::kMinEta))
-      material.fail("eta", "is too small", fmt::format("{:g} or more", pack::kMinEta), fmt::format("{}", result.eta[c]));
+      material.fail("eta", "is too small", fmt::format("{:g} or more", pack::kMinEta),
+                    fmt::format("{}", result.eta[c]));
   }
 }
 
@@ -99,7 +105,8 @@ pack::Material readMaterial(const std::string& name, StrictObject material) {
     if (kind == Kind::paint) result.eta = glm::dvec3(1.5);
     const bool optional = kind == Kind::paint;
     readIndex(material, result, kind != Kind::metal);
-    if (!optional && result.eta == glm::dvec3(1.0) && kind != Kind::metal && !material.has("preset") && !material.has("eta"))
+    if (!optional && result.eta == glm::dvec3(1.0) && kind != Kind::metal && !material.has("preset") &&
+        !material.has("eta"))
       material.fail("preset", "is missing", "a preset, or eta");
   }
   result.outsideEta = material.number("outsideEta", pack::kMinEta, pack::kMaxEta, 1);
@@ -185,10 +192,12 @@ SceneDescription readSceneFile(const std::filesystem::path& path) {
 
   if (top.has("lights")) {
     const json& lights = top.at("lights");
-    if (!lights.is_array() || lights.size() > pack::kMaxLights) top.fail("lights", "is no list", fmt::format("a list of at most {} lights", pack::kMaxLights));
+    if (!lights.is_array() || lights.size() > pack::kMaxLights)
+      top.fail("lights", "is no list", fmt::format("a list of at most {} lights", pack::kMaxLights));
     for (std::size_t i = 0; i < lights.size(); ++i) {
       StrictObject light(lights[i], where, fmt::format("lights[{}]", i));
-      if (const std::string type = light.text("type"); type != "point") light.fail("type", "unknown type of light", "'point'", fmt::format("'{}'", type));
+      if (const std::string type = light.text("type"); type != "point")
+        light.fail("type", "unknown type of light", "'point'", fmt::format("'{}'", type));
       pack::PointLight point;
       point.position = light.vector("position", -kFar, kFar);
       point.intensity = light.vector("intensity", 0, kBright);
@@ -200,7 +209,8 @@ SceneDescription readSceneFile(const std::filesystem::path& path) {
   StrictObject materials = top.object("materials");
   for (const auto& item : top.at("materials").items())
     scene.materials.push_back(readMaterial(item.key(), {item.value(), where, fmt::format("materials.{}", item.key())}));
-  if (scene.materials.size() > pack::kMaxMaterials) top.fail("materials", "too many", fmt::format("at most {}", pack::kMaxMaterials));
+  if (scene.materials.size() > pack::kMaxMaterials)
+    top.fail("materials", "too many", fmt::format("at most {}", pack::kMaxMaterials));
 
   const json& meshes = top.at("meshes");
   if (!meshes.is_array() || meshes.empty()) top.fail("meshes", "is no list", "a list of one mesh or more");

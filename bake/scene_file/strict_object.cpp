@@ -98,7 +98,8 @@ bool StrictObject::flag(const char* key, bool fallback) {
 double StrictObject::checkedNumber(const json& value, const char* key, double low, double high) const {
   if (!value.is_number()) fail(key, "is no number", "a number", shown(value));
   const double number = value.get<double>();
-  if (!(number >= low && number <= high)) fail(key, "is out of range", fmt::format("{:g} to {:g}", low, high), shown(value));
+  if (!(number >= low && number <= high))
+    fail(key, "is out of range", fmt::format("{:g} to {:g}", low, high), shown(value));
   return number;
 }
 

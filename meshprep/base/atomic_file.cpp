@@ -82,7 +82,8 @@ void writeBeside(const fs::path& path, const std::function<void(const fs::path&)
   static std::atomic<unsigned> counter{0};
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) throw Error(path.string(), "cannot write", "an existing folder", folder.string());
+  if (!fs::is_directory(folder, ignored))
+    throw Error(path.string(), "cannot write", "an existing folder", folder.string());
   if (fs::is_directory(path, ignored)) throw Error(path.string(), "cannot write", "a file name", "a folder");
   const fs::path temporary =
       folder / fmt::format(".{}.{}-{}.part{}", path.stem().string(), ::getpid(), counter++, path.extension().string());

@@ -65,6 +65,7 @@ Polygons scanOff(std::string& bytes, std::string_view where) {
   if (after.empty()) {
     rest = nextLine("three counts");
   } else {
+    rest.remove_prefix(1);
     bytes[headerBegin + length] = '\n';
   }
 

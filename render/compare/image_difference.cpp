@@ -14,7 +14,8 @@ namespace {
 
 void requireSameSize(const image::Image& a, const image::Image& b) {
   if (a.width != b.width || a.height != b.height)
-    throw Error("", "pictures differ in size", fmt::format("{} x {}", a.width, a.height), fmt::format("{} x {}", b.width, b.height));
+    throw Error("", "pictures differ in size", fmt::format("{} x {}", a.width, a.height),
+                fmt::format("{} x {}", b.width, b.height));
 }
 
 std::size_t channelOf(const image::Image& image, const std::string& name) {
@@ -78,7 +79,8 @@ image::Image differencePicture(const image::Image& a, const image::Image& b, dou
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t ca = channelOf(a, result.channels[c]), cb = channelOf(b, result.channels[c]);
     for (std::size_t i = 0; i * 3 < result.pixels.size(); ++i)
-      result.pixels[3 * i + c] = static_cast<float>(gain * std::abs(double{a.pixels[i * a.channels.size() + ca]} - b.pixels[i * b.channels.size() + cb]));
+      result.pixels[3 * i + c] = static_cast<float>(
+          gain * std::abs(double{a.pixels[i * a.channels.size() + ca]} - b.pixels[i * b.channels.size() + cb]));
   }
   return result;
 }

@@ -13,7 +13,7 @@ struct ImageDifference {
   double mean = 0;  // of the absolute differences, over pixels and channels
   double rms = 0;
   double max = 0;
-  double p999 = 0;      // 99.9 percentile, over pixels, of the largest difference among the channels
+  double p999 = 0;             // 99.9 percentile, over pixels, of the largest difference among the channels
   std::uint64_t outliers = 0;  // pixels whose largest difference is over the threshold
   std::uint64_t pixels = 0;
   std::uint64_t nonFinite = 0;  // pixels with NaN or infinity in one picture only, or in both; also outliers

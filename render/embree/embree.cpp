@@ -15,17 +15,23 @@ std::string Bvh::version() {
 
 Bvh::Bvh(const render::FloatScene& scene, unsigned threads) {
   device_ = rtcNewDevice(threads == 0 ? "" : fmt::format("threads={}", threads).c_str());
-  if (!device_) throw Error("Embree", "cannot make a device", "", fmt::format("error {}", static_cast<int>(rtcGetDeviceError(nullptr))));
+  if (!device_)
+    throw Error("Embree", "cannot make a device", "",
+                fmt::format("error {}", static_cast<int>(rtcGetDeviceError(nullptr))));
   scene_ = rtcNewScene(device_);
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     // Embree's own buffers: it reads 16 bytes for every 12-byte vertex.
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), scene.meshVertices[i]);
-    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), scene.meshTriangles[i]);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
+                                             scene.meshVertices[i]);
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
+                                            scene.meshTriangles[i]);
     if (vertices && indices) {
-      std::memcpy(vertices, scene.positions.data() + scene.meshes[i].firstVertex, scene.meshVertices[i] * sizeof(glm::vec3));
-      std::memcpy(indices, scene.triangles.data() + scene.meshes[i].firstTriangle, scene.meshTriangles[i] * sizeof(glm::uvec3));
+      std::memcpy(vertices, scene.positions.data() + scene.meshes[i].firstVertex,
+                  scene.meshVertices[i] * sizeof(glm::vec3));
+      std::memcpy(indices, scene.triangles.data() + scene.meshes[i].firstTriangle,
+                  scene.meshTriangles[i] * sizeof(glm::uvec3));
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(i));
@@ -33,7 +39,8 @@ Bvh::Bvh(const render::FloatScene& scene, unsigned threads) {
   }
   rtcCommitScene(scene_);
   if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-    throw Error("Embree", "cannot build the acceleration structure", "", fmt::format("error {}", static_cast<int>(error)));
+    throw Error("Embree", "cannot build the acceleration structure", "",
+                fmt::format("error {}", static_cast<int>(error)));
 }
 
 Bvh::~Bvh() {

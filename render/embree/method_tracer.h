@@ -47,15 +47,21 @@ struct Tracer : MALUS_METHOD {
     const real3* p = scene.positions.data() + mesh.firstVertex;
     const real3* n = scene.normals.data() + mesh.firstVertex;
     const real b0 = 1 - at.b1 - at.b2;
-    const real3 interpolated = mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * at.b1 + n[corner.z] * at.b2 : real3(0);
+    const real3 interpolated =
+        mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * at.b1 + n[corner.z] * at.b2 : real3(0);
     const Material& material = scene.materials[mesh.material];
     const Hit hit = makeHit(direction, p[corner.x], p[corner.y], p[corner.z], at.b1, at.b2, interpolated, depth);
     switch (material.kind) {
-      case kLambert: return shadeLambert(hit, material);
-      case kPaint: return shadePaint(hit, material);
-      case kMetal: return shadeMetal(hit, material);
-      case kGlass: return shadeGlass(hit, material);
-      default: return shadeEmitter(hit, material);
+      case kLambert:
+        return shadeLambert(hit, material);
+      case kPaint:
+        return shadePaint(hit, material);
+      case kMetal:
+        return shadeMetal(hit, material);
+      case kGlass:
+        return shadeGlass(hit, material);
+      default:
+        return shadeEmitter(hit, material);
     }
   }
 };

@@ -17,7 +17,9 @@ namespace malus::embree {
 using Clock = std::chrono::steady_clock;
 
 namespace {
-double sinceMs(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+double sinceMs(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 constexpr std::size_t kTileSide = 16;
 }  // namespace
 
@@ -60,11 +62,12 @@ render::Picture Renderer::render(std::string_view name, const render::View& view
   std::atomic<std::uint64_t> rays{0};
   tbb::task_arena arena(impl_->threads);
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range2d<std::uint32_t>(0, view.region.height, kTileSide, 0, view.region.width, kTileSide),
-                      [&](const tbb::blocked_range2d<std::uint32_t>& r) {
-                        rays += method->renderTile({impl_->bvh.get(), &impl_->scene, &frame, r.cols().begin(), r.rows().begin(),
-                                                    r.cols().end(), r.rows().end(), picture.pixels.data()});
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range2d<std::uint32_t>(0, view.region.height, kTileSide, 0, view.region.width, kTileSide),
+        [&](const tbb::blocked_range2d<std::uint32_t>& r) {
+          rays += method->renderTile({impl_->bvh.get(), &impl_->scene, &frame, r.cols().begin(), r.rows().begin(),
+                                      r.cols().end(), r.rows().end(), picture.pixels.data()});
+        });
   });
   picture.cost.traceMs = picture.cost.wallMs = sinceMs(start);
   picture.cost.buildMs = impl_->buildMs;

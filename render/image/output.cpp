@@ -26,8 +26,11 @@ image::Image toImage(const Picture& picture, const pack::Pack& pack, const View&
   // Row vectors times this matrix: OpenEXR's convention; the camera looks along -z.
   std::vector<float> worldToCamera;
   for (int row = 0; row < 4; ++row) {
-    const auto entry = [&](const glm::dvec3& axis) { return static_cast<float>(row < 3 ? axis[row] : -dot(eye, axis)); };
-    worldToCamera.insert(worldToCamera.end(), {entry(camera.right), entry(camera.up), entry(-camera.forward), row < 3 ? 0.0f : 1.0f});
+    const auto entry = [&](const glm::dvec3& axis) {
+      return static_cast<float>(row < 3 ? axis[row] : -dot(eye, axis));
+    };
+    worldToCamera.insert(worldToCamera.end(),
+                         {entry(camera.right), entry(camera.up), entry(-camera.forward), row < 3 ? 0.0f : 1.0f});
   }
   result.attributes = {
       {"worldToCamera", worldToCamera},
@@ -39,8 +42,10 @@ image::Image toImage(const Picture& picture, const pack::Pack& pack, const View&
       {"malus:depth", static_cast<double>(view.depth)},
       {"malus:samples", static_cast<double>(view.samples)},
       {"malus:verticalFovDegrees", camera.verticalFovDegrees},
-      {"malus:analyser", fmt::format("{:g} {:g} {:g} {:g}", view.analyser[0], view.analyser[1], view.analyser[2], view.analyser[3])},
-      {"malus:region", fmt::format("{} {} {} {} of {} {}", view.region.x, view.region.y, view.region.width, view.region.height, view.width, view.height)},
+      {"malus:analyser",
+       fmt::format("{:g} {:g} {:g} {:g}", view.analyser[0], view.analyser[1], view.analyser[2], view.analyser[3])},
+      {"malus:region", fmt::format("{} {} {} {} of {} {}", view.region.x, view.region.y, view.region.width,
+                                   view.region.height, view.width, view.height)},
   };
   return result;
 }
@@ -67,9 +72,13 @@ std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureE
 
 void writePicture(const std::filesystem::path& path, const image::Image& image, double exposureEv) {
   const std::string extension = path.extension().string();
-  if (extension == ".exr") image::writeExr(path, image);
-  else if (extension == ".png") image::writePng(path, image.width, image.height, 3, toneMapped(image, exposureEv));
-  else throw Error(path.string(), "unknown kind of picture", ".exr or .png", extension.empty() ? "no extension" : extension);
+  if (extension == ".exr")
+    image::writeExr(path, image);
+  else if (extension == ".png")
+    image::writePng(path, image.width, image.height, 3, toneMapped(image, exposureEv));
+  else
+    throw Error(path.string(), "unknown kind of picture", ".exr or .png",
+                extension.empty() ? "no extension" : extension);
 }
 
 }  // namespace malus::render

@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
 
 #include "render/embree/embree.h"
 #include "render/scene/float_scene.h"
@@ -37,7 +37,8 @@ Light operator*(const Mueller& m, const Light& l) { return {m[0] * l[0], m[1] * 
 
 // Rows as one writes them; glm's constructor takes columns.
 dmat4 rows(const std::array<double, 16>& r) {
-  return glm::transpose(dmat4(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9], r[10], r[11], r[12], r[13], r[14], r[15]));
+  return glm::transpose(
+      dmat4(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9], r[10], r[11], r[12], r[13], r[14], r[15]));
 }
 
 // [[A, B, 0, 0], [B, A, 0, 0], [0, 0, Re X, -Im X], [0, 0, Im X, Re X]]
@@ -47,7 +48,9 @@ dmat4 interfaceMatrix(double s, double p, double xRe, double xIm) {
 }
 
 // A frame turned by f: (S1, S2) -> [[cos 2f, sin 2f], [-sin 2f, cos 2f]] (S1, S2).
-dmat4 turnMatrix(double cos2, double sin2) { return rows({1, 0, 0, 0, 0, cos2, sin2, 0, 0, -sin2, cos2, 0, 0, 0, 0, 1}); }
+dmat4 turnMatrix(double cos2, double sin2) {
+  return rows({1, 0, 0, 0, 0, cos2, sin2, 0, 0, -sin2, cos2, 0, 0, 0, 0, 1});
+}
 
 // From the canonical frame of a ray in direction d to the frame whose x is the s direction of normal n.
 dmat4 toSurface(const dvec3& d, const dvec3& n) {
@@ -70,7 +73,8 @@ Interface interfaceOf(const pack::Material& m, double c, double n1, double n2) {
   for (std::size_t i = 0; i < 3; ++i) {
     const int colour = static_cast<int>(i);
     const bool metal = m.kind == MaterialKind::metal;
-    const f64::Reflectance r = metal ? f64::conductorReflectance(c, n1, m.eta[colour], m.k[colour]) : f64::dielectricReflectance(c, n1, n2);
+    const f64::Reflectance r =
+        metal ? f64::conductorReflectance(c, n1, m.eta[colour], m.k[colour]) : f64::dielectricReflectance(c, n1, n2);
     const double cross = metal ? 0 : f64::dielectricTransmittance(c, n1, n2).x;
     result.reflection[i] = interfaceMatrix(r.rs, r.rp, r.xRe, r.xIm);
     result.transmission[i] = interfaceMatrix(1 - r.rs, 1 - r.rp, cross, 0);
@@ -120,10 +124,13 @@ struct Tracer {
     }
     const double b0 = 1 - b1 - b2;
     hit.position = p0 * b0 + p1 * b1 + p2 * b2;
-    hit.error = f64::hitPointError(p0, p1, p2, b0, b1, b2, 0x1p-24);  // the next query is made in float
+    // The next query is made in float.
+    hit.error =
+        f64::hitPointError(p0, p1, p2, b0, b1, b2, 0x1p-24) + f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
     hit.outside = glm::dot(d, hit.face) < 0;
     const dvec3 interpolated = mesh.normals.empty() ? hit.face
-                                                    : dvec3(mesh.normals[t.x]) * b0 + dvec3(mesh.normals[t.y]) * b1 + dvec3(mesh.normals[t.z]) * b2;
+                                                    : dvec3(mesh.normals[t.x]) * b0 + dvec3(mesh.normals[t.y]) * b1 +
+                                                          dvec3(mesh.normals[t.z]) * b2;
     hit.normal = f64::shadingNormal(d, hit.face, glm::length(interpolated) > 0 ? interpolated : hit.face);
     if (!hit.outside) hit.face = -hit.face;
     hit.c = f64::clampUnit(-glm::dot(d, hit.normal));
@@ -139,18 +146,21 @@ struct Tracer {
     double u, v;
     f64::octahedralFromDirection(d, u, v);
     const double x = u * e.size + 0.5, y = v * e.size + 0.5;
-    const auto ix = std::min(static_cast<std::size_t>(x), std::size_t{e.size}), iy = std::min(static_cast<std::size_t>(y), std::size_t{e.size});
+    const auto ix = std::min(static_cast<std::size_t>(x), std::size_t{e.size}),
+               iy = std::min(static_cast<std::size_t>(y), std::size_t{e.size});
     const double fx = x - static_cast<double>(ix), fy = y - static_cast<double>(iy);
     const std::size_t row = e.size + 2, at = iy * row + ix;
     const auto texel = [&](std::size_t i) { return dvec3(e.texels[i]); };
-    return (texel(at) * (1 - fx) + texel(at + 1) * fx) * (1 - fy) + (texel(at + row) * (1 - fx) + texel(at + row + 1) * fx) * fy;
+    return (texel(at) * (1 - fx) + texel(at + 1) * fx) * (1 - fy) +
+           (texel(at + row) * (1 - fx) + texel(at + row + 1) * fx) * fy;
   }
 
   dvec3 fillIrradiance(const dvec3& n) const {
     dvec3 result;
     const auto& c = scene.environment.irradiance;
     for (int i = 0; i < 3; ++i)
-      result[i] = f64::irradiancePolynomial(n, c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i], c[6][i], c[7][i], c[8][i]);
+      result[i] =
+          f64::irradiancePolynomial(n, c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i], c[6][i], c[7][i], c[8][i]);
     return result;
   }
 
@@ -158,7 +168,8 @@ struct Tracer {
   void directLight(const Hit& h, std::uint32_t depth, const dvec3& mirror, dvec3& diffuse, dvec3& highlight) {
     const pack::Material& m = *h.material;
     diffuse = highlight = dvec3(0);
-    const bool isDiffuse = m.albedo.x > 0 || m.albedo.y > 0 || m.albedo.z > 0, isGlossy = m.highlightStrength > 0 && depth > 0;
+    const bool isDiffuse = m.albedo.x > 0 || m.albedo.y > 0 || m.albedo.z > 0,
+               isGlossy = m.highlightStrength > 0 && depth > 0;
     if (!isDiffuse && !isGlossy) return;
     for (const pack::PointLight& light : scene.lights) {
       const dvec3 toLight = light.position - h.position;
@@ -166,17 +177,21 @@ struct Tracer {
       const dvec3 l = toLight / distance;
       const double c = glm::dot(h.normal, l);
       if (c <= 0 || glm::dot(h.face, l) <= 0) continue;
-      const double lobe = isGlossy ? m.highlightStrength * f64::phongLobe(mirror, l, static_cast<int>(m.highlightExponent)) : 0;
+      const double lobe =
+          isGlossy ? m.highlightStrength * f64::phongLobe(mirror, l, static_cast<int>(m.highlightExponent)) : 0;
       if (!isDiffuse && lobe <= 0) continue;
       ++rays;
       if (!bvh.visible(glm::vec3(queryAbove(h)), glm::vec3(l), static_cast<float>(distance))) continue;
       const dvec3 arriving = light.intensity / (distance * distance);
-      const dvec3 entering = m.kind == MaterialKind::lambert ? dvec3(1) : interfaceOf(m, std::min(c, 1.0), m.outsideEta, m.eta.y).meanTransmittance;
+      const dvec3 entering = m.kind == MaterialKind::lambert
+                                 ? dvec3(1)
+                                 : interfaceOf(m, std::min(c, 1.0), m.outsideEta, m.eta.y).meanTransmittance;
       if (isDiffuse) diffuse += f64::lambertRadiance(m.albedo, arriving * c, entering);
       highlight += arriving * lobe;
     }
     if (isDiffuse && scene.environment.diffuseFill > 0)
-      diffuse += f64::lambertRadiance(m.albedo, fillIrradiance(h.normal) * scene.environment.diffuseFill, fillTransmittance[h.materialIndex]);
+      diffuse += f64::lambertRadiance(m.albedo, fillIrradiance(h.normal) * scene.environment.diffuseFill,
+                                      fillTransmittance[h.materialIndex]);
     const double basic = 1 / (m.outsideEta * m.outsideEta);
     diffuse *= basic;
     highlight *= basic;
@@ -189,7 +204,8 @@ struct Tracer {
     const pack::Material& m = *h.material;
 
     // Surfaces without an interface.
-    if (m.kind == MaterialKind::emitter) return unpolarized(h.outside ? m.radiance / (m.outsideEta * m.outsideEta) : dvec3(0));
+    if (m.kind == MaterialKind::emitter)
+      return unpolarized(h.outside ? m.radiance / (m.outsideEta * m.outsideEta) : dvec3(0));
     dvec3 diffuse, highlight;
     if (m.kind == MaterialKind::lambert) {
       directLight(h, depth, h.normal, diffuse, highlight);
@@ -245,7 +261,8 @@ render::Picture render(const pack::Scene& scene, const render::View& view, unsig
   picture.pixels.resize(picture.channels * picture.width * picture.height);
   picture.device = fmt::format("double precision on {}", embree::Bvh::version());
   const pack::Camera& camera = scene.camera;
-  const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi), tanX = tanY * view.width / view.height;
+  const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi),
+               tanX = tanY * view.width / view.height;
   const double toRadiance = camera.mediumEta * camera.mediumEta;
   std::atomic<std::uint64_t> rays{0};
 
@@ -265,15 +282,18 @@ render::Picture render(const pack::Scene& scene, const render::View& view, unsig
       const double scale = toRadiance / (static_cast<double>(view.samples) * view.samples);
       for (std::size_t c = 0; c < 3; ++c) {
         const dvec4 s = sum[c] * scale;
-        out[c] = static_cast<float>(s[0] * view.analyser[0] + s[1] * view.analyser[1] + s[2] * view.analyser[2] + s[3] * view.analyser[3]);
+        out[c] = static_cast<float>(s[0] * view.analyser[0] + s[1] * view.analyser[1] + s[2] * view.analyser[2] +
+                                    s[3] * view.analyser[3]);
         for (std::size_t k = 0; k < 4; ++k) out[3 + 3 * k + c] = static_cast<float>(s[static_cast<int>(k)]);
       }
     }
     rays += tracer.rays;
   };
   const auto traceAll = [&] { tbb::parallel_for(std::uint32_t{0}, view.region.height, row); };
-  if (threads == 0) traceAll();
-  else tbb::task_arena(static_cast<int>(threads)).execute(traceAll);
+  if (threads == 0)
+    traceAll();
+  else
+    tbb::task_arena(static_cast<int>(threads)).execute(traceAll);
 
   const auto ms = [](auto from, auto to) { return std::chrono::duration<double, std::milli>(to - from).count(); };
   picture.cost.buildMs = ms(start, built);

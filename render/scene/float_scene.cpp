@@ -9,12 +9,18 @@ namespace malus::render {
 
 gpu::SurfaceKind surfaceKind(pack::MaterialKind kind) {
   switch (kind) {
-    case pack::MaterialKind::lambert: return gpu::kLambert;
-    case pack::MaterialKind::paint: return gpu::kPaint;
-    case pack::MaterialKind::mirrorGlass: return gpu::kPaint;  // paint without albedo
-    case pack::MaterialKind::metal: return gpu::kMetal;
-    case pack::MaterialKind::glass: return gpu::kGlass;
-    case pack::MaterialKind::emitter: return gpu::kEmitter;
+    case pack::MaterialKind::lambert:
+      return gpu::kLambert;
+    case pack::MaterialKind::paint:
+      return gpu::kPaint;
+    case pack::MaterialKind::mirrorGlass:
+      return gpu::kPaint;  // paint without albedo
+    case pack::MaterialKind::metal:
+      return gpu::kMetal;
+    case pack::MaterialKind::glass:
+      return gpu::kGlass;
+    case pack::MaterialKind::emitter:
+      return gpu::kEmitter;
   }
   return gpu::kLambert;
 }

@@ -17,8 +17,8 @@ struct FloatScene {
   std::vector<std::uint32_t> meshTriangles;  // triangles of each mesh
   std::vector<std::uint32_t> meshVertices;
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  // one a position; of flat meshes (0, 0, 0)
-  std::vector<glm::uvec3> triangles;  // indices within their mesh
+  std::vector<glm::vec3> normals;            // one a position; of flat meshes (0, 0, 0)
+  std::vector<glm::uvec3> triangles;         // indices within their mesh
   std::vector<glm::vec3> environmentTexels;  // with their border; one texel where there is no map
 };
 

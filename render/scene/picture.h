@@ -13,9 +13,9 @@ inline constexpr std::size_t kColourChannels = 3;
 inline constexpr std::size_t kStokesChannels = 15;
 
 struct Cost {
-  double buildMs = 0;    // acceleration structure, shaders, uploads
-  double traceMs = 0;    // rays and shading alone (on a GPU by its own clock)
-  double wallMs = 0;     // tracing as the caller sees it, read-back included
+  double buildMs = 0;      // acceleration structure, shaders, uploads
+  double traceMs = 0;      // rays and shading alone (on a GPU by its own clock)
+  double wallMs = 0;       // tracing as the caller sees it, read-back included
   std::uint64_t rays = 0;  // camera, specular and shadow rays; 0 where they were not counted
 };
 

@@ -23,7 +23,7 @@ inline constexpr Analyser kNoFilter = {1, 0, 0, 0};
 Analyser linearPolarizer(double degrees);
 
 struct View {
-  std::uint32_t width = 0;   // of the whole picture
+  std::uint32_t width = 0;  // of the whole picture
   std::uint32_t height = 0;
   Region region;
   std::uint32_t samples = 1;  // rays per pixel along each axis

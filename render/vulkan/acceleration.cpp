@@ -4,7 +4,8 @@
 
 namespace malus::vulkan {
 
-Acceleration::Acceleration(const Device& device, const render::FloatScene& scene, const Buffer& positions, const Buffer& triangles)
+Acceleration::Acceleration(const Device& device, const render::FloatScene& scene, const Buffer& positions,
+                           const Buffer& triangles)
     : device_(device) {
   // Bottom level: one opaque geometry a mesh, in the order of the meshes, so that gl_GeometryIndexEXT is the
   // index of the mesh and of its hit record.
@@ -34,15 +35,17 @@ Acceleration::Acceleration(const Device& device, const render::FloatScene& scene
   bottom_ = build(info, ranges, bottomStorage_);
 
   // Top level: the one instance.
-  VkAccelerationStructureDeviceAddressInfoKHR addressInfo{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
+  VkAccelerationStructureDeviceAddressInfoKHR addressInfo{
+      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
   addressInfo.accelerationStructure = bottom_;
   VkAccelerationStructureInstanceKHR instance{};
   instance.transform = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   instance.mask = 0xff;
   instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
   instance.accelerationStructureReference = device.getAccelerationStructureDeviceAddress(device.get(), &addressInfo);
-  const Buffer instances = uploaded(device, std::as_bytes(std::span(&instance, 1)),
-                                    VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR);
+  const Buffer instances = uploaded(
+      device, std::as_bytes(std::span(&instance, 1)),
+      VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR);
   VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
   geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
   geometry.geometry.instances = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR};
@@ -59,22 +62,27 @@ Acceleration::~Acceleration() {
 }
 
 VkAccelerationStructureKHR Acceleration::build(VkAccelerationStructureBuildGeometryInfoKHR& info,
-                                               const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges, Buffer& storage) {
+                                               const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges,
+                                               Buffer& storage) {
   std::vector<std::uint32_t> counts;
   for (const auto& range : ranges) counts.push_back(range.primitiveCount);
   VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-  device_.getAccelerationStructureBuildSizes(device_.get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, counts.data(), &sizes);
+  device_.getAccelerationStructureBuildSizes(device_.get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info,
+                                             counts.data(), &sizes);
   storage = Buffer(device_, sizes.accelerationStructureSize,
-                   VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+                   VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                   VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   VkAccelerationStructureCreateInfoKHR create{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
   create.buffer = storage.get();
   create.size = sizes.accelerationStructureSize;
   create.type = info.type;
   VkAccelerationStructureKHR result = VK_NULL_HANDLE;
-  check(device_.createAccelerationStructure(device_.get(), &create, nullptr, &result), "vkCreateAccelerationStructureKHR");
+  check(device_.createAccelerationStructure(device_.get(), &create, nullptr, &result),
+        "vkCreateAccelerationStructureKHR");
 
   const VkDeviceSize alignment = device_.scratchAlignment();
-  const Buffer scratch(device_, sizes.buildScratchSize + alignment, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+  const Buffer scratch(device_, sizes.buildScratchSize + alignment,
+                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   info.dstAccelerationStructure = result;
   info.scratchData.deviceAddress = (scratch.address() + alignment - 1) / alignment * alignment;

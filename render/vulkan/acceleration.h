@@ -17,7 +17,9 @@ class Acceleration {
   VkAccelerationStructureKHR top() const { return top_; }
 
  private:
-  VkAccelerationStructureKHR build(VkAccelerationStructureBuildGeometryInfoKHR& info, const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges, Buffer& storage);
+  VkAccelerationStructureKHR build(VkAccelerationStructureBuildGeometryInfoKHR& info,
+                                   const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges,
+                                   Buffer& storage);
 
   const Device& device_;
   Buffer bottomStorage_, topStorage_;

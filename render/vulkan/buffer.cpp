@@ -70,7 +70,8 @@ void Buffer::read(std::span<std::byte> bytes) const {
 Buffer uploaded(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage) {
   Buffer result(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   if (bytes.empty()) return result;
-  Buffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  Buffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                 VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
   staging.write(bytes);
   device.submit([&](VkCommandBuffer commands) {
     const VkBufferCopy copy{0, 0, bytes.size()};

@@ -18,9 +18,9 @@ class Buffer {
 
   VkBuffer get() const { return buffer_; }
   VkDeviceSize sizeBytes() const { return sizeBytes_; }
-  VkDeviceAddress address() const;  // needs VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT
-  void write(std::span<const std::byte> bytes);         // host-visible buffers
-  void read(std::span<std::byte> bytes) const;          // host-visible buffers
+  VkDeviceAddress address() const;               // needs VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT
+  void write(std::span<const std::byte> bytes);  // host-visible buffers
+  void read(std::span<std::byte> bytes) const;   // host-visible buffers
 
  private:
   const Device* device_ = nullptr;

@@ -15,13 +15,16 @@ namespace malus::vulkan {
 
 namespace {
 
-constexpr std::array kExtensions = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
+constexpr std::array kExtensions = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                    VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
                                     VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
 
 // The features that the renderer uses, chained.
 struct Features {
-  VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
-  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+  VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
   VkPhysicalDeviceVulkan12Features core12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
   VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
   Features() {
@@ -39,21 +42,28 @@ std::string problemOf(VkPhysicalDevice device, const VkPhysicalDeviceProperties&
   std::vector<VkExtensionProperties> extensions(count);
   vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
   for (const char* wanted : kExtensions)
-    if (std::none_of(extensions.begin(), extensions.end(), [&](const auto& e) { return std::string_view(e.extensionName) == wanted; }))
+    if (std::none_of(extensions.begin(), extensions.end(),
+                     [&](const auto& e) { return std::string_view(e.extensionName) == wanted; }))
       return fmt::format("no ray tracing ({} is missing)", wanted);
   Features features;
   vkGetPhysicalDeviceFeatures2(device, &features.all);
-  if (!features.pipeline.rayTracingPipeline || !features.acceleration.accelerationStructure) return "ray tracing is not enabled";
-  if (!features.core12.bufferDeviceAddress || !features.core12.scalarBlockLayout) return "no buffer addresses or scalar layout";
+  if (!features.pipeline.rayTracingPipeline || !features.acceleration.accelerationStructure)
+    return "ray tracing is not enabled";
+  if (!features.core12.bufferDeviceAddress || !features.core12.scalarBlockLayout)
+    return "no buffer addresses or scalar layout";
   return {};
 }
 
 int rank(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    default: return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    default:
+      return 3;
   }
 }
 
@@ -64,22 +74,30 @@ std::string lower(std::string text) {
 
 PhysicalDevice choose(const Instance& instance, std::string wanted) {
   const std::vector<PhysicalDevice> devices = describeDevices(instance);
-  const char* const kExpected = "a device with ray-tracing pipelines, such as Mesa's lavapipe (mesa-vulkan-drivers 24.3 or later)";
+  const char* const kExpected =
+      "a device with ray-tracing pipelines, such as Mesa's lavapipe (mesa-vulkan-drivers 24.3 or later)";
   if (devices.empty()) throw Error("Vulkan", "no device", kExpected);
   if (wanted.empty())
     if (const char* variable = std::getenv("MALUS_DEVICE")) wanted = variable;
   std::optional<PhysicalDevice> found;
   if (!wanted.empty()) {
-    const bool number = std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c) != 0; }) && wanted.size() < 6;
+    const bool number =
+        std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c) != 0; }) &&
+        wanted.size() < 6;
     for (std::size_t i = 0; i < devices.size() && !found; ++i)
-      if (number ? std::stoul(wanted) == i : lower(devices[i].name + " " + devices[i].driver).find(lower(wanted)) != std::string::npos) found = devices[i];
-    if (!found) throw Error("Vulkan", fmt::format("no device '{}'", wanted), "a number or part of a name from 'malus --list-devices'");
+      if (number ? std::stoul(wanted) == i
+                 : lower(devices[i].name + " " + devices[i].driver).find(lower(wanted)) != std::string::npos)
+        found = devices[i];
+    if (!found)
+      throw Error("Vulkan", fmt::format("no device '{}'", wanted),
+                  "a number or part of a name from 'malus --list-devices'");
   } else {
     for (const PhysicalDevice& device : devices)
       if (device.problem.empty() && (!found || rank(device.type) < rank(found->type))) found = device;
     if (!found) found = devices.front();
   }
-  if (!found->problem.empty()) throw Error("Vulkan", fmt::format("device '{}' cannot be used: {}", found->name, found->problem), kExpected);
+  if (!found->problem.empty())
+    throw Error("Vulkan", fmt::format("device '{}' cannot be used: {}", found->name, found->problem), kExpected);
   return *found;
 }
 
@@ -92,7 +110,8 @@ std::vector<PhysicalDevice> describeDevices(const Instance& instance) {
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &driver;
     vkGetPhysicalDeviceProperties2(handle, &properties);
-    result.push_back({handle, properties.properties.deviceName, fmt::format("{} {}", driver.driverName, driver.driverInfo),
+    result.push_back({handle, properties.properties.deviceName,
+                      fmt::format("{} {}", driver.driverName, driver.driverInfo),
                       problemOf(handle, properties.properties), properties.properties.deviceType});
   }
   return result;
@@ -102,7 +121,8 @@ Device::Device(const Instance& instance, const std::string& wanted) : physical_(
   VkPhysicalDevice physical = physical_.handle;
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
   rayTracing_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR;
-  VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+  VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
   rayTracing_.pNext = &acceleration;
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
   properties.pNext = &rayTracing_;
@@ -115,9 +135,11 @@ Device::Device(const Instance& instance, const std::string& wanted) : physical_(
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-  const auto family = std::find_if(families.begin(), families.end(), [](const auto& f) { return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0; });
+  const auto family = std::find_if(families.begin(), families.end(),
+                                   [](const auto& f) { return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0; });
   if (family == families.end()) throw Error("Vulkan", fmt::format("device '{}' has no compute queue", physical_.name));
-  if (family->timestampValidBits > 0) timestampPeriodNs_ = static_cast<double>(properties.properties.limits.timestampPeriod);
+  if (family->timestampValidBits > 0)
+    timestampPeriodNs_ = static_cast<double>(properties.properties.limits.timestampPeriod);
 
   const float priority = 1;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};

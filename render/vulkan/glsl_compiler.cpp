@@ -15,10 +15,14 @@ namespace {
 
 EShLanguage languageOf(Stage stage) {
   switch (stage) {
-    case Stage::raygen: return EShLangRayGen;
-    case Stage::miss: return EShLangMiss;
-    case Stage::closestHit: return EShLangClosestHit;
-    case Stage::compute: return EShLangCompute;
+    case Stage::raygen:
+      return EShLangRayGen;
+    case Stage::miss:
+      return EShLangMiss;
+    case Stage::closestHit:
+      return EShLangClosestHit;
+    case Stage::compute:
+      return EShLangCompute;
   }
   return EShLangCompute;
 }
@@ -45,7 +49,8 @@ std::string glslangVersion() {
   return fmt::format("glslang {}.{}.{}", version.major, version.minor, version.patch);
 }
 
-std::vector<std::uint32_t> compileGlsl(const std::string& text, const std::string& preamble, Stage stage, std::string_view name, const Include& include) {
+std::vector<std::uint32_t> compileGlsl(const std::string& text, const std::string& preamble, Stage stage,
+                                       std::string_view name, const Include& include) {
   static std::once_flag initialized;
   std::call_once(initialized, [] { glslang::InitializeProcess(); });
   const EShLanguage language = languageOf(stage);

@@ -15,7 +15,8 @@ using Include = std::function<std::string_view(std::string_view path)>;
 
 // text: the shader, with its #version; preamble: inserted after #version; name: for messages. Throws Error
 // with the compiler's first complaint.
-std::vector<std::uint32_t> compileGlsl(const std::string& text, const std::string& preamble, Stage stage, std::string_view name, const Include& include);
+std::vector<std::uint32_t> compileGlsl(const std::string& text, const std::string& preamble, Stage stage,
+                                       std::string_view name, const Include& include);
 
 // "glslang 12.0.0": part of the cache's key.
 std::string glslangVersion();

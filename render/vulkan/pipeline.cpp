@@ -11,10 +11,14 @@ namespace {
 
 VkShaderStageFlagBits flagOf(Stage stage) {
   switch (stage) {
-    case Stage::raygen: return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
-    case Stage::miss: return VK_SHADER_STAGE_MISS_BIT_KHR;
-    case Stage::closestHit: return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
-    case Stage::compute: return VK_SHADER_STAGE_COMPUTE_BIT;
+    case Stage::raygen:
+      return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
+    case Stage::miss:
+      return VK_SHADER_STAGE_MISS_BIT_KHR;
+    case Stage::closestHit:
+      return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
+    case Stage::compute:
+      return VK_SHADER_STAGE_COMPUTE_BIT;
   }
   return VK_SHADER_STAGE_COMPUTE_BIT;
 }
@@ -30,11 +34,14 @@ struct Modules {
 
 constexpr std::uint32_t kFirstHitGroup = 3;  // after ray generation and two misses
 
-VkDeviceSize alignedTo(VkDeviceSize value, VkDeviceSize alignment) { return (value + alignment - 1) / alignment * alignment; }
+VkDeviceSize alignedTo(VkDeviceSize value, VkDeviceSize alignment) {
+  return (value + alignment - 1) / alignment * alignment;
+}
 
 }  // namespace
 
-Pipeline::Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene, VkDescriptorSetLayout bindings, std::uint32_t recursion)
+Pipeline::Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene,
+                   VkDescriptorSetLayout bindings, std::uint32_t recursion)
     : device_(device) {
   Modules modules{device, {}};
   std::vector<VkPipelineShaderStageCreateInfo> stages;
@@ -76,7 +83,8 @@ Pipeline::Pipeline(const Device& device, const Variant& variant, const render::F
   info.maxPipelineRayRecursionDepth = recursion;
   info.layout = layout_;
   try {
-    check(device.createRayTracingPipelines(device.get(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_), "vkCreateRayTracingPipelinesKHR");
+    check(device.createRayTracingPipelines(device.get(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
+          "vkCreateRayTracingPipelinesKHR");
     createTable(scene);
   } catch (...) {
     if (pipeline_) vkDestroyPipeline(device.get(), pipeline_, nullptr);
@@ -95,25 +103,34 @@ void Pipeline::createTable(const render::FloatScene& scene) {
   const auto groupCount = static_cast<std::uint32_t>(stageSources().size());
   const std::size_t handleBytes = limits.shaderGroupHandleSize;
   std::vector<std::byte> handles(handleBytes * groupCount);
-  check(device_.getRayTracingShaderGroupHandles(device_.get(), pipeline_, 0, groupCount, handles.size(), handles.data()), "vkGetRayTracingShaderGroupHandlesKHR");
+  check(
+      device_.getRayTracingShaderGroupHandles(device_.get(), pipeline_, 0, groupCount, handles.size(), handles.data()),
+      "vkGetRayTracingShaderGroupHandlesKHR");
 
   // Ray generation, two misses, one hit record a mesh.
-  const VkDeviceSize stride = alignedTo(handleBytes, limits.shaderGroupHandleAlignment), base = limits.shaderGroupBaseAlignment;
+  const VkDeviceSize stride = alignedTo(handleBytes, limits.shaderGroupHandleAlignment),
+                     base = limits.shaderGroupBaseAlignment;
   const VkDeviceSize missAt = alignedTo(stride, base), hitAt = missAt + alignedTo(2 * stride, base);
   std::vector<std::byte> records(hitAt + stride * scene.meshes.size());
-  const auto put = [&](VkDeviceSize at, std::uint32_t group) { std::memcpy(records.data() + at, handles.data() + group * handleBytes, handleBytes); };
+  const auto put = [&](VkDeviceSize at, std::uint32_t group) {
+    std::memcpy(records.data() + at, handles.data() + group * handleBytes, handleBytes);
+  };
   put(0, 0);
   put(missAt, 1);
   put(missAt + stride, 2);
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) put(hitAt + stride * i, kFirstHitGroup + scene.materials[scene.meshes[i].material].kind);
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+    put(hitAt + stride * i, kFirstHitGroup + scene.materials[scene.meshes[i].material].kind);
 
   // The table's start must be aligned; a little room makes it so on every driver.
   std::vector<std::byte> padded(records.size() + base);
-  Buffer probe(device_, padded.size(), VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+  Buffer probe(device_, padded.size(),
+               VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                   VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   const VkDeviceAddress start = alignedTo(probe.address(), base);
   std::memcpy(padded.data() + (start - probe.address()), records.data(), records.size());
-  Buffer staging(device_, padded.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  Buffer staging(device_, padded.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                 VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
   staging.write(padded);
   device_.submit([&](VkCommandBuffer commands) {
     const VkBufferCopy copy{0, 0, padded.size()};

@@ -11,7 +11,8 @@ class Pipeline {
  public:
   // recursion: deepest nesting of traces, shadow rays included. The table has one hit record a mesh: the
   // group of its material's kind. Throws Error.
-  Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene, VkDescriptorSetLayout bindings, std::uint32_t recursion);
+  Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene,
+           VkDescriptorSetLayout bindings, std::uint32_t recursion);
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;

@@ -18,7 +18,9 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-double sinceMs(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+double sinceMs(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 template <typename T>
 std::span<const std::byte> bytesOf(const std::vector<T>& values) {
@@ -26,11 +28,24 @@ std::span<const std::byte> bytesOf(const std::vector<T>& values) {
 }
 
 // The bindings of shaders/stages/bindings.glsl.
-enum Binding : std::uint32_t { kTlas, kPixels, kFrame, kMaterials, kLights, kMeshes, kTriangles, kPositions, kNormals, kTexels, kCounter, kBindings };
+enum Binding : std::uint32_t {
+  kTlas,
+  kPixels,
+  kFrame,
+  kMaterials,
+  kLights,
+  kMeshes,
+  kTriangles,
+  kPositions,
+  kNormals,
+  kTexels,
+  kCounter,
+  kBindings
+};
 
 constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-constexpr VkBufferUsageFlags kBuildInput =
-    kStorage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+constexpr VkBufferUsageFlags kBuildInput = kStorage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                                           VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
 constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 // Descriptor set with one entry a binding, and its layout and pool.
@@ -39,13 +54,16 @@ class Bindings {
   explicit Bindings(const Device& device) : device_(device) {
     std::vector<VkDescriptorSetLayoutBinding> list;
     for (std::uint32_t i = 0; i < kBindings; ++i)
-      list.push_back({i, i == kTlas ? VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
-                      VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR, nullptr});
+      list.push_back(
+          {i, i == kTlas ? VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
+           VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR,
+           nullptr});
     VkDescriptorSetLayoutCreateInfo layout{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     layout.bindingCount = kBindings;
     layout.pBindings = list.data();
     check(vkCreateDescriptorSetLayout(device.get(), &layout, nullptr, &layout_), "vkCreateDescriptorSetLayout");
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBindings - 1}};
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBindings - 1}};
     VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool.maxSets = 1;
     pool.poolSizeCount = 2;
@@ -74,7 +92,8 @@ class Bindings {
     vkUpdateDescriptorSets(device_.get(), 1, &write, 0, nullptr);
   }
   void bind(VkAccelerationStructureKHR top) {
-    VkWriteDescriptorSetAccelerationStructureKHR info{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
+    VkWriteDescriptorSetAccelerationStructureKHR info{
+        VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
     info.accelerationStructureCount = 1;
     info.pAccelerationStructures = &top;
     VkWriteDescriptorSet write = writeOf(kTlas, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
@@ -124,7 +143,9 @@ class Timestamps {
   std::optional<double> elapsedMs() const {
     if (!pool_) return std::nullopt;
     std::uint64_t ticks[2] = {};
-    check(vkGetQueryPoolResults(device_.get(), pool_, 0, 2, sizeof ticks, ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT), "vkGetQueryPoolResults");
+    check(vkGetQueryPoolResults(device_.get(), pool_, 0, 2, sizeof ticks, ticks, sizeof ticks[0],
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "vkGetQueryPoolResults");
     return static_cast<double>(ticks[1] - ticks[0]) * device_.timestampPeriodNs() * 1e-6;
   }
 
@@ -188,7 +209,9 @@ Renderer::Renderer(const pack::Scene& scene, const Options& options) {
 
 Renderer::~Renderer() = default;
 
-std::string Renderer::device() const { return fmt::format("{}, {}", impl_->device.physical().name, impl_->device.physical().driver); }
+std::string Renderer::device() const {
+  return fmt::format("{}, {}", impl_->device.physical().name, impl_->device.physical().driver);
+}
 
 std::uint32_t Renderer::maxDepth() const {
   const std::uint32_t limit = impl_->device.rayTracing().maxRayRecursionDepth;
@@ -223,12 +246,16 @@ render::Picture Renderer::Impl::trace(const Variant& variant, const render::View
     frame.write(std::as_bytes(std::span(&f, 1)));
     device.submit([&](VkCommandBuffer commands) {
       vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.get());
-      vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.layout(), 0, 1, &bindings.set(), 0, nullptr);
+      vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.layout(), 0, 1,
+                              &bindings.set(), 0, nullptr);
       timestamps.begin(commands);
       pipeline.trace(commands, f.regionWidth, f.regionHeight);
       timestamps.end(commands);
-      const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_HOST_READ_BIT};
-      vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+      const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT,
+                                    VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_HOST_READ_BIT};
+      vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR,
+                           VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
+                           nullptr);
       const VkBufferCopy copy{0, 0, std::size_t{f.regionWidth} * f.regionHeight * picture.channels * sizeof(float)};
       vkCmdCopyBuffer(commands, pixels.get(), readBack.get(), 1, &copy);
     });
@@ -257,7 +284,8 @@ render::Picture Renderer::Impl::trace(const Variant& variant, const render::View
 
 render::Picture Renderer::render(std::string_view method, const render::View& view) {
   if (view.depth > maxDepth())
-    throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name), fmt::format("at most {}", maxDepth()), fmt::format("{}", view.depth));
+    throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name),
+                fmt::format("at most {}", maxDepth()), fmt::format("{}", view.depth));
   render::Picture picture = impl_->trace(variantFor(impl_->scene, method), view);
   picture.device = device();
   return picture;

@@ -21,7 +21,8 @@ namespace {
 constexpr std::uint32_t kSpirvMagic = 0x07230203;
 
 fs::path cacheFolder() {
-  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return fs::path(folder) / "malus" / "spirv";
+  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder)
+    return fs::path(folder) / "malus" / "spirv";
   if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "malus" / "spirv";
   return {};
 }

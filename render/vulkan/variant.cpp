@@ -30,10 +30,10 @@ std::string preamble(const Variant& variant) {
 
 const std::vector<StageSource>& stageSources() {
   static const std::vector<StageSource> kSources = {
-      {"shaders/stages/raygen.rgen", Stage::raygen},      {"shaders/stages/environment.rmiss", Stage::miss},
-      {"shaders/stages/shadow.rmiss", Stage::miss},       {"shaders/stages/lambert.rchit", Stage::closestHit},
-      {"shaders/stages/paint.rchit", Stage::closestHit},  {"shaders/stages/metal.rchit", Stage::closestHit},
-      {"shaders/stages/glass.rchit", Stage::closestHit},  {"shaders/stages/emitter.rchit", Stage::closestHit},
+      {"shaders/stages/raygen.rgen", Stage::raygen},     {"shaders/stages/environment.rmiss", Stage::miss},
+      {"shaders/stages/shadow.rmiss", Stage::miss},      {"shaders/stages/lambert.rchit", Stage::closestHit},
+      {"shaders/stages/paint.rchit", Stage::closestHit}, {"shaders/stages/metal.rchit", Stage::closestHit},
+      {"shaders/stages/glass.rchit", Stage::closestHit}, {"shaders/stages/emitter.rchit", Stage::closestHit},
   };
   return kSources;
 }
@@ -47,7 +47,8 @@ std::string_view includedSource(const Variant& variant, std::string_view path) {
 
 std::string stageText(const StageSource& source) {
   std::string text = "#version 460\n";
-  for (const char* file : {"shaders/gpu/language.glsl", "shaders/optics/math.h", "shaders/optics/all.h", "shaders/gpu/scene.h", "shaders/methods/selected.h"})
+  for (const char* file : {"shaders/gpu/language.glsl", "shaders/optics/math.h", "shaders/optics/all.h",
+                           "shaders/gpu/scene.h", "shaders/methods/selected.h"})
     text += fmt::format("#include \"{}\"\n", file);
   return text + fmt::format("#include \"{}\"\n", source.path);
 }

@@ -29,16 +29,16 @@ const uint kEmitter = 4u;
 #endif
 
 struct Material {
-  vec3 eta;                // real part of the index; dielectrics use eta.y in every colour
-  vec3 k;                  // imaginary part: eta - i k
-  vec3 albedo;             // diffuse reflectance; 0: none
-  vec3 radiance;           // emitted, divided by the square of the index it is emitted into
-  vec3 fillTransmittance;  // mean transmittance of the interface for light from all directions
-  float outsideEta;        // index on the side that the normals point to
-  float basicScale;        // 1 / outsideEta^2: radiance to basic radiance
-  float highlightStrength; // 0: none
+  vec3 eta;                 // real part of the index; dielectrics use eta.y in every colour
+  vec3 k;                   // imaginary part: eta - i k
+  vec3 albedo;              // diffuse reflectance; 0: none
+  vec3 radiance;            // emitted, divided by the square of the index it is emitted into
+  vec3 fillTransmittance;   // mean transmittance of the interface for light from all directions
+  float outsideEta;         // index on the side that the normals point to
+  float basicScale;         // 1 / outsideEta^2: radiance to basic radiance
+  float highlightStrength;  // 0: none
   int highlightExponent;
-  uint kind;               // SurfaceKind
+  uint kind;  // SurfaceKind
 };
 MALUS_SIZE(Material, 80);
 

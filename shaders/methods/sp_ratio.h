@@ -27,9 +27,7 @@ FN Payload payloadSource(real3 radiance) {
   p.cosine = R(2.0);
   return p;
 }
-FN Stokes payloadStokes(Payload p, real3 d) {
-  return stokesOfPowers(p.s, p.s * p.ratio, sFromCosine(p.cosine, d), d);
-}
+FN Stokes payloadStokes(Payload p, real3 d) { return stokesOfPowers(p.s, p.s * p.ratio, sFromCosine(p.cosine, d), d); }
 
 FN Light lightReceive(Payload p, real3 d, real3 n) { return receivePowers(p.s, p.s * p.ratio, p.cosine, d, n); }
 

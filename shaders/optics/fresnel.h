@@ -21,14 +21,14 @@ struct Transmittance {
 
 // What both share: t = sqrt(eta^2 - sin^2), with eta = n2/n1.
 struct Refraction {
-  real eta;       // n2/n1
-  real etaSq;     // eta^2
-  real etaSqM1;   // eta^2 - 1, from the two indices and not from their rounded ratio
-  real sinSq;     // sin^2 of the angle of incidence
-  real t;         // sqrt(eta^2 - sin^2): eta times the transmitted cosine; 0 in total reflection
-  real tau;       // sqrt(sin^2 - eta^2) in total reflection, else 0
-  mask total;     // total reflection
-  mask matched;   // n1 == n2: no interface
+  real eta;      // n2/n1
+  real etaSq;    // eta^2
+  real etaSqM1;  // eta^2 - 1, from the two indices and not from their rounded ratio
+  real sinSq;    // sin^2 of the angle of incidence
+  real t;        // sqrt(eta^2 - sin^2): eta times the transmitted cosine; 0 in total reflection
+  real tau;      // sqrt(sin^2 - eta^2) in total reflection, else 0
+  mask total;    // total reflection
+  mask matched;  // n1 == n2: no interface
 };
 
 FN Refraction refractionTerms(real c, real n1, real n2) {

@@ -16,14 +16,14 @@ FN real3 enteringTransmittance(Material m, real c) {
 FN real3 fillIrradiance(real3 n) {
   real3 e;
   e.x = irradiancePolynomial(n, frame.irradiance[0].x, frame.irradiance[1].x, frame.irradiance[2].x,
-                             frame.irradiance[3].x, frame.irradiance[4].x, frame.irradiance[5].x,
-                             frame.irradiance[6].x, frame.irradiance[7].x, frame.irradiance[8].x);
+                             frame.irradiance[3].x, frame.irradiance[4].x, frame.irradiance[5].x, frame.irradiance[6].x,
+                             frame.irradiance[7].x, frame.irradiance[8].x);
   e.y = irradiancePolynomial(n, frame.irradiance[0].y, frame.irradiance[1].y, frame.irradiance[2].y,
-                             frame.irradiance[3].y, frame.irradiance[4].y, frame.irradiance[5].y,
-                             frame.irradiance[6].y, frame.irradiance[7].y, frame.irradiance[8].y);
+                             frame.irradiance[3].y, frame.irradiance[4].y, frame.irradiance[5].y, frame.irradiance[6].y,
+                             frame.irradiance[7].y, frame.irradiance[8].y);
   e.z = irradiancePolynomial(n, frame.irradiance[0].z, frame.irradiance[1].z, frame.irradiance[2].z,
-                             frame.irradiance[3].z, frame.irradiance[4].z, frame.irradiance[5].z,
-                             frame.irradiance[6].z, frame.irradiance[7].z, frame.irradiance[8].z);
+                             frame.irradiance[3].z, frame.irradiance[4].z, frame.irradiance[5].z, frame.irradiance[6].z,
+                             frame.irradiance[7].z, frame.irradiance[8].z);
   return e;
 }
 

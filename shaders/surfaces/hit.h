@@ -26,7 +26,8 @@ FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 in
   Hit h;
   h.d = d;
   h.position = p0 * b0 + p1 * b1 + p2 * b2;
-  h.error = hitPointError(p0, p1, p2, b0, b1, b2, kUnitRoundoff);
+  h.error = hitPointError(p0, p1, p2, b0, b1, b2, kUnitRoundoff) +
+            splat3(intersectionError(p0, p1, p2, h.position, kUnitRoundoff));
   h.outside = lessR(dot3(d, face), R(0.0));
   mask flatMesh = equalR(dot3(interpolated, interpolated), R(0.0));
   h.normal = shadingNormal(d, face, select3(flatMesh, face, interpolated));

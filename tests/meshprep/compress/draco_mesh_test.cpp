@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include <draco/compression/decode.h>
 #include <gtest/gtest.h>
 
 #include "meshprep/normals/crease_normals.h"
@@ -68,6 +69,23 @@ TEST(DracoMesh, SphereGoesThroughEdgebreaker) {
   const Limits claimed = claimedCounts(encoded.bytes, "x");
   EXPECT_EQ(claimed.vertices, limitsOf(mesh).vertices);
   EXPECT_EQ(claimed.triangles, limitsOf(mesh).triangles);
+}
+
+TEST(DracoMesh, PlainDracoReadsBothEncodings) {
+  prep::Mesh loose = prep::test::sphere(15, 32);
+  loose.positions.emplace_back(0, 0, 0);
+  for (const prep::Mesh& m : {prep::test::sphere(15, 32), loose}) {
+    const TriangleMesh mesh = fromMesh(m);
+    const Encoded encoded = encode(mesh, settingsFor(mesh));
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(encoded.bytes.data()), encoded.bytes.size());
+    draco::Decoder decoder;
+    auto result = decoder.DecodeMeshFromBuffer(&buffer);
+    ASSERT_TRUE(result.ok()) << result.status().error_msg_string();
+    EXPECT_EQ(result.value()->num_points(), mesh.positions.size());
+    EXPECT_EQ(result.value()->num_faces(), mesh.triangles.size());
+    EXPECT_EQ(buffer.remaining_size(), 0);
+  }
 }
 
 TEST(DracoMesh, OrientationAndVolumeSurvive) {

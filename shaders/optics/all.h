@@ -1,4 +1,5 @@
 // The optics in the order of their dependence. No include guard: every number type includes them anew.
+// clang-format off: the order matters
 #include "shaders/optics/camera.h"
 #include "shaders/optics/directions.h"
 #include "shaders/optics/environment.h"

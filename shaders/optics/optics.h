@@ -14,8 +14,9 @@ using real = float;
 using real2 = glm::vec2;
 using real3 = glm::vec3;
 using mask = bool;
-#include "shaders/optics/all.h"
 #include "shaders/optics/math.h"
+
+#include "shaders/optics/all.h"
 }  // namespace malus::f32
 
 namespace malus::f64 {
@@ -23,8 +24,9 @@ using real = double;
 using real2 = glm::dvec2;
 using real3 = glm::dvec3;
 using mask = bool;
-#include "shaders/optics/all.h"
 #include "shaders/optics/math.h"
+
+#include "shaders/optics/all.h"
 }  // namespace malus::f64
 
 #include "shaders/optics/language_end.h"

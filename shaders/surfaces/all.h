@@ -1,4 +1,5 @@
 // The surfaces in the order of their dependence; included after a method.
+// clang-format off: the order matters
 #include "shaders/surfaces/direct_light.h"
 #include "shaders/surfaces/emitter.h"
 #include "shaders/surfaces/glass.h"

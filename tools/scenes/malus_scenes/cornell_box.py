@@ -41,10 +41,10 @@ def write(folder):
         Part("floor", "floor", quad((-h, 0, h), (h, 0, h), (h, 0, -h), (-h, 0, -h)), "off", flat=True),
         Part("left", "red", quad((-h, 0, h), (-h, 0, -h), (-h, y, -h), (-h, y, h)), "ply", flat=True),
         Part("right", "green", quad((h, 0, -h), (h, 0, h), (h, y, h), (h, y, -h)), "ply", flat=True),
-        Part("lamp", "lamp", lamp(0.0, -0.25, 0.30), "off", flat=True),
+        Part("lamp", "lamp", lamp(0.0, -0.15, 0.30), "off", flat=True),
         Part("window", "window", window(0.30, 1.70, -0.92, -0.22), "off", flat=True),
         block("tower", "black-glass", 0.60, 1.15, 56.0, -0.30, -0.34, format="stl", inside_out=True),
-        block("block", "gold", 0.46, 0.46, -17.0, 0.50, 0.02, format="obj", blemishes=(1, 1)),
+        block("block", "gold", 0.46, 0.46, -17.0, 0.48, 0.20, format="obj", blemishes=(1, 1)),
     ]
     materials = {
         "floor": {"type": "mirror-glass", "eta": 1.8},
@@ -59,11 +59,11 @@ def write(folder):
     settings = {
         "name": "cornell-box", "title": "A Cornell box on black glass",
         "origin": [0.0, 1.0, 0.0],
-        "camera": {"position": [0.0, 1.75, 3.42], "target": [0.0, 0.755, 0.0], "up": [0.0, 1.0, 0.0],
-                   "verticalFovDegrees": 40.0},
+        "camera": {"position": [0.0, 1.72, 3.95], "target": [0.0, 0.844, 0.0], "up": [0.0, 1.0, 0.0],
+                   "verticalFovDegrees": 35.0},
         "resolution": [2048, 2048], "depth": 6, "exposureEv": 0.0,
         "environment": {"radiance": [0.42, 0.41, 0.40], "diffuseFill": 0.5},
-        "lights": [{"type": "point", "position": [0.0, 1.9, -0.25], "intensity": [2.4, 2.2, 1.9]}],
+        "lights": [{"type": "point", "position": [0.0, 1.9, -0.15], "intensity": [2.4, 2.2, 1.9]}],
     }
     write_scene(folder, settings, materials, parts, EXPECTED, readme="")
     return total(parts)

@@ -11,7 +11,8 @@ V_HALF_DEGREES = 25.0
 CRANK_HEIGHT = 0.30
 FLOOR_HEIGHT = -0.08
 # The floor's edges are parallel to the picture's, the plinth turns an edge to the camera.
-CAMERA_AZIMUTH_DEGREES = 20.0
+CAMERA = {"position": [0.48, 0.92, 1.70], "target": [-0.15, 0.275, 0.0], "up": [0.0, 1.0, 0.0], "verticalFovDegrees": 31.0}
+CAMERA_AZIMUTH_DEGREES = 20.334
 LEAN = placed((0.0, CRANK_HEIGHT, 0.0), (0.0, 0.0, -V_HALF_DEGREES))
 
 # What the last vertices and triangles are spent on: (vertices, triangles) of one more of each.
@@ -64,7 +65,7 @@ def parts(bolt_count, tick_count, pipe_pieces):
     case = Soup().add(eng.crankcase()).add(eng.lifter_blocks())
     cylinders = both(eng.barrel()).add(both(eng.head()))
     covers = Soup().add(eng.cam_cover()).add(eng.gearbox_cover())
-    chrome = Soup().add(both(eng.pushrod_tubes())).add(fit.exhaust()).add(fit.oil_filter())
+    chrome = Soup().add(both(eng.pushrod_tubes())).add(fit.exhaust()).add(fit.oil_filter().flipped())
     bolts = both(eng.rocker_bolts()).add(both(shell))
     bolts.add(eng.cover_bolts(eng.CAM_COVER_EDGE, 0.1178, cam_bolts))
     bolts.add(eng.cover_bolts(eng.GEARBOX_COVER_EDGE, 0.1138, bolt_count - cam_bolts))
@@ -72,17 +73,17 @@ def parts(bolt_count, tick_count, pipe_pieces):
     for place in stacks:
         chrome.add(fit.velocity_stack(), place)
         aluminium.add(fit.carburettor(), place)
-    black = Soup().add(eng.primary_cover()).add(fit.starter()).add(fit.coil()).add(both(boot))
+    black = Soup().add(eng.primary_cover()).add(fit.starter()).add(fit.coil().flipped()).add(both(boot))
     cables = fit.cables(boot_end, (-boot_end[0], boot_end[1], boot_end[2]))
     red = both(eng.rocker_cover()).add(eng.points_cover())
     glass = Soup().add(fit.gauge_glass(), at_gauge).add(fit.sight_glass(), at_sight)
     y = FLOOR_HEIGHT
     return [
-        Part("case", "case", case), Part("cylinders", "cylinders", cylinders),
-        Part("fins", "cylinders", both(eng.barrel_fins()), crease=115.0),
-        Part("covers", "chrome", covers), Part("bright", "chrome", chrome, "ply", crease=55.0),
-        Part("bolts", "chrome", bolts, "ply"), Part("fittings", "aluminium", aluminium, "off", crease=35.0),
-        Part("black", "black", black), Part("cables", "black", cables, crease=65.0), Part("red", "red", red), Part("glass", "glass", glass, "stl"),
+        Part("case", "case", case, blemishes=(2, 2)), Part("cylinders", "cylinders", cylinders, welded=True, blemishes=(3, 2)),
+        Part("fins", "cylinders", both(eng.barrel_fins()), crease=115.0, welded=True),
+        Part("covers", "chrome", covers), Part("bright", "chrome", chrome, "ply", crease=55.0, welded=True, blemishes=(2, 3)),
+        Part("bolts", "chrome", bolts, "ply", welded=True), Part("fittings", "aluminium", aluminium, "off", crease=35.0),
+        Part("black", "black", black), Part("cables", "black", cables, crease=65.0, welded=True), Part("red", "red", red), Part("glass", "glass", glass, "stl"),
         Part("gaskets", "copper", both(eng.head_gasket())),
         Part("oil-lines", "copper", fit.oil_lines(pipe_pieces), crease=65.0),
         Part("dial", "white", Soup().add(fit.gauge_face(), at_gauge), flat=True),
@@ -114,8 +115,7 @@ def write(folder):
     }
     settings = {
         "name": "engine", "title": "A V-twin motorcycle engine", "origin": [0.0, 0.35, 0.0],
-        "camera": {"position": [0.48, 0.92, 1.70], "target": [-0.15, 0.275, 0.0], "up": [0.0, 1.0, 0.0],
-                   "verticalFovDegrees": 31.0},
+        "camera": CAMERA,
         "resolution": [2048, 2048], "depth": 8, "exposureEv": 0.0,
         "environment": {"image": "studio.hdr", "scale": 1.0, "diffuseFill": 0.8},
         "lights": [{"type": "point", "position": [-1.2, 2.2, 2.0], "intensity": [7.0, 6.8, 6.4]},

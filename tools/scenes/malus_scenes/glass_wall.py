@@ -80,13 +80,13 @@ def write(folder):
              instances=[leaning_instance()]),
         Part("box", "chromium", box(BOX["size"]).flipped(), "stl", flat=True, blemishes=(1, 1), instances=[box_instance()]),
         Part("room", "room", room(), "ply", flat=True),
-        Part("sheet", "copper", folded_sheet(), "off", flat=True, blemishes=(1, 1),
+        Part("sheet", "gold", folded_sheet(), "off", flat=True, blemishes=(1, 1),
              instances=[{"rotateDegrees": [0.0, -8.0, 0.0], "translate": [-0.2, 0.0, -1.7]}]),
     ]
     materials = {
         "glass": {"type": "glass", "preset": "bk7"},
         "chromium": {"type": "metal", "preset": "chromium"},
-        "copper": {"type": "metal", "preset": "copper"},
+        "gold": {"type": "metal", "preset": "gold"},
         "room": {"type": "paint", "eta": 1.5, "albedo": [0.022, 0.050, 0.066]},
     }
     settings = {
@@ -95,8 +95,8 @@ def write(folder):
         "camera": CAMERA,
         "resolution": [1920, 1080], "depth": 6, "exposureEv": 0.0,
         "environment": {"image": "skylight.hdr", "scale": 1.0, "diffuseFill": 0.3},
-        "lights": [{"type": "point", "position": [0.9, 3.1, -0.9], "intensity": [30.0, 28.5, 26.0]},
-                   {"type": "point", "position": [1.8, 3.0, 5.0], "intensity": [18.0, 18.4, 19.6]}],
+        "lights": [{"type": "point", "position": [0.9, 3.1, -0.9], "intensity": [40.0, 38.0, 34.0]},
+                   {"type": "point", "position": [1.8, 3.0, 5.0], "intensity": [20.0, 20.4, 21.6]}],
     }
     write_scene(folder, settings, materials, parts, EXPECTED, sky(), "")
     return total(parts)

@@ -14,8 +14,9 @@ CREASE_MARGIN_DEGREES = 2.0
 
 
 def grid(point):
-    """A point in metres as whole grid units."""
-    return tuple(int(math.floor(c * UNITS_PER_METRE + 0.5)) for c in point)
+    """A point in metres as whole grid units. Rounds a little below the half up, so that the last bits of
+    the maths library decide nothing where a coordinate is half a unit by design."""
+    return tuple(int(math.floor(c * UNITS_PER_METRE + 0.5001)) for c in point)
 
 
 def decimals(units):

@@ -51,6 +51,9 @@ def write_scene(folder, settings, materials, parts, expected, sky=None, readme="
             raise ValueError(f"{part.name}: a glass body with {part.prepared.open_edges} open edges")
 
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
+    for old in (folder / "meshes").iterdir():
+        if old.suffix in (".obj", ".ply", ".stl", ".off"):
+            old.unlink()
     for part in parts:
         soup = with_blemishes(part.soup, *part.blemishes) if any(part.blemishes) else Soup(part.soup.polygons)
         if prepare(soup, part.flat, part.crease if part.crease is not None else 40.0).counts != part.prepared.counts:

@@ -1,12 +1,12 @@
 // The surfaces in the order of their dependence; included after a method.
-// clang-format off: the order matters
-#include "shaders/surfaces/direct_light.h"
-#include "shaders/surfaces/emitter.h"
-#include "shaders/surfaces/glass.h"
+// clang-format off
 #include "shaders/surfaces/hit.h"
-#include "shaders/surfaces/lambert.h"
-#include "shaders/surfaces/metal.h"
-#include "shaders/surfaces/miss.h"
+#include "shaders/surfaces/direct_light.h"
 #include "shaders/surfaces/opaque.h"
+#include "shaders/surfaces/lambert.h"
 #include "shaders/surfaces/paint.h"
+#include "shaders/surfaces/metal.h"
+#include "shaders/surfaces/glass.h"
+#include "shaders/surfaces/emitter.h"
+#include "shaders/surfaces/miss.h"
 #include "shaders/surfaces/pixel.h"

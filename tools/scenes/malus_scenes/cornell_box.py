@@ -42,7 +42,7 @@ def write(folder):
         Part("left", "red", quad((-h, 0, h), (-h, 0, -h), (-h, y, -h), (-h, y, h)), "ply", flat=True),
         Part("right", "green", quad((h, 0, -h), (h, 0, h), (h, y, h), (h, y, -h)), "ply", flat=True),
         Part("lamp", "lamp", lamp(0.0, -0.15, 0.30), "off", flat=True),
-        Part("window", "window", window(0.30, 1.70, -0.92, -0.22), "off", flat=True),
+        Part("window", "window", window(0.10, 1.70, -0.92, -0.22), "off", flat=True),
         block("tower", "black-glass", 0.60, 1.15, 56.0, -0.30, -0.34, format="stl", inside_out=True),
         block("block", "gold", 0.46, 0.46, -17.0, 0.48, 0.20, format="obj", blemishes=(1, 1)),
     ]

@@ -56,7 +56,7 @@ void runBake(const BakeArguments& arguments) {
                                    {"meshes", meshes},
                                    {"preparation", preparation},
                                    {"errors", {{"positionMax", positionError}, {"normalMaxDegrees", normalError}}}};
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
   fmt::print(
@@ -97,7 +97,8 @@ void addInfoCommand(CLI::App& app) {
   command->callback([arguments] {
     const pack::Pack pack = pack::read(arguments->input);  // every check of the reader is made here
     if (arguments->json) {
-      fmt::print("{}\n", infoJson(pack).dump(2));
+      // Texts of a pack may be no UTF-8.
+      fmt::print("{}\n", infoJson(pack).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
       std::fputs(infoText(pack).c_str(), stdout);
       if (arguments->verify)

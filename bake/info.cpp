@@ -33,8 +33,11 @@ json infoJson(const pack::Pack& pack) {
                         {"offset", s.offset},
                         {"sizeBytes", s.sizeBytes},
                         {"hash", hex(s.hash)}});
-  // Provenance is JSON that a baker wrote; a pack may come from anywhere.
-  json provenance = json::parse(scene.provenance, nullptr, false);
+  // Provenance is JSON that a baker wrote; a pack may come from anywhere. What is nested deep is left out:
+  // printing it would overflow the stack.
+  constexpr int kMaxNesting = 32;
+  json provenance = json::parse(
+      scene.provenance, [](int depth, json::parse_event_t, const json&) { return depth <= kMaxNesting; }, false);
   if (provenance.is_discarded()) provenance = nullptr;
   return {{"formatVersion", pack.formatVersion},
           {"hash", hex(pack.hash)},

@@ -24,6 +24,16 @@ namespace malus::render {
 
 namespace {
 
+// A number that is one: CLI11's ranges let NaN through.
+CLI::Validator finite() {
+  return {[](std::string& text) {
+            double value = 0;
+            return CLI::detail::lexical_cast(text, value) && std::isfinite(value) ? std::string()
+                                                                                  : text + " is no number";
+          },
+          "NUMBER"};
+}
+
 struct RenderArguments {
   std::string input;
   std::vector<std::string> outputs;
@@ -45,6 +55,10 @@ View viewFor(const RenderArguments& a, const pack::Scene& scene) {
     view.height = std::max(1u, static_cast<std::uint32_t>(std::lround(a.width / aspect)));
   if (a.height > 0 && a.width == 0)
     view.width = std::max(1u, static_cast<std::uint32_t>(std::lround(a.height * aspect)));
+  if (view.width > pack::kMaxResolution || view.height > pack::kMaxResolution)
+    throw Error("--width, --height", "make a picture that is too large",
+                fmt::format("at most {} a side", pack::kMaxResolution),
+                fmt::format("{} x {}", view.width, view.height));
   view.region = {0, 0, view.width, view.height};
   if (!a.region.empty()) {
     view.region = {a.region[0], a.region[1], a.region[2], a.region[3]};
@@ -102,7 +116,7 @@ void runRender(const RenderArguments& a) {
                                    {"traceMs", cost.traceMs},
                                    {"wallMs", cost.wallMs},
                                    {"outputs", a.outputs}};
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("{}: {} {}, {} x {}, depth {}, {}{:.1f} ms on {}\n", pack.scene.name, a.backend, method, picture.width,
                picture.height, view.depth, cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs,
@@ -135,7 +149,7 @@ void runCompareImages(const CompareArguments& arguments) {
                                    {"max", number(d.max)},   {"p999", number(d.p999)},
                                    {"outliers", d.outliers}, {"nonFinite", d.nonFinite},
                                    {"pixels", d.pixels},     {"threshold", arguments.threshold}};
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("mean {:.6g}  rms {:.6g}  max {:.6g}  99.9 % {:.6g}  outliers over {:g}: {} of {} pixels{}\n", d.mean,
                d.rms, d.max, d.p999, arguments.threshold, d.outliers, d.pixels,
@@ -160,8 +174,10 @@ void addRenderCommand(CLI::App& app) {
   command->add_option("--method", a->method, "how light is carried along rays")
       ->check(CLI::IsMember(methodNames()))
       ->capture_default_str();
-  command->add_option("--polarizer", a->polarizer,
-                      "linear polarizer in front of the camera: degrees from the picture's x axis, counter-clockwise");
+  command
+      ->add_option("--polarizer", a->polarizer,
+                   "linear polarizer in front of the camera: degrees from the picture's x axis, counter-clockwise")
+      ->check(finite());
   command->add_option("--width", a->width, "picture width (default: the pack's; height keeps the aspect)")
       ->check(CLI::Range(1u, 16384u));
   command->add_option("--height", a->height, "picture height")->check(CLI::Range(1u, 16384u));
@@ -176,6 +192,7 @@ void addRenderCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--device", a->device, "Vulkan device: number or part of its name from --list-devices");
   command->add_option("--exposure", a->exposure, "display exposure of PNG files in stops (default: the pack's)")
+      ->check(finite())
       ->check(CLI::Range(-100.0, 100.0));
   command->add_flag("--count-rays", a->countRays, "vulkan: trace once more, untimed, to count the rays");
   command->add_flag("--json", a->json, "print the result as JSON");
@@ -189,12 +206,15 @@ void addCompareImagesCommand(CLI::App& app) {
   command->add_option("b", a->b, "picture")->required();
   command->add_option("--channels", a->channels, "channels to compare")->capture_default_str();
   command->add_option("--threshold", a->threshold, "difference over which a pixel is an outlier")
+      ->check(finite())
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--fail-over", a->failOver, "exit with 3 where the largest difference is over this")
+      ->check(finite())
       ->check(CLI::NonNegativeNumber);
   command->add_option("--difference", a->difference, "picture to write: absolute difference times --gain");
   command->add_option("--gain", a->gain, "of the difference picture")
+      ->check(finite())
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_flag("--json", a->json, "print the result as JSON");

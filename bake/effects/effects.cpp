@@ -52,11 +52,15 @@ std::vector<Effect> findEffects(const pack::Scene& scene) {
   const std::string glass = namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::glass; });
   addFor("transmission", glass, "clear glass");
   add("absorption", false, "all glass of this version is clear");
-  const std::string bent =
-      namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::glass && m.eta.y != m.outsideEta; });
+  const std::string bent = namesWhere(scene, [](const Material& m) {
+    if (m.kind == MaterialKind::glass) return m.eta.y != m.outsideEta;
+    if (m.kind != MaterialKind::paint && m.kind != MaterialKind::mirrorGlass) return false;
+    return m.outsideEta > m.eta.x || m.outsideEta > m.eta.y || m.outsideEta > m.eta.z;
+  });
   const bool tir = deep && !bent.empty();
   add("tir", tir,
-      tir ? fmt::format("light inside can be totally reflected: {}", bent) : "no glass body with an index of its own");
+      tir ? fmt::format("light on the denser side can be totally reflected: {}", bent)
+          : "no surface that light meets from its denser side");
 
   const std::string interfaces = namesWhere(scene, isInterface);
   const bool leaving =

@@ -12,6 +12,7 @@ using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
 constexpr int kMaxSide = 65536;
+constexpr std::uint64_t kMaxNumbers = std::uint64_t{1} << 30;  // 4 GiB: a few bytes may claim more
 
 std::string orElse(std::string message, const char* otherwise) { return message.empty() ? otherwise : message; }
 
@@ -21,7 +22,8 @@ std::string readImage(const std::string& path, Image& image) {
     if (!input) return orElse(OIIO::geterror(), "unknown format");
     const ImageSpec spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 ||
-        spec.nchannels < 1 || spec.nchannels > 64)
+        spec.nchannels < 1 || spec.nchannels > 64 ||
+        spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMaxNumbers)
       return "unusual size";
     image.width = spec.width;
     image.height = spec.height;
@@ -76,8 +78,9 @@ std::string writeExrImage(const std::string& path, const Image& image) {
         spec.attribute(name, TypeDesc(TypeDesc::FLOAT, static_cast<int>(list->size())), list->data());
     }
   }
-  // OpenImageIO dates what it writes: an old date would differ too, so there is none.
-  spec.erase_attribute("DateTime");
+  // OpenImageIO's EXR writer adds today's date where it finds none; one that is no text is found and not
+  // written, so that equal pictures are equal files.
+  spec.attribute("DateTime", 0);
   return writeSpec(path, spec, TypeDesc::FLOAT, image.pixels.data());
 }
 
@@ -91,6 +94,7 @@ std::string writePngImage(const std::string& path, int width, int height, int ch
 }  // namespace malus::image
 
 extern "C" __attribute__((visibility("default"))) const malus::image::Module* malusImageModule() {
+  OIIO::attribute("debug", 0);  // Debian's build would talk on stderr
   static const malus::image::Module kModule = {malus::image::readImage, malus::image::writeExrImage,
                                                malus::image::writePngImage};
   return &kModule;

@@ -110,6 +110,10 @@ void readCamera(ByteReader r, Camera& camera) {
     for (int j = 0; j <= i; ++j)
       if (std::abs(dot(axes[i], axes[j]) - (i == j ? 1.0 : 0.0)) > 1e-9)
         r.fail("camera axes are not orthonormal", "unit vectors at right angles", "others");
+  const glm::dvec3 handed(camera.right.y * camera.up.z - camera.right.z * camera.up.y,
+                          camera.right.z * camera.up.x - camera.right.x * camera.up.z,
+                          camera.right.x * camera.up.y - camera.right.y * camera.up.x);
+  if (dot(handed, camera.forward) > 0) r.fail("camera axes are left-handed", "right x up against forward", "along it");
   camera.verticalFovDegrees = r.f64Between(1e-3, 179, "field of view");
   camera.mediumEta = r.f64Between(kMinEta, kMaxEta, "index of the camera's medium");
   r.end();
@@ -178,7 +182,8 @@ void readMaterials(ByteReader r, std::vector<Material>& materials) {
 void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::string_view where, Pack& pack) {
   const std::uint32_t count = r.count(40, "number of meshes");
   if (count > kMaxMeshes) r.fail("number of meshes", fmt::format("at most {}", kMaxMeshes), fmt::format("{}", count));
-  std::uint64_t vertices = 0, triangles = 0;
+  if (count == 0) r.fail("number of meshes", "at least 1", "0");
+  std::uint64_t vertices = 0, triangles = 0, end = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     Mesh mesh;
     mesh.name = r.text();
@@ -192,10 +197,12 @@ void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::string_v
                                   r.u32AtMost(kMaxTriangles, "triangles of a mesh")};
     const std::uint32_t method = r.u32AtMost(1, "encoding of a mesh");
     const std::uint64_t offset = r.u64(), size = r.u64();
-    if (offset > geometry.size() || size > geometry.size() - offset)
+    // In order and apart: no byte is decoded twice, so a small file cannot claim the same mesh many times.
+    if (offset % kAlignment != 0 || offset < end || offset > geometry.size() || size > geometry.size() - offset)
       r.fail(fmt::format("geometry of mesh '{}'", mesh.name),
-             fmt::format("bytes within the {} of section GEOM", geometry.size()),
+             fmt::format("bytes from {} on within the {} of section GEOM", end, geometry.size()),
              fmt::format("offset {}, size {}", offset, size));
+    end = offset + size;
     vertices += limits.vertices;
     triangles += limits.triangles;
     if (vertices > kMaxVertices || triangles > kMaxTriangles)
@@ -205,6 +212,10 @@ void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::string_v
                          fmt::format("{}, mesh '{}'", where, mesh.name));
     if (decoded.normals.empty() != ((flags & 2) == 0))
       r.fail(fmt::format("normals of mesh '{}'", mesh.name), "as the table says", "otherwise");
+    for (const glm::vec3& p : decoded.positions)
+      if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > static_cast<float>(kMaxCoordinate))
+        r.fail(fmt::format("positions of mesh '{}'", mesh.name),
+               fmt::format("coordinates within {:g} m of the scene's origin", kMaxCoordinate), "others");
     mesh.positions = std::move(decoded.positions);
     mesh.normals = std::move(decoded.normals);
     mesh.triangles = std::move(decoded.triangles);

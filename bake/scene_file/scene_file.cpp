@@ -20,10 +20,26 @@ namespace {
 constexpr double kFar = 1e12;    // metres
 constexpr double kBright = 1e9;  // radiance, intensity
 
+// More than SCENE.md needs; what is nested deeper would overflow the stack of whoever walks it.
+constexpr int kMaxNesting = 32;
+
 json parseJson(const std::filesystem::path& path) {
   const std::string text = readTextFile(path, std::size_t{1} << 26);
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  const auto check = [&](int depth, json::parse_event_t event, json& value) {
+    if (depth > kMaxNesting)
+      throw Error(path.string(), "is nested too deep", fmt::format("at most {} levels", kMaxNesting));
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end) keys.pop_back();
+    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw Error(path.string(), fmt::format("key '{}' is there twice in one object", value.get<std::string>()),
+                  "each key once");
+    return true;
+  };
   try {
-    return json::parse(text);
+    return json::parse(text, check);
+  } catch (const json::out_of_range& error) {  // a number such as 1e999
+    throw Error(path.string(), "holds a number that no double holds", "bake/SCENE.md's schema", error.what());
   } catch (const json::parse_error& error) {
     const auto line =
         1 +

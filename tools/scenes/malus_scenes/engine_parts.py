@@ -80,8 +80,8 @@ def rocker_bolts():
 def pushrod_tubes():
     """Two tubes with collars, on the right-hand side of the barrel."""
     soup = Soup()
-    for x0, x1 in ((-0.020, -0.046), (0.020, 0.046)):
-        low, high = (x0, 0.128, 0.108), (x1, 0.318, 0.086)
+    for x0, x1 in ((-0.020, -0.043), (0.020, 0.043)):
+        low, high = (x0, 0.128, 0.112), (x1, 0.351, 0.080)
         axis = tuple(b - a for a, b in zip(low, high))
         length = math.sqrt(sum(c * c for c in axis))
         place = aimed(low, axis)
@@ -95,7 +95,8 @@ def spark_plug():
     """(hexagon and shell, boot) on the right-hand side of the head, above the fins."""
     place = aimed((0.0, 0.352, 0.068), (0.0, 0.45, 0.9))
     shell = Soup().add(_turned([(0.012, 0.0), (0.012, 0.016)], 6), place)
-    boot = Soup().add(lathe([(0.0085, 0.016), (0.0085, 0.030), (0.0105, 0.036), (0.0105, 0.058), (0.0, 0.062)], 11), place)
+    profile = [(0.0085, 0.016), (0.0085, 0.030), (0.0105, 0.036), (0.0105, 0.058), (0.0, 0.062)]
+    boot = Soup().add(lathe(profile, 11), place)
     return shell, boot
 
 
@@ -109,10 +110,12 @@ def chamfered(circles, n, z0, z1, chamfer, far_chamfer=0.0):
 
 
 def crankcase():
-    soup = chamfered([(0.0, 0.30, 0.150), (-0.235, 0.305, 0.118), (0.085, 0.245, 0.085)], 36, -0.095, 0.095, 0.012, 0.012)
+    outline = [(0.0, 0.30, 0.150), (-0.235, 0.305, 0.118), (0.085, 0.245, 0.085)]
+    soup = chamfered(outline, 36, -0.095, 0.095, 0.012, 0.012)
     # Deck that carries the cylinders, sump and mounting lugs.
     soup.add(box((0.20, 0.06, 0.15), (0.0, 0.425, 0.0)))
-    soup.add(chamfered([(-0.17, 0.175, 0.030), (0.04, 0.160, 0.030), (0.02, 0.20, 0.05), (-0.15, 0.21, 0.04)], 18, -0.080, 0.080, 0.010, 0.010))
+    sump = [(-0.17, 0.175, 0.030), (0.04, 0.160, 0.030), (0.02, 0.20, 0.05), (-0.15, 0.21, 0.04)]
+    soup.add(chamfered(sump, 18, -0.080, 0.080, 0.010, 0.010))
     for x, y in ((0.172, 0.275), (-0.345, 0.345)):
         soup.add(chamfered([(x, y, 0.026), (x * 0.85, y, 0.030)], 16, -0.040, 0.040, 0.006, 0.006))
     return soup
@@ -126,8 +129,8 @@ def cam_cover():
     return soup
 
 
-CAM_COVER_EDGE = [(0.0, 0.300, 0.109), (0.052, 0.372, 0.053), (-0.052, 0.372, 0.053)]
-GEARBOX_COVER_EDGE = [(-0.235, 0.305, 0.083), (-0.200, 0.285, 0.083)]
+CAM_COVER_EDGE = [(0.0, 0.300, 0.105), (0.052, 0.372, 0.049), (-0.052, 0.372, 0.049)]
+GEARBOX_COVER_EDGE = [(-0.235, 0.305, 0.077), (-0.200, 0.285, 0.077)]
 
 
 def cover_bolts(edge, z, count):

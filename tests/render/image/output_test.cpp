@@ -1,0 +1,107 @@
+#include "render/image/output.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/base/error.h"
+
+namespace malus::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytesOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Picture stokesPicture() {
+  Picture picture;
+  picture.width = 3;
+  picture.height = 2;
+  picture.channels = kStokesChannels;
+  for (std::size_t i = 0; i < 6 * kStokesChannels; ++i) picture.pixels.push_back(static_cast<float>(i) * 0.01f);
+  picture.device = "a device";
+  return picture;
+}
+
+pack::Pack somePack() {
+  pack::Pack pack;
+  pack.hash = 0x1234;
+  pack.scene.name = "scene";
+  pack.scene.origin = {10, 20, 30};
+  return pack;
+}
+
+image::Image someImage() { return toImage(stokesPicture(), somePack(), View{3, 2, {0, 0, 3, 2}}, "embree", "stokes"); }
+
+TEST(Output, ExrKeepsChannelsAndMetadata) {
+  const fs::path path = fs::path(testing::TempDir()) / "output_test.exr";
+  writePicture(path, someImage(), 0);
+  const image::Image back = image::read(path);
+  ASSERT_EQ(back.width, 3);
+  ASSERT_EQ(back.height, 2);
+  const image::Image sent = someImage();
+  for (const char* name : {"R", "G", "B", "S0.R", "S1.G", "S3.B"}) {
+    ASSERT_GE(back.channel(name), 0) << name;
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_EQ(back.pixels[i * back.channels.size() + static_cast<std::size_t>(back.channel(name))],
+                sent.pixels[i * sent.channels.size() + static_cast<std::size_t>(sent.channel(name))])
+          << name;
+  }
+  const auto attribute = [&](const std::string& name) -> std::string {
+    for (const auto& [key, value] : back.attributes)
+      if (key == name && std::holds_alternative<std::string>(value)) return std::get<std::string>(value);
+    return "none";
+  };
+  EXPECT_EQ(attribute("malus:method"), "stokes");
+  EXPECT_EQ(attribute("malus:renderer"), "embree");
+  EXPECT_EQ(attribute("malus:pack"), "0000000000001234");
+  EXPECT_EQ(attribute("malus:device"), "a device");
+  EXPECT_EQ(attribute("DateTime"), "none");
+}
+
+TEST(Output, EqualPicturesAreEqualFiles) {
+  const fs::path folder = testing::TempDir();
+  for (const char* extension : {"exr", "png"}) {
+    const fs::path a = folder / (std::string("equal_a.") + extension),
+                   b = folder / (std::string("equal_b.") + extension);
+    writePicture(a, someImage(), 1);
+    writePicture(b, someImage(), 1);
+    EXPECT_EQ(bytesOf(a), bytesOf(b)) << extension;
+    EXPECT_FALSE(bytesOf(a).empty());
+  }
+}
+
+TEST(Output, ToneCurveIsMonotonicAndMeetsSrgb) {
+  image::Image ramp;
+  ramp.width = 1000;
+  ramp.height = 1;
+  ramp.channels = {"R", "G", "B"};
+  for (int i = 0; i < 1000; ++i)
+    for (int c = 0; c < 3; ++c) ramp.pixels.push_back(static_cast<float>(i) * 0.01f);
+  const std::vector<std::uint8_t> bytes = toneMapped(ramp, 0);
+  for (std::size_t i = 3; i < bytes.size(); ++i) EXPECT_GE(bytes[i], bytes[i - 3]);
+  EXPECT_EQ(bytes.front(), 0);
+  EXPECT_EQ(bytes.back(), 255);
+  // IEC 61966-2-1: 0.5 is 188 of 255; one stop down it is 0.25, 137.
+  EXPECT_EQ(bytes[3 * 50], 188);
+  EXPECT_EQ(toneMapped(ramp, -1)[3 * 50], 137);
+}
+
+TEST(Output, RefusesOtherExtensions) {
+  EXPECT_THROW(writePicture("picture.jpg", someImage(), 0), Error);
+  EXPECT_THROW(writePicture("picture", someImage(), 0), Error);
+}
+
+TEST(Output, NoPartIsLeftWhereTheFolderIsMissing) {
+  const fs::path folder = fs::path(testing::TempDir()) / "not-there";
+  EXPECT_THROW(writePicture(folder / "a.exr", someImage(), 0), Error);
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+}  // namespace
+}  // namespace malus::render

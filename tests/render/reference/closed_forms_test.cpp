@@ -1,0 +1,211 @@
+// Whole renderers against closed forms: what the optics tests cannot see (frames along real rays, sides,
+// depth, which interface is met).
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "render/embree/renderer.h"
+#include "render/reference/reference.h"
+#include "tests/render/test_scene.h"
+
+namespace malus {
+namespace {
+
+using pack::MaterialKind;
+constexpr double kN = 1.5;
+
+struct Powers {
+  double s, p;
+};
+// Fresnel 1823, from the angles; written here anew.
+Powers fresnel(double cosine, double n1, double n2) {
+  const double sine = std::sqrt(1 - cosine * cosine) * n1 / n2;
+  if (sine >= 1) return {1, 1};
+  const double t = std::sqrt(1 - sine * sine);
+  const double s = (n1 * cosine - n2 * t) / (n1 * cosine + n2 * t), p = (n2 * cosine - n1 * t) / (n2 * cosine + n1 * t);
+  return {s * s, p * p};
+}
+
+// Stokes vector of the green channel of the one pixel.
+glm::dvec4 reference(const pack::Scene& scene) {
+  const render::Picture p = reference::render(scene, render::viewOf(scene), 1);
+  return {p.pixels[4], p.pixels[7], p.pixels[10], p.pixels[13]};
+}
+glm::dvec4 embreeStokes(const pack::Scene& scene) {
+  const render::Picture p = embree::Renderer(scene, 1).render("stokes", render::viewOf(scene));
+  return {p.pixels[4], p.pixels[7], p.pixels[10], p.pixels[13]};
+}
+double embreeColour(const pack::Scene& scene, const char* method) {
+  return embree::Renderer(scene, 1).render(method, render::viewOf(scene)).pixels[1];
+}
+
+// A glass mirror in the plane y = 0 under a white sky, seen at an angle from its normal.
+pack::Scene glassMirror(double degrees) {
+  pack::Scene scene = test::emptyScene(4);
+  scene.environment.radiance = glm::dvec3(1);
+  test::addMaterial(scene, test::dielectric(MaterialKind::mirrorGlass, kN));
+  test::addSquare(scene, 0, {0, 0, 0}, {0, 1, 0}, 10);
+  const double a = degrees * std::numbers::pi / 180;
+  test::look(scene, {0, std::cos(a), std::sin(a)}, {0, 0, 0});
+  return scene;
+}
+
+TEST(ClosedForms, OneGlassMirror) {
+  for (const double degrees : {1.0, 30.0, 56.309932, 75.0, 89.0}) {
+    const pack::Scene scene = glassMirror(degrees);
+    const Powers r = fresnel(std::cos(degrees * std::numbers::pi / 180), 1, kN);
+    const glm::dvec4 s = reference(scene), f = embreeStokes(scene);
+    // s is the picture's x axis: S1 is positive.
+    EXPECT_NEAR(s[0], (r.s + r.p) / 2, 1e-6) << degrees;
+    EXPECT_NEAR(s[1], (r.s - r.p) / 2, 1e-6) << degrees;
+    EXPECT_NEAR(s[2], 0, 1e-6);
+    EXPECT_NEAR(s[3], 0, 1e-6);
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(f[i], s[i], 2e-6) << degrees;
+    EXPECT_NEAR(embreeColour(scene, "fresnel"), (r.s + r.p) / 2, 2e-6);
+    EXPECT_NEAR(embreeColour(scene, "sp-malus"), (r.s + r.p) / 2, 2e-6);
+  }
+}
+
+TEST(ClosedForms, PolarizerOverAGlassMirrorAtBrewster) {
+  const pack::Scene scene = glassMirror(std::atan(kN) * 180 / std::numbers::pi);
+  const Powers r = fresnel(1 / std::sqrt(1 + kN * kN), 1, kN);
+  render::View view = render::viewOf(scene);
+  for (const double degrees : {0.0, 30.0, 90.0}) {
+    view.analyser = render::linearPolarizer(degrees);
+    const double expected = 0.5 * r.s * std::pow(std::cos(degrees * std::numbers::pi / 180), 2);
+    EXPECT_NEAR(reference::render(scene, view, 1).pixels[1], expected, 1e-6) << degrees;
+    EXPECT_NEAR(embree::Renderer(scene, 1).render("stokes", view).pixels[1], expected, 2e-6) << degrees;
+    EXPECT_NEAR(embree::Renderer(scene, 1).render("sp", view).pixels[1], expected, 2e-6) << degrees;
+    // Without polarization the filter only halves.
+    EXPECT_NEAR(embree::Renderer(scene, 1).render("fresnel", view).pixels[1], 0.25 * r.s, 2e-6) << degrees;
+  }
+}
+
+// Two glass mirrors at Brewster's angle, the second turned by `twist` degrees about the ray between them.
+pack::Scene twoMirrors(double twist) {
+  pack::Scene scene = test::emptyScene(4);
+  scene.environment.radiance = glm::dvec3(1);
+  test::addMaterial(scene, test::dielectric(MaterialKind::mirrorGlass, kN));
+  const double brewster = std::atan(kN), a = twist * std::numbers::pi / 180;
+  // The eye looks along -z at the first mirror, which sends the ray along d.
+  const glm::dvec3 in(0, 0, -1), n1(0, std::sin(brewster), std::cos(brewster));
+  const glm::dvec3 d = glm::normalize(in - 2 * glm::dot(in, n1) * n1);
+  test::addSquare(scene, 0, {0, 0, 0}, n1, 0.5);
+  // The second mirror's normal: at Brewster's angle from -d, about d by the twist.
+  const glm::dvec3 s = glm::normalize(glm::cross(d, n1)), t = glm::cross(s, d);
+  const glm::dvec3 side = t * std::cos(a) + s * std::sin(a);
+  test::addSquare(scene, 0, d * 5.0, -d * std::cos(brewster) + side * std::sin(brewster), 0.5);
+  test::look(scene, {0, 0, 3}, {0, 0, 0});
+  return scene;
+}
+
+TEST(ClosedForms, TwoBrewsterMirrorsFollowMalus) {
+  const double rs = fresnel(1 / std::sqrt(1 + kN * kN), 1, kN).s;
+  for (const double twist : {0.0, 30.0, 45.0, 60.0, 90.0}) {
+    const pack::Scene scene = twoMirrors(twist);
+    // A1 A2 (1 + D1 D2 cos 2f) with D = 1: R_s^2 cos^2 f / 2.
+    const double expected = rs * rs * std::pow(std::cos(twist * std::numbers::pi / 180), 2) / 2;
+    EXPECT_NEAR(reference(scene)[0], expected, 1e-7) << twist;
+    EXPECT_NEAR(embreeStokes(scene)[0], expected, 1e-6) << twist;
+    EXPECT_NEAR(embreeColour(scene, "sp-malus"), expected, 1e-6) << twist;
+    EXPECT_NEAR(embreeColour(scene, "fresnel"), rs * rs / 4, 1e-6) << twist;
+    // The paper's rule keeps |cos| where Malus's law has cos^2.
+    EXPECT_NEAR(embreeColour(scene, "sp"), rs * rs * std::abs(std::cos(twist * std::numbers::pi / 180)) / 2, 1e-6)
+        << twist;
+  }
+}
+
+// A slab of clear glass between the eye and a white sky, seen at an angle: all orders of reflection inside.
+TEST(ClosedForms, SlabOfGlassSumsAllOrders) {
+  for (const double degrees : {0.0, 40.0, 60.0, 80.0}) {
+    pack::Scene scene = test::emptyScene(30);
+    // Light comes from below only, so that reflections at the top see black.
+    test::addMaterial(scene, test::dielectric(MaterialKind::glass, kN));
+    test::addMaterial(scene, test::emitter(glm::dvec3(1)));
+    test::addSquare(scene, 0, {0, 0, 0}, {0, 1, 0}, 500);
+    test::addSquare(scene, 0, {0, -0.1, 0}, {0, -1, 0}, 500);
+    test::addSquare(scene, 1, {0, -1, 0}, {0, 1, 0}, 500);
+    const double a = degrees * std::numbers::pi / 180;
+    test::look(scene, {0, std::cos(a), std::sin(a)}, {0, 0, 0},
+               degrees < 1 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0));
+    const Powers r = fresnel(std::cos(a), 1, kN);
+    const double ts = (1 - r.s) / (1 + r.s), tp = (1 - r.p) / (1 + r.p);
+    // At most 30 interactions: the rest is below R^28.
+    const double rest = std::pow(r.s, 28);
+    const glm::dvec4 light = reference(scene);
+    EXPECT_NEAR(light[0], (ts + tp) / 2, 1e-6 + rest) << degrees;
+    EXPECT_NEAR(light[1], (ts - tp) / 2, 1e-6 + rest) << degrees;
+    EXPECT_NEAR(embreeStokes(scene)[0], (ts + tp) / 2, 1e-5 + rest) << degrees;
+  }
+}
+
+// What light has two diattenuators: a Brewster mirror that sees paint at a grazing angle.
+TEST(ClosedForms, PaintLeavesPolarized) {
+  for (const double degrees : {0.0, 70.0, 80.0}) {
+    pack::Scene scene = test::emptyScene(0);  // no mirror reflection: diffuse light alone
+    test::addMaterial(scene, test::dielectric(MaterialKind::paint, kN, 0.5));
+    test::addSquare(scene, 0, {0, 0, 0}, {0, 1, 0}, 10);
+    const double a = degrees * std::numbers::pi / 180;
+    test::look(scene, {0, std::cos(a), std::sin(a)}, {0, 0, 0},
+               degrees < 1 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0));
+    scene.lights.push_back({{0, 2, 0}, {8, 8, 8}});
+    const Powers r = fresnel(std::cos(a), 1, kN), entering = fresnel(1, 1, kN);
+    // albedo/pi x I/d^2 x (1 - R at normal incidence), out through T_s and T_p.
+    const double below = 0.5 / std::numbers::pi * 2 * (1 - entering.s);
+    const glm::dvec4 light = reference(scene);
+    EXPECT_NEAR(light[0], below * (1 - (r.s + r.p) / 2), 1e-6) << degrees;
+    EXPECT_NEAR(light[1], below * (r.p - r.s) / 2, 1e-6) << degrees;
+    const glm::dvec4 f = embreeStokes(scene);
+    EXPECT_NEAR(f[0], light[0], 3e-6);
+    EXPECT_NEAR(f[1], light[1], 3e-6);
+  }
+}
+
+TEST(ClosedForms, CameraInsideGlassReadsASkyTimesNSquared) {
+  pack::Scene scene = test::emptyScene(2);
+  scene.environment.radiance = glm::dvec3(1);
+  scene.camera.mediumEta = kN;
+  test::look(scene, {0, 0, 0}, {0, 0, -1});
+  EXPECT_NEAR(reference(scene)[0], kN * kN, 1e-6);
+  EXPECT_NEAR(embreeColour(scene, "fresnel"), kN * kN, 1e-6);
+}
+
+TEST(ClosedForms, DepthCountsSpecularInteractions) {
+  // A mirror that sees an emitter: seen directly with depth 1, dark with depth 0.
+  pack::Scene scene = glassMirror(60);
+  const Powers r = fresnel(0.5, 1, kN);
+  for (const std::uint32_t depth : {0u, 1u}) {
+    scene.depth = depth;
+    EXPECT_NEAR(reference(scene)[0], depth * (r.s + r.p) / 2, 1e-6);
+    EXPECT_NEAR(embreeStokes(scene)[0], depth * (r.s + r.p) / 2, 1e-6);
+  }
+}
+
+TEST(ClosedForms, EmittersShineOnTheirFrontOnly) {
+  for (const double z : {1.0, -1.0}) {
+    pack::Scene scene = test::emptyScene(1);
+    test::addMaterial(scene, test::emitter({3, 2, 1}));
+    test::addSquare(scene, 0, {0, 0, -5}, {0, 0, z}, 1);
+    test::look(scene, {0, 0, 0}, {0, 0, -1});
+    EXPECT_FLOAT_EQ(static_cast<float>(embreeColour(scene, "schlick")), z > 0 ? 2.0f : 0.0f);
+    EXPECT_NEAR(reference(scene)[0], z > 0 ? 2 : 0, 1e-6);
+  }
+}
+
+TEST(ClosedForms, HighlightIsTheLobeTimesTheReflectance) {
+  pack::Scene scene = glassMirror(45);
+  scene.environment.radiance = glm::dvec3(0);
+  scene.materials[0].highlightStrength = 1;
+  scene.materials[0].highlightExponent = 50;
+  scene.lights.push_back({{0, std::sqrt(2.0), -std::sqrt(2.0)}, {4, 4, 4}});  // in the mirror direction, 2 m away
+  const Powers r = fresnel(std::sqrt(0.5), 1, kN);
+  const double arriving = 4.0 / 4 * 51 / (2 * std::numbers::pi);
+  const glm::dvec4 light = reference(scene);
+  EXPECT_NEAR(light[0], arriving * (r.s + r.p) / 2, 1e-5);
+  EXPECT_NEAR(light[1], arriving * (r.s - r.p) / 2, 1e-5);
+  EXPECT_NEAR(embreeStokes(scene)[0], light[0], 1e-5);
+}
+
+}  // namespace
+}  // namespace malus

@@ -1,10 +1,13 @@
 #include "render/cli.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,9 +16,12 @@
 #include "bake/pack/reader.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
+#include "render/compare/cheapest_method.h"
 #include "render/compare/image_difference.h"
 #include "render/embree/renderer.h"
+#include "render/image/mosaic.h"
 #include "render/image/output.h"
+#include "render/image/polarization.h"
 #include "render/reference/reference.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
@@ -34,19 +40,113 @@ CLI::Validator finite() {
           "NUMBER"};
 }
 
-struct RenderArguments {
-  std::string input;
+struct RenderArguments : RenderSettings {
+  std::optional<double> maxError;
   std::vector<std::string> outputs;
-  std::string backend = "embree", method = "fresnel", device;
+  std::string dolp, aolp, mosaic;
   std::optional<double> polarizer, exposure;
-  std::uint32_t width = 0, height = 0, samples = 1;
-  std::optional<std::uint32_t> depth;
-  std::vector<std::uint32_t> region;
-  unsigned threads = 0;
+  std::string analyser, wavePlate, mosaicChannel = "luminance";
+  unsigned mosaicBits = 8;
   bool json = false, countRays = false;
 };
 
-View viewFor(const RenderArguments& a, const pack::Scene& scene) {
+// "AXIS" or "AXIS,RETARDANCE" in degrees.
+std::optional<WavePlate> parseWavePlate(std::string_view text) {
+  const auto number = [](std::string_view part) -> std::optional<double> {
+    if (!part.empty() && part.front() == '+') part.remove_prefix(1);
+    double value = 0;
+    const auto [end, failed] = std::from_chars(part.data(), part.data() + part.size(), value);
+    if (failed != std::errc() || end != part.data() + part.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+  };
+  const std::size_t comma = text.find(',');
+  const std::optional<double> axis = number(text.substr(0, comma));
+  const std::optional<double> retardance =
+      comma == std::string_view::npos ? WavePlate{}.retardanceDegrees : number(text.substr(comma + 1));
+  if (!axis || !retardance) return std::nullopt;
+  return WavePlate{*axis, *retardance};
+}
+CLI::Validator wavePlate() {
+  return {[](std::string& text) { return parseWavePlate(text) ? "" : text + " is no AXIS[,RETARDANCE] in degrees"; },
+          "AXIS[,RETARDANCE]"};
+}
+
+Analyser analyserFor(const RenderArguments& a) {
+  Analyser analyser = kNoFilter;
+  if (a.polarizer) analyser = linearPolarizer(*a.polarizer);
+  if (!a.analyser.empty()) analyser = circularAnalyser(a.analyser == "right" ? Handedness::right : Handedness::left);
+  if (const auto plate = parseWavePlate(a.wavePlate)) analyser = behindWavePlate(analyser, *plate);
+  return analyser;
+}
+
+// What the filter asks of light that the method does not carry.
+void warnOfMissingLight(const RenderArguments& a, const Analyser& analyser) {
+  if (!a.wavePlate.empty() && !a.polarizer && a.analyser.empty())
+    console::warn("--wave-plate: a plate without --polarizer or --analyser behind it changes no intensity");
+  if (a.backend == "reference") return;
+  const CarriedLight carried = carriedBy(a.method);
+  const bool linear = (analyser[1] != 0 || analyser[2] != 0) && !carried.linear,
+             circular = analyser[3] != 0 && !carried.circular;
+  if (!linear && !circular) return;
+  console::warn(fmt::format("--method {} carries no {} light ({}): of that the filter passes half, whatever its state",
+                            a.method,
+                            linear && circular ? "polarized"
+                            : linear           ? "linearly polarized"
+                                               : "circularly polarized",
+                            linear && circular ? "S1, S2, S3"
+                            : linear           ? "S1, S2"
+                                               : "S3"));
+}
+
+const std::map<std::string, MosaicChannel> kMosaicChannels = {{"luminance", MosaicChannel::luminance},
+                                                              {"R", MosaicChannel::red},
+                                                              {"G", MosaicChannel::green},
+                                                              {"B", MosaicChannel::blue}};
+
+bool endsWith(const std::string& file, std::initializer_list<const char*> extensions) {
+  const auto extension = std::filesystem::path(file).extension();
+  return std::any_of(extensions.begin(), extensions.end(), [&](const char* e) { return extension == e; });
+}
+
+// Combinations of options that make no picture.
+void checkUsage(const RenderArguments& a) {
+  const auto fail = [](const std::string& option, const std::string& problem) {
+    throw CLI::ValidationError(option, problem);
+  };
+  std::vector<std::string> files = a.outputs;
+  for (const std::string& file : {a.dolp, a.aolp, a.mosaic})
+    if (!file.empty()) files.push_back(file);
+  if (files.empty()) fail("--output", "no picture asked for: give -o, --output-dolp, --output-aolp or --mosaic");
+  if (std::set<std::string>(files.begin(), files.end()).size() != files.size())
+    fail("--output", "one file cannot hold two pictures");
+  for (const std::string& file : {a.dolp, a.aolp})
+    if (!file.empty() && !endsWith(file, {".exr", ".png"}))
+      fail("--output-dolp, --output-aolp", file + " is no .exr or .png");
+  if (!a.mosaic.empty() && !endsWith(a.mosaic, {".png", ".tif", ".tiff"}))
+    fail("--mosaic", a.mosaic + " is no .png or .tif");
+  if (a.polarizer && !a.analyser.empty())
+    fail("--analyser", "the filter is either linear (--polarizer) or circular (--analyser)");
+  if (!a.mosaic.empty() && (a.polarizer || !a.analyser.empty() || !a.wavePlate.empty()))
+    fail("--mosaic", "has a polarizer in front of every pixel: no --polarizer, --analyser or --wave-plate");
+  if (a.maxError && a.backend == "reference") fail("--max-error", "the reference has no error");
+  if (!a.maxError && (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty()))
+    requireStokes(a, !a.mosaic.empty() ? "--mosaic" : a.dolp.empty() ? "--output-aolp" : "--output-dolp");
+}
+
+}  // namespace
+
+void requireStokes(const RenderSettings& a, const std::string& option) {
+  if (a.backend == "reference" || methodNamed(a.method).hasStokes) return;
+  std::string able;
+  for (const MethodInfo& m : methods())
+    if (m.hasStokes) able += fmt::format("{}{}", able.empty() ? "" : ", ", m.name);
+  throw CLI::ValidationError(
+      option,
+      fmt::format("needs Stokes vectors, which --method {} does not have: take --method {}, or --backend reference",
+                  a.method, able));
+}
+
+View viewFor(const RenderSettings& a, const pack::Scene& scene) {
   View view = viewOf(scene);
   const double aspect = static_cast<double>(scene.width) / scene.height;
   if (a.width > 0) view.width = a.width;
@@ -71,35 +171,77 @@ View viewFor(const RenderArguments& a, const pack::Scene& scene) {
   }
   view.samples = a.samples;
   if (a.depth) view.depth = *a.depth;
-  if (a.polarizer) view.analyser = linearPolarizer(*a.polarizer);
   return view;
 }
 
-void runRender(const RenderArguments& a) {
+Picture renderScene(const RenderSettings& a, const pack::Scene& scene, const View& view, bool countRays) {
+  if (a.backend == "reference") return reference::render(scene, view, a.threads);
+  if (a.backend == "embree") return embree::Renderer(scene, a.threads).render(a.method, view);
+  vulkan::Renderer renderer(scene, {a.device, a.threads});
+  Picture picture = renderer.render(a.method, view);
+  if (countRays) picture.cost.rays = renderer.countRays(a.method, view);
+  return picture;
+}
+
+namespace {
+
+// The cheapest method that is good enough, and why, for a person.
+std::string chooseMethod(const RenderArguments& a, const pack::Pack& pack, const View& view) {
+  const bool needsStokes = !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
+  std::unique_ptr<vulkan::Renderer> vulkan;
+  std::unique_ptr<embree::Renderer> embree;
+  if (a.backend == "vulkan")
+    vulkan = std::make_unique<vulkan::Renderer>(pack.scene, vulkan::Options{a.device, a.threads});
+  else
+    embree = std::make_unique<embree::Renderer>(pack.scene, a.threads);
+  std::vector<MethodEstimate> estimates = estimateMethods(
+      pack, view, a.backend + " " + (vulkan ? vulkan->device() : embree->device()),
+      [&](const std::string& method, const View& small) {
+        return vulkan ? vulkan->render(method, small) : embree->render(method, small);
+      },
+      a.threads, console::progress);
+  if (needsStokes) std::erase_if(estimates, [](const MethodEstimate& e) { return !methodNamed(e.method).hasStokes; });
+  const MethodEstimate& best = cheapestUnder(estimates, *a.maxError);
+  console::progressDone();
+  fmt::print(stderr, "malus: {}: relative RMS error {:.3g} on a small picture, {:.1f} ms; the fastest within {:g}\n",
+             best.method, best.relRms, best.medianMs, *a.maxError);
+  return best.method;
+}
+
+void runRender(RenderArguments a) {
+  checkUsage(a);
   for (const std::string& output : a.outputs)
     if (const auto e = std::filesystem::path(output).extension(); e != ".exr" && e != ".png")
       throw Error(output, "unknown kind of picture", ".exr or .png", e.empty() ? "no extension" : e.string());
   const pack::Pack pack = pack::read(a.input);
-  const View view = viewFor(a, pack.scene);
+  View view = viewFor(a, pack.scene);
+  view.analyser = analyserFor(a);
+  if (!a.mosaic.empty() && (view.region.width % 2 != 0 || view.region.height % 2 != 0))
+    throw CLI::ValidationError(
+        "--mosaic", fmt::format("needs an even width and height (--width, --height), not {} x {}", view.region.width,
+                                view.region.height));
+  if (a.maxError) a.method = chooseMethod(a, pack, view);
+  warnOfMissingLight(a, view.analyser);
   console::progress(
       fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, a.backend == "reference" ? "" : a.method));
-  Picture picture;
-  std::string method = a.method;
-  if (a.backend == "reference") {
-    picture = reference::render(pack.scene, view, a.threads);
-    method = "reference";
-  } else if (a.backend == "embree") {
-    picture = embree::Renderer(pack.scene, a.threads).render(a.method, view);
-  } else {
-    vulkan::Renderer renderer(pack.scene, {a.device, a.threads});
-    picture = renderer.render(a.method, view);
-    if (a.countRays) picture.cost.rays = renderer.countRays(a.method, view);
-  }
+  const Picture picture = renderScene(a, pack.scene, view, a.countRays);
+  const std::string method = a.backend == "reference" ? "reference" : a.method;
   const image::Image image = toImage(picture, pack, view, a.backend, method);
-  for (const std::string& output : a.outputs) {
+  const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
+  std::vector<std::string> written;
+  const auto write = [&](const std::string& output, const auto& writer) {
+    if (output.empty()) return;
     console::progress(fmt::format("writing {}", output));
-    writePicture(output, image, a.exposure.value_or(pack.scene.exposureEv));
-  }
+    writer(output);
+    written.push_back(output);
+  };
+  for (const std::string& output : a.outputs)
+    write(output, [&](const std::string& file) { writePicture(file, image, exposureEv); });
+  write(a.dolp, [&](const std::string& file) { writeDolp(file, image); });
+  write(a.aolp, [&](const std::string& file) { writeAolp(file, image); });
+  write(a.mosaic, [&](const std::string& file) {
+    writeMosaic(file, mosaic(image, {a.mosaicBits, kMosaicChannels.at(a.mosaicChannel), exposureEv}));
+  });
   console::progressDone();
   const Cost& cost = picture.cost;
   if (a.json) {
@@ -115,7 +257,7 @@ void runRender(const RenderArguments& a) {
                                    {"buildMs", cost.buildMs},
                                    {"traceMs", cost.traceMs},
                                    {"wallMs", cost.wallMs},
-                                   {"outputs", a.outputs}};
+                                   {"outputs", written}};
     fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("{}: {} {}, {} x {}, depth {}, {}{:.1f} ms on {}\n", pack.scene.name, a.backend, method, picture.width,
@@ -160,42 +302,73 @@ void runCompareImages(const CompareArguments& arguments) {
 
 }  // namespace
 
+void addRenderSettings(CLI::App& command, RenderSettings& a) {
+  command.add_option("pack", a.input, "scene pack")->required();
+  command.add_option("--backend", a.backend, "renderer")
+      ->check(CLI::IsMember({"vulkan", "embree", "reference"}))
+      ->capture_default_str();
+  command.add_option("--method", a.method, "how light is carried along rays")
+      ->check(CLI::IsMember(methodNames()))
+      ->capture_default_str();
+  command.add_option("--width", a.width, "picture width (default: the pack's; height keeps the aspect)")
+      ->check(CLI::Range(1u, 16384u));
+  command.add_option("--height", a.height, "picture height")->check(CLI::Range(1u, 16384u));
+  command.add_option("--depth", a.depth, "most specular interactions along a path (default: the pack's)")
+      ->check(CLI::Range(0u, 30u));
+  command.add_option("--samples", a.samples, "rays a pixel along each axis")
+      ->check(CLI::Range(1u, 64u))
+      ->capture_default_str();
+  command.add_option("--region", a.region, "part of the picture: x y width height")->expected(4);
+  command.add_option("--threads", a.threads, "CPU threads, 0 for all")
+      ->check(CLI::Range(0u, 1024u))
+      ->capture_default_str();
+  command.add_option("--device", a.device, "Vulkan device: number or part of its name from --list-devices");
+}
+
+CLI::Option* addExposure(CLI::App& command, std::optional<double>& exposure, const std::string& description) {
+  return command.add_option("--exposure", exposure, description + " in stops (default: the pack's)")
+      ->check(finite())
+      ->check(CLI::Range(-100.0, 100.0));
+}
+
 void addRenderCommand(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
   CLI::App* command = app.add_subcommand("render", "Renders a scene pack");
-  command->add_option("pack", a->input, "scene pack")->required();
+  addRenderSettings(*command, *a);
   command->add_option("-o,--output", a->outputs, "picture to write: .exr (all channels) or .png; may be given twice")
-      ->required()
       ->expected(1)
       ->take_all();
-  command->add_option("--backend", a->backend, "renderer")
-      ->check(CLI::IsMember({"vulkan", "embree", "reference"}))
-      ->capture_default_str();
-  command->add_option("--method", a->method, "how light is carried along rays")
-      ->check(CLI::IsMember(methodNames()))
-      ->capture_default_str();
   command
       ->add_option("--polarizer", a->polarizer,
                    "linear polarizer in front of the camera: degrees from the picture's x axis, counter-clockwise")
       ->check(finite());
-  command->add_option("--width", a->width, "picture width (default: the pack's; height keeps the aspect)")
-      ->check(CLI::Range(1u, 16384u));
-  command->add_option("--height", a->height, "picture height")->check(CLI::Range(1u, 16384u));
-  command->add_option("--depth", a->depth, "most specular interactions along a path (default: the pack's)")
-      ->check(CLI::Range(0u, 30u));
-  command->add_option("--samples", a->samples, "rays a pixel along each axis")
-      ->check(CLI::Range(1u, 64u))
-      ->capture_default_str();
-  command->add_option("--region", a->region, "part of the picture: x y width height")->expected(4);
-  command->add_option("--threads", a->threads, "CPU threads, 0 for all")
-      ->check(CLI::Range(0u, 1024u))
-      ->capture_default_str();
-  command->add_option("--device", a->device, "Vulkan device: number or part of its name from --list-devices");
-  command->add_option("--exposure", a->exposure, "display exposure of PNG files in stops (default: the pack's)")
-      ->check(finite())
-      ->check(CLI::Range(-100.0, 100.0));
+  command->add_option("--analyser", a->analyser, "circular analyser in front of the camera: passes right or left")
+      ->check(CLI::IsMember({"right", "left"}));
+  command
+      ->add_option("--wave-plate", a->wavePlate,
+                   "retarder in front of the polarizer: degrees of its fast axis and of its retardance (default 90)")
+      ->check(wavePlate());
+  command->add_option("--output-dolp", a->dolp,
+                      "degree of linear polarization before the filter: .exr (0 to 1, per colour) or .png (viridis)");
+  command->add_option("--output-aolp", a->aolp,
+                      "angle of linear polarization before the filter: .exr (radians, per colour) or .png (hues)");
+  CLI::Option* mosaicFile = command->add_option(
+      "--mosaic", a->mosaic, "raw picture of a polarization camera, rows 90 45 / 135 0: .png or .tif");
+  command->add_option("--mosaic-bits", a->mosaicBits, "of the mosaic; 12 lie unshifted in 16")
+      ->check(CLI::IsMember({8u, 12u, 16u}))
+      ->capture_default_str()
+      ->needs(mosaicFile);
+  command->add_option("--mosaic-channel", a->mosaicChannel, "light that the mosaic's sensor sees")
+      ->check(CLI::IsMember({"luminance", "R", "G", "B"}))
+      ->capture_default_str()
+      ->needs(mosaicFile);
+  addExposure(*command, a->exposure, "exposure of PNG files and mosaics");
   command->add_flag("--count-rays", a->countRays, "vulkan: trace once more, untimed, to count the rays");
   command->add_flag("--json", a->json, "print the result as JSON");
+  command
+      ->add_option("--max-error", a->maxError,
+                   "take the fastest method whose relative RMS error on this pack is at most this, instead of --method")
+      ->check(CLI::Range(0.0, 1e6));
   command->callback([a] { runRender(*a); });
 }
 

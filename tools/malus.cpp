@@ -1,30 +1,25 @@
 // The `malus` command: gathers the modules' command lines and gives every end its exit code.
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <new>
-
-#include <unistd.h>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "bake/cli.h"
-#include "meshprep/base/atomic_file.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/interrupt.h"
 #include "meshprep/cli.h"
 #include "render/cli.h"
+#include "render/compare/cli.h"
+#include "render/sweep_cli.h"
+#include "render/vulkan/gpu_model.h"
 
 namespace {
 
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kPicturesDiffer = 3, kInterrupted = 130 };
-
-void onInterrupt(int) {
-  malus::removeUnfinished();
-  ::_exit(kInterrupted);
-}
 
 int fail(const char* message) {
   malus::console::progressDone();
@@ -32,9 +27,9 @@ int fail(const char* message) {
   return kFailed;
 }
 
-// A full disk behind stdout shows only when it is flushed.
+// A full disk behind stdout shows only when it is flushed; what CLI11 prints is flushed before.
 int finish() {
-  if (std::fflush(stdout) != 0) return fail("cannot write to standard output");
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return fail("cannot write to standard output");
   return kDone;
 }
 
@@ -59,7 +54,9 @@ int run(int argc, char** argv) {
   malus::bake::addBakeCommand(app);
   malus::bake::addInfoCommand(app);
   malus::render::addRenderCommand(app);
+  malus::render::addCompareCommand(app);
   malus::render::addCompareImagesCommand(app);
+  malus::render::addSweepCommand(app);
   try {
     app.parse(argc, argv);  // runs the subcommand
     if (listMethods) malus::render::listMethods();
@@ -78,13 +75,16 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, onInterrupt);
-  std::signal(SIGTERM, onInterrupt);
+  malus::handleInterrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, like a full disk
   try {
+    if (malus::vulkan::gpuModelMain(argc, argv)) return kDone;  // the child of `compare --gpu-model`
     return run(argc, argv);
   } catch (const malus::render::PicturesDiffer&) {
     return finish() == kDone ? kPicturesDiffer : kFailed;
+  } catch (const malus::Interrupted&) {
+    malus::console::progressDone();
+    return kInterrupted;
   } catch (const malus::Error& error) {
     return fail(error.what());
   } catch (const std::bad_alloc&) {

@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <span>
+
 #include "bake/image/module.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
@@ -55,8 +57,16 @@ void writeExr(const fs::path& path, const Image& image) {
 }
 
 void writePng(const fs::path& path, int width, int height, int channels, const std::vector<std::uint8_t>& pixels) {
+  std::vector<unsigned char> bytes;
+  check(path, "cannot write", module().encodePng(width, height, channels, pixels.data(), bytes));
+  writeFile(path, std::as_bytes(std::span(bytes)));
+}
+
+void writeGrey(const fs::path& path, int width, int height, GreyDepth depth, const std::vector<std::uint16_t>& values,
+               const std::string& description) {
   writeBeside(path, [&](const fs::path& temporary) {
-    check(path, "cannot write", module().writePng(temporary.string(), width, height, channels, pixels.data()));
+    check(path, "cannot write",
+          module().writeGrey(temporary.string(), width, height, depth, values.data(), description));
   });
 }
 

@@ -35,4 +35,10 @@ void writeExr(const std::filesystem::path& path, const Image& image);
 void writePng(const std::filesystem::path& path, int width, int height, int channels,
               const std::vector<std::uint8_t>& pixels);
 
+// Linear grey PNG or TIFF (uncompressed), by the extension: width * height values, top row first, in one
+// sample of 8 bits (values up to 255) or 16 bits each, stored as they are. The description goes into the file.
+enum class GreyDepth { bits8, bits16 };
+void writeGrey(const std::filesystem::path& path, int width, int height, GreyDepth depth,
+               const std::vector<std::uint16_t>& values, const std::string& description);
+
 }  // namespace malus::image

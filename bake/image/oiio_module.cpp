@@ -1,4 +1,5 @@
 // The picture module: the only file that includes OpenImageIO.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include "bake/image/module.h"
@@ -47,10 +48,13 @@ std::string readImage(const std::string& path, Image& image) {
   }
 }
 
-std::string writeSpec(const std::string& path, const ImageSpec& spec, TypeDesc type, const void* pixels) {
+// To the file, or to the proxy in its place; path tells the format in any case.
+std::string writeSpec(const std::string& path, const ImageSpec& spec, TypeDesc type, const void* pixels,
+                      OIIO::Filesystem::IOProxy* proxy = nullptr) {
   try {
     const auto output = ImageOutput::create(path);
     if (!output) return orElse(OIIO::geterror(), "unknown format");
+    if (proxy != nullptr && !output->set_ioproxy(proxy)) return "cannot write to memory";
     if (!output->open(path, spec)) return orElse(output->geterror(), "cannot open");
     if (!output->write_image(type, pixels)) return orElse(output->geterror(), "cannot write");
     if (!output->close()) return orElse(output->geterror(), "cannot close");
@@ -84,10 +88,25 @@ std::string writeExrImage(const std::string& path, const Image& image) {
   return writeSpec(path, spec, TypeDesc::FLOAT, image.pixels.data());
 }
 
-std::string writePngImage(const std::string& path, int width, int height, int channels, const std::uint8_t* pixels) {
+std::string encodePngImage(int width, int height, int channels, const std::uint8_t* pixels,
+                           std::vector<unsigned char>& bytes) {
   ImageSpec spec(width, height, channels, TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  return writeSpec(path, spec, TypeDesc::UINT8, pixels);
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  return writeSpec("memory.png", spec, TypeDesc::UINT8, pixels, &memory);
+}
+
+std::string writeGreyImage(const std::string& path, int width, int height, GreyDepth depth, const std::uint16_t* values,
+                           const std::string& description) {
+  ImageSpec spec(width, height, 1, depth == GreyDepth::bits8 ? TypeDesc::UINT8 : TypeDesc::UINT16);
+  spec.attribute("oiio:ColorSpace", "Linear");
+  spec.attribute("ImageDescription", description);
+  spec.attribute("compression", "none");  // of TIFF; PNG has one alone
+  spec.attribute("DateTime", 0);          // as in writeExrImage
+  if (depth == GreyDepth::bits16) return writeSpec(path, spec, TypeDesc::UINT16, values);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(values[i]);
+  return writeSpec(path, spec, TypeDesc::UINT8, bytes.data());
 }
 
 }  // namespace
@@ -96,6 +115,6 @@ std::string writePngImage(const std::string& path, int width, int height, int ch
 extern "C" __attribute__((visibility("default"))) const malus::image::Module* malusImageModule() {
   OIIO::attribute("debug", 0);  // Debian's build would talk on stderr
   static const malus::image::Module kModule = {malus::image::readImage, malus::image::writeExrImage,
-                                               malus::image::writePngImage};
+                                               malus::image::encodePngImage, malus::image::writeGreyImage};
   return &kModule;
 }

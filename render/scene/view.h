@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "bake/pack/scene.h"
 
@@ -15,12 +16,34 @@ struct Region {
 };
 
 // First row of the Mueller matrix of what stands in front of the camera: the recorded intensity is its
-// product with the Stokes vector in the camera's frame.
+// product with the Stokes vector in the camera's frame (shaders/optics/CONVENTIONS.md: x is the picture's,
+// angles in degrees, counter-clockwise as the photographer sees them; +S3 is right circular).
 using Analyser = std::array<double, 4>;
 inline constexpr Analyser kNoFilter = {1, 0, 0, 0};
-// Linear polarizer that passes light along an axis at `degrees` from the picture's x axis, counter-clockwise
-// as the photographer sees it: 1/2 (1, cos 2f, sin 2f, 0).
+// Linear polarizer that passes light along an axis at `degrees`: 1/2 (1, cos 2f, sin 2f, 0), any finite angle.
+// A photographer's "circular polarizer" is this one: its quarter-wave plate stands behind the polarizer.
 Analyser linearPolarizer(double degrees);
+
+// Circular analyser that passes right or left circular light: 1/2 (1, 0, 0, +-1).
+enum class Handedness { right, left };
+Analyser circularAnalyser(Handedness handedness);
+
+// Linear retarder: fast axis and retardance in degrees, any finite angles. 90 is a quarter-wave plate.
+struct WavePlate {
+  double axisDegrees = 0;
+  double retardanceDegrees = 90;
+};
+// The plate in front of an analyser (toward the scene): the analyser's row times R(-a) G(d) R(a), where R turns
+// the frame and G is [[cos d, sin d], [-sin d, cos d]] on (S2, S3). The plate alone changes no intensity.
+Analyser behindWavePlate(const Analyser& analyser, const WavePlate& plate);
+
+// Which part of polarized light a method's rays bring back: linear (S1, S2), circular (S3). Found by sending
+// light through mirrors with the method's own functions. A name without such functions counts as both.
+struct CarriedLight {
+  bool linear = true;
+  bool circular = true;
+};
+CarriedLight carriedBy(std::string_view method);
 
 struct View {
   std::uint32_t width = 0;  // of the whole picture

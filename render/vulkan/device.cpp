@@ -26,6 +26,8 @@ struct Features {
   VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
   VkPhysicalDeviceVulkan12Features core12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR};
   VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
   Features() {
     all.pNext = &core12;
@@ -35,16 +37,25 @@ struct Features {
   Features(const Features&) = delete;
 };
 
-std::string problemOf(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
-  if (properties.apiVersion < VK_API_VERSION_1_2) return "Vulkan older than 1.2";
+std::vector<std::string> extensionsOf(VkPhysicalDevice device) {
   std::uint32_t count = 0;
   vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
   vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+  std::vector<std::string> names;
+  for (const VkExtensionProperties& e : extensions) names.emplace_back(e.extensionName);
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view wanted) {
+  return std::find(names.begin(), names.end(), wanted) != names.end();
+}
+
+std::string problemOf(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
+  if (properties.apiVersion < VK_API_VERSION_1_2) return "Vulkan older than 1.2";
+  const std::vector<std::string> extensions = extensionsOf(device);
   for (const char* wanted : kExtensions)
-    if (std::none_of(extensions.begin(), extensions.end(),
-                     [&](const auto& e) { return std::string_view(e.extensionName) == wanted; }))
-      return fmt::format("no ray tracing ({} is missing)", wanted);
+    if (!contains(extensions, wanted)) return fmt::format("no ray tracing ({} is missing)", wanted);
   Features features;
   vkGetPhysicalDeviceFeatures2(device, &features.all);
   if (!features.pipeline.rayTracingPipeline || !features.acceleration.accelerationStructure)
@@ -117,7 +128,8 @@ std::vector<PhysicalDevice> describeDevices(const Instance& instance) {
   return result;
 }
 
-Device::Device(const Instance& instance, const std::string& wanted) : physical_(choose(instance, wanted)) {
+Device::Device(const Instance& instance, const std::string& wanted, bool statistics)
+    : physical_(choose(instance, wanted)) {
   VkPhysicalDevice physical = physical_.handle;
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
   rayTracing_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR;
@@ -151,12 +163,19 @@ Device::Device(const Instance& instance, const std::string& wanted) : physical_(
   features.acceleration.accelerationStructure = VK_TRUE;
   features.core12.bufferDeviceAddress = VK_TRUE;
   features.core12.scalarBlockLayout = VK_TRUE;
+  std::vector<const char*> extensions(kExtensions.begin(), kExtensions.end());
+  statistics = statistics && contains(extensionsOf(physical), VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+  if (statistics) {
+    extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+    features.executables.pipelineExecutableInfo = VK_TRUE;
+    features.pipeline.pNext = &features.executables;
+  }
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
   info.pNext = &features.all;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.enabledExtensionCount = static_cast<std::uint32_t>(kExtensions.size());
-  info.ppEnabledExtensionNames = kExtensions.data();
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   check(vkCreateDevice(physical, &info, nullptr, &device_), "vkCreateDevice");
   vkGetDeviceQueue(device_, queue.queueFamilyIndex, 0, &queue_);
   VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
@@ -176,6 +195,11 @@ Device::Device(const Instance& instance, const std::string& wanted) : physical_(
   load(createRayTracingPipelines, "vkCreateRayTracingPipelinesKHR");
   load(getRayTracingShaderGroupHandles, "vkGetRayTracingShaderGroupHandlesKHR");
   load(cmdTraceRays, "vkCmdTraceRaysKHR");
+  load(getRayTracingShaderGroupStackSize, "vkGetRayTracingShaderGroupStackSizeKHR");
+  if (statistics) {
+    load(getPipelineExecutableProperties, "vkGetPipelineExecutablePropertiesKHR");
+    load(getPipelineExecutableStatistics, "vkGetPipelineExecutableStatisticsKHR");
+  }
 }
 
 Device::~Device() {

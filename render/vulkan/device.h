@@ -1,6 +1,7 @@
 // A ray-tracing device: choosing one, its queue, and the extension functions that the loader does not export.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -24,8 +25,9 @@ std::vector<PhysicalDevice> describeDevices(const Instance& instance);
 class Device {
  public:
   // wanted: number or part of a name, "" for MALUS_DEVICE or else the best (a discrete GPU before an
-  // integrated one before a CPU). Throws Error: none, an unknown one, one without ray tracing.
-  Device(const Instance& instance, const std::string& wanted);
+  // integrated one before a CPU). statistics: also what its compiler tells about pipelines, where it does.
+  // Throws Error: none, an unknown one, one without ray tracing.
+  Device(const Instance& instance, const std::string& wanted, bool statistics = false);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -35,6 +37,7 @@ class Device {
   const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rayTracing() const { return rayTracing_; }
   std::uint32_t scratchAlignment() const { return scratchAlignment_; }
   double timestampPeriodNs() const { return timestampPeriodNs_; }  // 0: the queue has no timestamps
+  bool hasStatistics() const { return getPipelineExecutableStatistics != nullptr; }
   std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const;
 
   // Records commands, runs them and waits.
@@ -49,6 +52,9 @@ class Device {
   PFN_vkCreateRayTracingPipelinesKHR createRayTracingPipelines = nullptr;
   PFN_vkGetRayTracingShaderGroupHandlesKHR getRayTracingShaderGroupHandles = nullptr;
   PFN_vkCmdTraceRaysKHR cmdTraceRays = nullptr;
+  PFN_vkGetRayTracingShaderGroupStackSizeKHR getRayTracingShaderGroupStackSize = nullptr;
+  PFN_vkGetPipelineExecutablePropertiesKHR getPipelineExecutableProperties = nullptr;  // null without statistics
+  PFN_vkGetPipelineExecutableStatisticsKHR getPipelineExecutableStatistics = nullptr;
 
  private:
   PhysicalDevice physical_;

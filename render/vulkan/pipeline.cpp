@@ -42,6 +42,12 @@ VkDeviceSize alignedTo(VkDeviceSize value, VkDeviceSize alignment) {
 
 Pipeline::Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene,
                    VkDescriptorSetLayout bindings, std::uint32_t recursion)
+    : Pipeline(device, variant, bindings, recursion, 0) {
+  createTable(scene);
+}
+
+Pipeline::Pipeline(const Device& device, const Variant& variant, VkDescriptorSetLayout bindings,
+                   std::uint32_t recursion, VkPipelineCreateFlags flags)
     : device_(device) {
   Modules modules{device, {}};
   std::vector<VkPipelineShaderStageCreateInfo> stages;
@@ -76,6 +82,7 @@ Pipeline::Pipeline(const Device& device, const Variant& variant, const render::F
   layout.pSetLayouts = &bindings;
   check(vkCreatePipelineLayout(device.get(), &layout, nullptr, &layout_), "vkCreatePipelineLayout");
   VkRayTracingPipelineCreateInfoKHR info{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
+  info.flags = flags;
   info.stageCount = static_cast<std::uint32_t>(stages.size());
   info.pStages = stages.data();
   info.groupCount = static_cast<std::uint32_t>(groups.size());
@@ -85,9 +92,7 @@ Pipeline::Pipeline(const Device& device, const Variant& variant, const render::F
   try {
     check(device.createRayTracingPipelines(device.get(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
           "vkCreateRayTracingPipelinesKHR");
-    createTable(scene);
   } catch (...) {
-    if (pipeline_) vkDestroyPipeline(device.get(), pipeline_, nullptr);
     vkDestroyPipelineLayout(device.get(), layout_, nullptr);
     throw;
   }

@@ -13,6 +13,9 @@ class Pipeline {
   // group of its material's kind. Throws Error.
   Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene,
            VkDescriptorSetLayout bindings, std::uint32_t recursion);
+  // Without a table: it is compiled and cannot trace. Its groups are those of stageSources(), in order.
+  Pipeline(const Device& device, const Variant& variant, VkDescriptorSetLayout bindings, std::uint32_t recursion,
+           VkPipelineCreateFlags flags);
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;

@@ -10,6 +10,7 @@
 #include "render/scene/float_scene.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/acceleration.h"
+#include "render/vulkan/bindings.h"
 #include "render/vulkan/check.h"
 #include "render/vulkan/pipeline.h"
 
@@ -18,30 +19,15 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-double sinceMs(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+double betweenMs(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
 }
+double sinceMs(Clock::time_point start) { return betweenMs(start, Clock::now()); }
 
 template <typename T>
 std::span<const std::byte> bytesOf(const std::vector<T>& values) {
   return std::as_bytes(std::span(values));
 }
-
-// The bindings of shaders/stages/bindings.glsl.
-enum Binding : std::uint32_t {
-  kTlas,
-  kPixels,
-  kFrame,
-  kMaterials,
-  kLights,
-  kMeshes,
-  kTriangles,
-  kPositions,
-  kNormals,
-  kTexels,
-  kCounter,
-  kBindings
-};
 
 constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 constexpr VkBufferUsageFlags kBuildInput = kStorage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
@@ -52,16 +38,7 @@ constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK
 class Bindings {
  public:
   explicit Bindings(const Device& device) : device_(device) {
-    std::vector<VkDescriptorSetLayoutBinding> list;
-    for (std::uint32_t i = 0; i < kBindings; ++i)
-      list.push_back(
-          {i, i == kTlas ? VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
-           VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR,
-           nullptr});
-    VkDescriptorSetLayoutCreateInfo layout{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    layout.bindingCount = kBindings;
-    layout.pBindings = list.data();
-    check(vkCreateDescriptorSetLayout(device.get(), &layout, nullptr, &layout_), "vkCreateDescriptorSetLayout");
+    layout_ = createBindingsLayout(device);
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBindings - 1}};
     VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
@@ -162,6 +139,7 @@ struct Renderer::Impl {
         device(instance, options.device),
         scene(source),
         floats(render::floatScene(source)),
+        uploading(Clock::now()),
         materials(uploaded(device, bytesOf(floats.materials), kStorage)),
         lights(uploaded(device, bytesOf(floats.lights), kStorage)),
         meshes(uploaded(device, bytesOf(floats.meshes), kStorage)),
@@ -171,7 +149,9 @@ struct Renderer::Impl {
         texels(uploaded(device, bytesOf(floats.environmentTexels), kStorage)),
         frame(device, sizeof(gpu::Frame), kStorage, kHost),
         counter(device, sizeof(std::uint32_t), kStorage, kHost),
+        building(Clock::now()),
         acceleration(device, floats, positions, triangles),
+        built(Clock::now()),
         bindings(device),
         timestamps(device) {
     bindings.bind(acceleration.top());
@@ -193,19 +173,17 @@ struct Renderer::Impl {
   Device device;
   const pack::Scene& scene;
   render::FloatScene floats;
+  Clock::time_point uploading;
   Buffer materials, lights, meshes, triangles, positions, normals, texels, frame, counter, pixels, readBack;
+  Clock::time_point building;
   Acceleration acceleration;
+  Clock::time_point built;
   Bindings bindings;
   Timestamps timestamps;
   std::map<std::pair<Variant, std::uint32_t>, std::unique_ptr<Pipeline>> pipelines;
-  double buildMs = 0;
 };
 
-Renderer::Renderer(const pack::Scene& scene, const Options& options) {
-  const auto start = Clock::now();
-  impl_ = std::make_unique<Impl>(scene, options);
-  impl_->buildMs = sinceMs(start);
-}
+Renderer::Renderer(const pack::Scene& scene, const Options& options) { impl_ = std::make_unique<Impl>(scene, options); }
 
 Renderer::~Renderer() = default;
 
@@ -226,6 +204,7 @@ const Pipeline& Renderer::Impl::pipelineFor(const Variant& variant, std::uint32_
 
 render::Picture Renderer::Impl::trace(const Variant& variant, const render::View& view) {
   const auto preparing = Clock::now();
+  const bool fresh = !pipelines.contains({variant, view.depth + 2});
   const Pipeline& pipeline = pipelineFor(variant, view.depth + 2);
   render::Picture picture;
   picture.width = view.region.width;
@@ -262,17 +241,21 @@ render::Picture Renderer::Impl::trace(const Variant& variant, const render::View
   };
 
   // Drivers finish compiling at the first trace: one pixel warms them up, outside of the time.
-  if (!variant.countRays) {
+  if (fresh && !variant.countRays) {
     gpu::Frame one = constants;
     one.regionWidth = one.regionHeight = 1;
     dispatch(one);
   }
-  picture.cost.buildMs = buildMs + sinceMs(preparing);
+  picture.cost.uploadMs = betweenMs(uploading, building);
+  picture.cost.buildMs = betweenMs(building, built);
+  picture.cost.compileMs = fresh ? sinceMs(preparing) : 0;
 
   const auto start = Clock::now();
   dispatch(constants);
   const double wallMs = sinceMs(start);
+  const auto reading = Clock::now();
   readBack.read(std::as_writable_bytes(std::span(picture.pixels)));
+  picture.cost.readBackMs = sinceMs(reading);
   picture.cost.wallMs = sinceMs(start);
   picture.cost.traceMs = timestamps.elapsedMs().value_or(wallMs);
   std::uint32_t rays = 0;

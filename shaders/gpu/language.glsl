@@ -12,6 +12,7 @@
 #define R(x) float(x)
 #endif
 #define mask bool
+#define word uint
 #define FN
 #define CONST const
 #define OUT(T) out T

@@ -37,7 +37,8 @@ FN Refraction refractionTerms(real c, real n1, real n2) {
   f.etaSq = f.eta * f.eta;
   f.etaSqM1 = ((n2 - n1) * (n2 + n1)) / (n1 * n1);
   f.sinSq = (R(1.0) - c) * (R(1.0) + c);
-  real tSq = f.etaSqM1 + c * c;
+  // Beside 1 an eta^2 of 1e-8 would be lost: of the two forms, the one with the smaller terms.
+  real tSq = selectR(lessR(f.etaSq + f.sinSq, R(1.0)), f.etaSq - f.sinSq, f.etaSqM1 + c * c);
   f.total = lessR(tSq, R(0.0));
   f.matched = equalR(f.etaSqM1, R(0.0));
   f.t = sqrtR(maxR(tSq, R(0.0)));
@@ -84,10 +85,11 @@ FN Reflectance conductorReflectance(real c, real n1, real n2, real k2) {
   real n = n2 * inverse;
   real k = k2 * inverse;
   real sinSq = (R(1.0) - c) * (R(1.0) + c);
-  // eta^2 - 1 and z = t^2 = (eta^2 - 1) + c^2, complex; Im <= 0.
-  real eRe = ((n2 - n1) * (n2 + n1)) * inverse * inverse - k * k;
+  // eta^2 - 1 and z = t^2 = (eta^2 - 1) + c^2 = eta^2 - sin^2, complex; Im <= 0.
+  real nSqM1 = ((n2 - n1) * (n2 + n1)) * inverse * inverse;
+  real eRe = nSqM1 - k * k;
   real eIm = R(-2.0) * n * k;
-  real zRe = eRe + c * c;
+  real zRe = selectR(lessR(n * n + sinSq, R(1.0)), n * n - sinSq - k * k, eRe + c * c);
   // Root of z with Im <= 0: the larger part from the modulus, the other from Im z.
   real zAbs = sqrtR(zRe * zRe + eIm * eIm);
   real larger = sqrtR(R(0.5) * (zAbs + absR(zRe)));

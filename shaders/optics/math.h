@@ -32,3 +32,24 @@ FN real absR(real x) { return abs(x); }
 
 FN real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 FN real3 cross3(real3 a, real3 b) { return make3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
+
+// Numbers of 16 bits, two to a word (methods with packed payloads, float only). Bits of a half float, rounded to
+// nearest; of a fraction in [-1, 1], in steps of 1/32767.
+#ifdef __cplusplus
+FN word halfBits(real x) { return glm::packHalf1x16(static_cast<float>(x)); }
+FN real halfValue(word bits) { return static_cast<real>(glm::unpackHalf1x16(static_cast<std::uint16_t>(bits))); }
+FN word fractionBits(real x) { return glm::packSnorm1x16(static_cast<float>(x)); }
+FN real fractionValue(word bits) { return static_cast<real>(glm::unpackSnorm1x16(static_cast<std::uint16_t>(bits))); }
+FN word wordOfReal(real x) { return static_cast<word>(x); }
+FN real realOfWord(word x) { return static_cast<real>(x); }
+#else
+FN word halfBits(real x) { return packHalf2x16(vec2(float(x), 0.0)); }
+FN real halfValue(word bits) { return real(unpackHalf2x16(bits).x); }
+FN word fractionBits(real x) { return packSnorm2x16(vec2(float(x), 0.0)); }
+FN real fractionValue(word bits) { return real(unpackSnorm2x16(bits).x); }
+FN word wordOfReal(real x) { return word(x); }
+FN real realOfWord(word x) { return real(x); }
+#endif
+FN word joinWord(word low, word high) { return (low & 0xffffu) | (high << 16); }
+FN word lowHalf(word w) { return w & 0xffffu; }
+FN word highHalf(word w) { return w >> 16; }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
+#include <glm/gtc/packing.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -14,6 +16,7 @@ using real = float;
 using real2 = glm::vec2;
 using real3 = glm::vec3;
 using mask = bool;
+using word = std::uint32_t;
 #include "shaders/optics/math.h"
 
 #include "shaders/optics/all.h"
@@ -24,6 +27,7 @@ using real = double;
 using real2 = glm::dvec2;
 using real3 = glm::dvec3;
 using mask = bool;
+using word = std::uint32_t;
 #include "shaders/optics/math.h"
 
 #include "shaders/optics/all.h"

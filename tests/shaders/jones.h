@@ -4,6 +4,7 @@
 // jones_test.cpp holds it against Maxwell's boundary conditions and against the turning of a field in time.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -41,7 +42,7 @@ struct Amplitudes {
   Complex rs, rp, ts, tp, cosT;
 };
 inline Amplitudes amplitudes(Real cosI, Real n1, Complex n2) {
-  const Real sinI = std::sqrt((1 - cosI) * (1 + cosI));
+  const Real sinI = std::sqrt(std::max(Real(0), (1 - cosI) * (1 + cosI)));
   const Complex sinT = n1 * sinI / n2;
   Complex cosT = std::sqrt((Real(1) - sinT) * (Real(1) + sinT));
   // A wave into the second medium fades along it, or runs along it.
@@ -58,10 +59,10 @@ inline Amplitudes amplitudes(Real cosI, Real n1, Complex n2) {
 }
 
 struct Powers {
-  Real rs, rp;    // |r|^2
-  Complex x;      // r_p conj(r_s)
-  Real ts, tp;    // flux transmittances
-  Real txGeo;     // sqrt(ts tp)
+  Real rs, rp;  // |r|^2
+  Complex x;    // r_p conj(r_s)
+  Real ts, tp;  // flux transmittances
+  Real txGeo;   // sqrt(ts tp)
 };
 inline Powers powers(Real cosI, Real n1, Complex n2) {
   const Amplitudes a = amplitudes(cosI, n1, n2);

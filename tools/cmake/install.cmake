@@ -5,6 +5,8 @@ include(CMakePackageConfigHelpers)
 install(TARGETS malus RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS malus_image_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/malus)
 
+install(DIRECTORY tools/report DESTINATION ${CMAKE_INSTALL_DATADIR}/malus PATTERN "__pycache__" EXCLUDE)
+
 foreach(name IN ITEMS base compress pack optics)
   set_target_properties(malus_${name} PROPERTIES EXPORT_NAME ${name})
 endforeach()

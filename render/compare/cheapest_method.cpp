@@ -1,0 +1,111 @@
+#include "render/compare/cheapest_method.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bake/pack/format.h"
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/base/error.h"
+#include "render/compare/picture_error.h"
+#include "render/compare/statistics.h"
+#include "render/reference/reference.h"
+#include "render/scene/methods.h"
+
+namespace malus::render {
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::uint32_t kWidth = 256;
+constexpr int kRounds = 5;
+
+fs::path cacheFile(const std::string& key) {
+  fs::path folder;
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+    folder = cache;
+  else if (const char* home = std::getenv("HOME"); home && *home)
+    folder = fs::path(home) / ".cache";
+  else
+    return {};
+  return folder / "malus" / "errors" / fmt::format("{:016x}.json", pack::hashOf(std::as_bytes(std::span(key))));
+}
+
+// Empty where there is no cache or another key had the same hash.
+std::vector<MethodEstimate> load(const fs::path& path, const std::string& key) {
+  std::error_code ignored;
+  if (path.empty() || !fs::exists(path, ignored)) return {};
+  try {
+    const json document = json::parse(readTextFile(path, std::size_t{1} << 20));
+    std::vector<MethodEstimate> list;
+    if (document.at("key") != key) return {};
+    for (const json& e : document.at("estimates"))
+      list.push_back({e.at("method").get<std::string>(), e.at("relRms").get<double>(), e.at("medianMs").get<double>()});
+    return list;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+void save(const fs::path& path, const std::string& key, const std::vector<MethodEstimate>& list) {
+  if (path.empty()) return;
+  json estimates = json::array();
+  for (const MethodEstimate& e : list)
+    estimates.push_back({{"method", e.method}, {"relRms", e.relRms}, {"medianMs", e.medianMs}});
+  try {
+    fs::create_directories(path.parent_path());
+    writeFile(path, json{{"key", key}, {"estimates", estimates}}.dump(1));
+  } catch (const std::exception&) {  // without a cache the next run measures again
+  }
+}
+
+}  // namespace
+
+std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const View& full, const std::string& device,
+                                            const RenderSmall& render, unsigned threads,
+                                            const std::function<void(std::string_view)>& progress) {
+  View view = full;
+  view.width = kWidth;
+  view.height =
+      std::max(1u, static_cast<std::uint32_t>(std::lround(static_cast<double>(kWidth) * full.height / full.width)));
+  view.region = {0, 0, view.width, view.height};
+  view.samples = 1;
+  const std::string key =
+      fmt::format("malus {} pack {:016x} {} {}x{} depth {} analyser {} {} {} {} methods {}", MALUS_VERSION, pack.hash,
+                  device, view.width, view.height, view.depth, view.analyser[0], view.analyser[1], view.analyser[2],
+                  view.analyser[3], fmt::join(methodNames(), " "));
+  const fs::path path = cacheFile(key);
+  if (std::vector<MethodEstimate> known = load(path, key); !known.empty()) return known;
+
+  progress("measuring every method's error on a small picture");
+  const Picture reference = reference::render(pack.scene, view, threads);
+  std::vector<MethodEstimate> list;
+  std::vector<std::vector<double>> samples;
+  for (const std::string& method : methodNames()) {
+    list.push_back({method, pictureError(render(method, view), reference, pack.scene.exposureEv).relRms, 0});
+    samples.emplace_back();
+  }
+  for (int round = 0; round < kRounds; ++round)
+    for (std::size_t i = 0; i < list.size(); ++i) samples[i].push_back(render(list[i].method, view).cost.traceMs);
+  for (std::size_t i = 0; i < list.size(); ++i) list[i].medianMs = spreadOf(samples[i]).median;
+  save(path, key, list);
+  return list;
+}
+
+const MethodEstimate& cheapestUnder(const std::vector<MethodEstimate>& estimates, double maxError) {
+  const MethodEstimate* best = nullptr;
+  for (const MethodEstimate& e : estimates)
+    if (e.relRms <= maxError && (!best || e.medianMs < best->medianMs)) best = &e;
+  if (best) return *best;
+  const auto least = std::min_element(estimates.begin(), estimates.end(),
+                                      [](const auto& a, const auto& b) { return a.relRms < b.relRms; });
+  throw Error("--max-error", fmt::format("no method is within {:g} on this pack", maxError),
+              fmt::format("{:.3g} or more", least->relRms), fmt::format("'{}' as the most exact", least->method));
+}
+
+}  // namespace malus::render

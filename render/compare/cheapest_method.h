@@ -1,0 +1,34 @@
+// Which method is the cheapest that is good enough for a pack: every method is rendered small against the
+// reference, and what was found is kept in the user's cache folder by the hash of pack and view.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bake/pack/reader.h"
+#include "render/scene/picture.h"
+#include "render/scene/view.h"
+
+namespace malus::render {
+
+struct MethodEstimate {
+  std::string method;
+  double relRms = 0;    // against the reference, of the small picture
+  double medianMs = 0;  // of its interleaved rounds
+};
+
+// Renders one picture by a method; what a renderer does.
+using RenderSmall = std::function<Picture(const std::string& method, const View& view)>;
+
+// Every method's error and time for a pack with this depth and filter, at a width of 256 pixels. key: what else
+// the times depend on (renderer and device). From the cache where it is there. Throws what rendering throws.
+std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const View& view, const std::string& key,
+                                            const RenderSmall& render, unsigned threads,
+                                            const std::function<void(std::string_view)>& progress);
+
+// The fastest with relRms <= maxError. Throws Error, naming the best there is, where there is none.
+const MethodEstimate& cheapestUnder(const std::vector<MethodEstimate>& estimates, double maxError);
+
+}  // namespace malus::render

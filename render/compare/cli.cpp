@@ -1,0 +1,133 @@
+#include "render/compare/cli.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/base/console.h"
+#include "meshprep/base/error.h"
+#include "meshprep/base/interrupt.h"
+#include "render/compare/results.h"
+#include "render/scene/methods.h"
+#include "render/vulkan/gpu_model.h"
+
+extern char** environ;
+
+namespace malus::render {
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Arguments {
+  std::vector<std::string> packs;
+  std::string output;
+  ComparisonSettings settings;
+  bool noReport = false, json = false;
+};
+
+// The report's pages are made by Debian's Python, which has matplotlib and Jinja2.
+constexpr const char* kPython = "/usr/bin/python3";
+
+void writeReport(const fs::path& folder) {
+  std::error_code failed;
+  const fs::path script =
+      fs::read_symlink("/proc/self/exe", failed).parent_path() / MALUS_DATA_PATH / "report" / "compare_report.py";
+  if (!fs::exists(script, failed)) throw Error(script.string(), "the report's script is missing", "malus's own file");
+  const std::string scriptText = script.string(), folderText = folder.string();
+  const char* const command[] = {kPython, scriptText.c_str(), folderText.c_str(), nullptr};
+  pid_t child = 0;
+  int status = 0;
+  if (::posix_spawn(&child, kPython, nullptr, nullptr, const_cast<char* const*>(command), environ) != 0 ||
+      ::waitpid(child, &status, 0) < 0)
+    throw Error(kPython, "cannot be started",
+                "packages python3, python3-matplotlib, python3-jinja2, python3-openimageio");
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw Error(folderText, "the report's pages could not be made; results.json and results.csv are there");
+}
+
+void runCompare(const Arguments& a) {
+  const fs::path folder = a.output;
+  std::error_code failed;
+  fs::create_directories(folder / "pictures", failed);
+  if (failed)
+    throw Error((folder / "pictures").string(), "cannot make the folder", "a writable place", failed.message());
+
+  const InterruptScope scope;
+  Comparison comparison = compare({a.packs.begin(), a.packs.end()}, a.settings, folder, console::progress);
+  console::progressDone();
+  // Compilers' estimates for GPUs that are not here.
+  for (const std::string& family : a.settings.gpuFamilies)
+    for (std::size_t i = 0; i < a.packs.size() && !comparison.interrupted; ++i) {
+      const pack::Scene scene = pack::read(a.packs[i]).scene;
+      console::progress(fmt::format("{}: compiling for {}", scene.name, family));
+      const std::uint32_t depth = a.settings.depths.empty() ? scene.depth : a.settings.depths.front();
+      for (const vulkan::PipelineStatistics& s : vulkan::gpuModel(a.packs[i], family, a.settings.methods, depth)) {
+        comparison.gpuModel.push_back(vulkan::toJson(s));
+        comparison.gpuModel.back()["scene"] = scene.name;
+      }
+    }
+  const nlohmann::json results = toJson(comparison, a.settings);
+  writeFile(folder / "results.json", results.dump(1) + "\n");
+  writeFile(folder / "results.csv", toCsv(comparison));
+  if (a.json)
+    fmt::print("{}\n", results.dump(1));
+  else
+    fmt::print("{}\n", toTable(comparison));
+  if (comparison.interrupted) {
+    console::warn(fmt::format("interrupted: {} finished rounds are in {}", comparison.rounds, folder.string()));
+    throw Interrupted{};
+  }
+  if (!a.noReport) {
+    console::progress("writing the report");
+    writeReport(folder);
+    console::progressDone();
+    if (!a.json) fmt::print("report: {}\n", (folder / "index.html").string());
+  }
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app) {
+  auto a = std::make_shared<Arguments>();
+  a->settings.methods = methodNames();
+  CLI::App* command = app.add_subcommand("compare", "Compares methods and renderers: error against time");
+  command->add_option("packs", a->packs, "scene packs")->required();
+  command->add_option("-o,--output", a->output, "folder for the report")->required();
+  command->add_option("--methods", a->settings.methods, "methods (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(methodNames()));
+  command->add_option("--backends", a->settings.backends, "renderers (default: both)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"vulkan", "embree"}));
+  auto* width = command->add_option("--width", a->settings.widths, "widths of the pictures (default: the scene's)")
+                    ->delimiter(',')
+                    ->check(CLI::Range(1u, 16384u));
+  command->add_option("--scale", a->settings.scale, "size relative to the scene's, along each side")
+      ->check(CLI::Range(0.001, 4.0))
+      ->excludes(width);
+  command->add_option("--depth", a->settings.depths, "depths (default: the scene's)")
+      ->delimiter(',')
+      ->check(CLI::Range(0u, 30u));
+  command->add_option("--rounds", a->settings.rounds, "timed rounds after the warm-up")->capture_default_str();
+  command->add_option("--threads", a->settings.threads, "CPU threads, 0 for all")
+      ->check(CLI::Range(0u, 1024u))
+      ->capture_default_str();
+  command->add_option("--device", a->settings.device, "Vulkan device: number or part of its name from --list-devices");
+  command->add_option("--polarizer", a->settings.polarizerDegrees,
+                      "linear polarizer in front of the camera, in degrees");
+  command
+      ->add_option("--gpu-model", a->settings.gpuFamilies,
+                   "GPU families (navi21, navi31, ...): a compiler's static cost estimate for each, not a time")
+      ->delimiter(',');
+  command->add_flag("--no-report", a->noReport, "results.json, results.csv and pictures only");
+  command->add_flag("--json", a->json, "print results.json instead of the table");
+  command->callback([a] { runCompare(*a); });
+}
+
+}  // namespace malus::render

@@ -1,0 +1,220 @@
+#include "render/compare/comparison.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+#include "meshprep/base/interrupt.h"
+#include "render/embree/renderer.h"
+#include "render/image/output.h"
+#include "render/reference/reference.h"
+#include "render/scene/methods.h"
+#include "render/vulkan/renderer.h"
+
+namespace malus::render {
+
+namespace {
+
+// Processor time of the whole process, all threads.
+double cpuMs() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto ms = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3;
+  };
+  return ms(usage.ru_utime) + ms(usage.ru_stime);
+}
+
+// Both renderers of one scene, made when first asked for.
+class Renderers {
+ public:
+  Renderers(const pack::Scene& scene, const ComparisonSettings& settings) : scene_(scene), settings_(settings) {}
+
+  Picture render(const std::string& backend, const std::string& method, const View& view) {
+    return backend == "vulkan" ? vulkan().render(method, view) : embree().render(method, view);
+  }
+  std::uint64_t countRays(const std::string& backend, const std::string& method, const View& view,
+                          const Picture& picture) {
+    return backend == "vulkan" ? vulkan().countRays(method, view) : picture.cost.rays;
+  }
+  std::string device(const std::string& backend) { return backend == "vulkan" ? vulkan().device() : embree().device(); }
+
+ private:
+  vulkan::Renderer& vulkan() {
+    if (!vulkan_)
+      vulkan_ = std::make_unique<vulkan::Renderer>(scene_, vulkan::Options{settings_.device, settings_.threads});
+    return *vulkan_;
+  }
+  embree::Renderer& embree() {
+    if (!embree_) embree_ = std::make_unique<embree::Renderer>(scene_, settings_.threads);
+    return *embree_;
+  }
+  const pack::Scene& scene_;
+  const ComparisonSettings& settings_;
+  std::unique_ptr<vulkan::Renderer> vulkan_;
+  std::unique_ptr<embree::Renderer> embree_;
+};
+
+// Rows that share a scene and a view.
+struct Group {
+  const pack::Pack* pack;
+  View view;
+  std::shared_ptr<Renderers> renderers;
+  std::vector<std::size_t> rows;
+};
+
+std::string stem(const std::string& scene, const View& view, const std::string& what) {
+  return fmt::format("{}-{}x{}-d{}-{}", scene, view.width, view.height, view.depth, what);
+}
+
+std::vector<View> viewsOf(const pack::Scene& scene, const ComparisonSettings& settings) {
+  std::vector<std::uint32_t> widths = settings.widths, depths = settings.depths;
+  if (widths.empty()) widths = {std::max(1u, static_cast<std::uint32_t>(std::lround(scene.width * settings.scale)))};
+  if (depths.empty()) depths = {scene.depth};
+  std::vector<View> views;
+  for (const std::uint32_t width : widths)
+    for (const std::uint32_t depth : depths) {
+      View view = viewOf(scene);
+      view.width = width;
+      view.height = std::max(
+          1u, static_cast<std::uint32_t>(std::lround(static_cast<double>(width) * scene.height / scene.width)));
+      view.region = {0, 0, view.width, view.height};
+      view.depth = depth;
+      if (settings.polarizerDegrees) view.analyser = linearPolarizer(*settings.polarizerDegrees);
+      views.push_back(view);
+    }
+  return views;
+}
+
+// One render of a row, its times kept where `timed`.
+Picture renderRow(ComparisonRow& row, Group& group, bool timed) {
+  const double cpuBefore = cpuMs();
+  Picture picture = group.renderers->render(row.renderer, row.method, group.view);
+  const double cpu = cpuMs() - cpuBefore;
+  if (timed) {
+    row.samplesMs.push_back(picture.cost.traceMs);
+    row.wallMs.push_back(picture.cost.wallMs);
+    row.readBackMs.push_back(picture.cost.readBackMs);
+    row.cpuMs.push_back(cpu);
+  } else {
+    row.buildMs = picture.cost.buildMs;
+    row.uploadMs = picture.cost.uploadMs;
+    row.compileMs = picture.cost.compileMs;
+  }
+  return picture;
+}
+
+void summarize(Comparison& comparison, const std::vector<Group>& groups) {
+  for (const Group& group : groups)
+    for (const std::size_t i : group.rows) {
+      ComparisonRow& row = comparison.rows[i];
+      if (!row.ok()) continue;
+      // An interrupted round is dropped for every row alike.
+      for (auto* list : {&row.samplesMs, &row.wallMs, &row.readBackMs, &row.cpuMs})
+        list->resize(std::min<std::size_t>(list->size(), comparison.rounds));
+    }
+  for (const Group& group : groups)
+    for (const std::size_t i : group.rows) {
+      ComparisonRow& row = comparison.rows[i];
+      if (!row.ok() || row.samplesMs.empty()) continue;
+      row.time = spreadOf(row.samplesMs);
+      for (const std::size_t j : group.rows) {
+        const ComparisonRow& other = comparison.rows[j];
+        if (other.renderer != row.renderer || !other.ok() || other.samplesMs.size() != row.samplesMs.size()) continue;
+        if (other.method == "schlick") row.ratioToSchlick = ratioSpread(row.samplesMs, other.samplesMs);
+        if (i != j && indistinguishable(row.samplesMs, other.samplesMs)) row.indistinguishable.push_back(other.method);
+      }
+    }
+}
+
+}  // namespace
+
+Comparison compare(const std::vector<std::filesystem::path>& packs, const ComparisonSettings& asked,
+                   const std::filesystem::path& folder, const std::function<void(std::string_view)>& progress) {
+  ComparisonSettings settings = asked;
+  if (packs.empty()) throw Error("malus compare", "no scene pack", "one or more");
+  if (settings.rounds == 0) throw Error("--rounds", "no round", "1 or more", "0");
+  if (std::find(settings.methods.begin(), settings.methods.end(), "schlick") == settings.methods.end())
+    settings.methods.insert(settings.methods.begin(), "schlick");
+  for (const std::string& method : settings.methods) methodNamed(method);
+
+  Comparison comparison;
+  for (const std::filesystem::path& path : packs) {
+    pack::Pack pack = pack::read(path);
+    const std::string name = pack.scene.name;
+    if (!comparison.packs.emplace(name, std::move(pack)).second)
+      throw Error(path.string(), fmt::format("a second pack of scene '{}'", name), "each scene once");
+  }
+
+  // Warm-up: references, every pipeline, every picture and its error.
+  std::vector<Group> groups;
+  for (auto& [name, pack] : comparison.packs) {
+    const auto renderers = std::make_shared<Renderers>(pack.scene, settings);
+    for (const View& view : viewsOf(pack.scene, settings)) {
+      if (interrupted()) break;
+      progress(fmt::format("{} {} x {}, depth {}: reference", name, view.width, view.height, view.depth));
+      const Picture reference = reference::render(pack.scene, view, settings.threads);
+      comparison.devices["reference"] = reference.device;
+      comparison.references.push_back(
+          {name, view.width, view.height, view.depth, stem(name, view, "reference") + ".exr"});
+      writePicture(folder / "pictures" / comparison.references.back().picture,
+                   toImage(reference, pack, view, "reference", "reference"), 0);
+      groups.push_back({&pack, view, renderers, {}});
+      for (const std::string& backend : settings.backends)
+        for (const std::string& method : settings.methods) {
+          if (interrupted()) break;
+          progress(
+              fmt::format("{} {} x {}, depth {}: {} {}", name, view.width, view.height, view.depth, backend, method));
+          ComparisonRow row;
+          row.scene = name;
+          row.renderer = backend;
+          row.method = method;
+          row.width = view.width;
+          row.height = view.height;
+          row.depth = view.depth;
+          row.payloadBytes = methodNamed(method).payloadBytes;
+          try {
+            const Picture picture = renderRow(row, groups.back(), false);
+            row.rays = renderers->countRays(backend, method, view, picture);
+            row.error = pictureError(picture, reference, pack.scene.exposureEv);
+            row.picture = stem(name, view, backend + "-" + method) + ".exr";
+            writePicture(folder / "pictures" / row.picture, toImage(picture, pack, view, backend, method), 0);
+            comparison.devices[backend] = renderers->device(backend);
+          } catch (const Error& error) {
+            row.status = error.what();
+          }
+          groups.back().rows.push_back(comparison.rows.size());
+          comparison.rows.push_back(std::move(row));
+        }
+    }
+  }
+
+  // Rounds: every row once a round, each round beginning with another row.
+  for (std::uint32_t round = 0; round < settings.rounds && !interrupted(); ++round) {
+    for (std::size_t g = 0; g < groups.size() && !interrupted(); ++g) {
+      Group& group = groups[g];
+      progress(fmt::format("round {} of {}: {} {} x {}", round + 1, settings.rounds, group.pack->scene.name,
+                           group.view.width, group.view.height));
+      for (std::size_t k = 0; k < group.rows.size() && !interrupted(); ++k) {
+        ComparisonRow& row = comparison.rows[group.rows[(k + round) % group.rows.size()]];
+        if (!row.ok()) continue;
+        try {
+          renderRow(row, group, true);
+        } catch (const Error& error) {
+          row.status = error.what();
+        }
+      }
+    }
+    if (!interrupted()) comparison.rounds = round + 1;
+  }
+  comparison.interrupted = interrupted();
+  summarize(comparison, groups);
+  return comparison;
+}
+
+}  // namespace malus::render

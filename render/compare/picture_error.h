@@ -1,0 +1,22 @@
+// How wrong a method's picture is, against the reference of the same view.
+#pragma once
+
+#include "render/scene/picture.h"
+
+namespace malus::render {
+
+struct PictureError {
+  double meanAbs = 0;  // over pixels and colours, in radiance
+  double maxAbs = 0;
+  double relRms = 0;             // root of the sum of squared differences over the sum of squared reference values
+  double shareOver1Percent = 0;  // of pixels with a colour off by more than 1 % of the reference's, or of a
+                                 // thousandth of its mean where that is more
+  double perceptual = 0;         // share of pixels in which a person would see it: CIELAB difference over 2.3
+  double energyRatio = 0;        // sum over the picture against the reference's
+};
+
+// Colours behind the filter. exposureEv: of the display, for the perceptual share. A non-finite value in the
+// picture makes meanAbs, maxAbs and relRms infinite. Throws Error where the sizes differ.
+PictureError pictureError(const Picture& picture, const Picture& reference, double exposureEv);
+
+}  // namespace malus::render

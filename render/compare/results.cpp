@@ -1,0 +1,141 @@
+#include "render/compare/results.h"
+
+#include <cmath>
+
+#include <commit.h>
+#include <fmt/format.h>
+
+namespace malus::render {
+using nlohmann::json;
+
+namespace {
+
+// JSON has no infinity.
+json number(double value) { return std::isfinite(value) ? json(value) : json(); }
+
+double medianOf(const std::vector<double>& values) { return values.empty() ? 0 : spreadOf(values).median; }
+
+json toJson(const ComparisonRow& row) {
+  json result = {
+      {"scene", row.scene},  {"renderer", row.renderer}, {"method", row.method}, {"effects", "auto"},
+      {"width", row.width},  {"height", row.height},     {"depth", row.depth},   {"payloadBytes", row.payloadBytes},
+      {"status", row.status}};
+  const bool drawn = row.ok(), timed = drawn && !row.samplesMs.empty();
+  const auto when = [](bool known, json value) { return known ? std::move(value) : json(); };
+  result["rays"] = when(drawn, row.rays);
+  result["samplesMs"] = row.samplesMs;
+  result["medianMs"] = when(timed, row.time.median);
+  result["quartilesMs"] = when(timed, {row.time.low, row.time.high});
+  result["wallMs"] = when(timed, medianOf(row.wallMs));
+  result["cpuMs"] = when(timed, medianOf(row.cpuMs));
+  result["readBackMs"] = when(timed, medianOf(row.readBackMs));
+  result["buildMs"] = when(drawn, row.buildMs);
+  result["uploadMs"] = when(drawn, row.uploadMs);
+  result["compileMs"] = when(drawn, row.compileMs);
+  result["raysPerSecond"] = when(timed, timed ? static_cast<double>(row.rays) / row.time.median * 1e3 : 0);
+  result["ratioToSchlick"] =
+      when(timed && row.ratioToSchlick.median > 0,
+           {{"median", row.ratioToSchlick.median}, {"low", row.ratioToSchlick.low}, {"high", row.ratioToSchlick.high}});
+  result["indistinguishable"] = row.indistinguishable;
+  result["error"] = when(drawn, {{"meanAbs", number(row.error.meanAbs)},
+                                 {"maxAbs", number(row.error.maxAbs)},
+                                 {"relRms", number(row.error.relRms)},
+                                 {"shareOver1Percent", row.error.shareOver1Percent},
+                                 {"perceptual", row.error.perceptual},
+                                 {"energyRatio", number(row.error.energyRatio)}});
+  result["picture"] = when(drawn, fmt::format("pictures/{}", row.picture));
+  return result;
+}
+
+}  // namespace
+
+json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
+  json scenes = json::object(), references = json::array(), rows = json::array(), exposure = json::object();
+  for (const auto& [name, pack] : comparison.packs) {
+    scenes[name] = {{"title", pack.scene.title},
+                    {"vertices", pack.scene.vertexCount()},
+                    {"triangles", pack.scene.triangleCount()},
+                    {"packHash", fmt::format("{:016x}", pack.hash)},
+                    {"exposureEv", pack.scene.exposureEv}};
+    exposure[name] = pack.scene.exposureEv;
+  }
+  for (const ComparisonReference& r : comparison.references)
+    references.push_back({{"scene", r.scene},
+                          {"width", r.width},
+                          {"height", r.height},
+                          {"depth", r.depth},
+                          {"picture", fmt::format("pictures/{}", r.picture)}});
+  for (const ComparisonRow& row : comparison.rows) rows.push_back(toJson(row));
+  return {{"malus", MALUS_VERSION},
+          {"commit", MALUS_COMMIT},
+          {"compiler", fmt::format("{} {}", MALUS_COMPILER, __VERSION__)},
+          {"devices", comparison.devices},
+          {"settings",
+           {{"rounds", comparison.rounds},
+            {"roundsAsked", settings.rounds},
+            {"interrupted", comparison.interrupted},
+            {"widths", settings.widths},
+            {"scale", settings.scale},
+            {"depths", settings.depths},
+            {"methods", settings.methods},
+            {"backends", settings.backends},
+            {"threads", settings.threads},
+            {"effects", "auto"},
+            {"exposureEv", exposure},
+            {"polarizerDegrees", settings.polarizerDegrees ? json(*settings.polarizerDegrees) : json()}}},
+          {"scenes", scenes},
+          {"references", references},
+          {"rows", rows},
+          {"gpuModel", comparison.gpuModel}};
+}
+
+std::string toCsv(const Comparison& comparison) {
+  std::string text =
+      "scene,renderer,method,width,height,depth,payloadBytes,rays,medianMs,lowMs,highMs,wallMs,cpuMs,buildMs,uploadMs,"
+      "compileMs,readBackMs,ratioToSchlick,ratioLow,ratioHigh,meanAbs,maxAbs,relRms,shareOver1Percent,perceptual,"
+      "energyRatio,status\n";
+  for (const ComparisonRow& r : comparison.rows) {
+    std::string status;
+    for (const char c : r.status) {
+      if (c == '"') status.push_back('"');
+      status.push_back(c);
+    }
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"\n",
+                        r.scene, r.renderer, r.method, r.width, r.height, r.depth, r.payloadBytes, r.rays,
+                        r.time.median, r.time.low, r.time.high, medianOf(r.wallMs), medianOf(r.cpuMs), r.buildMs,
+                        r.uploadMs, r.compileMs, medianOf(r.readBackMs), r.ratioToSchlick.median, r.ratioToSchlick.low,
+                        r.ratioToSchlick.high, r.error.meanAbs, r.error.maxAbs, r.error.relRms,
+                        r.error.shareOver1Percent, r.error.perceptual, r.error.energyRatio, status);
+  }
+  return text;
+}
+
+std::string toTable(const Comparison& comparison) {
+  std::string text, heading;
+  for (const ComparisonRow& r : comparison.rows) {
+    const std::string group = fmt::format("{}, {} x {}, depth {}, {}", r.scene, r.width, r.height, r.depth, r.renderer);
+    if (group != heading) {
+      heading = group;
+      text += fmt::format("\n{} ({})\n  {:<14}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10}{:>9}{:>9}  {}\n", group,
+                          comparison.devices.count(r.renderer) ? comparison.devices.at(r.renderer) : "no device",
+                          "method", "bytes", "rays", "ms", "ratio to schlick", "Mray/s", "rel RMS", "off >1%", "energy",
+                          "not told apart from");
+    }
+    if (!r.ok()) {
+      text += fmt::format("  {:<14}{:>6}  failed: {}\n", r.method, r.payloadBytes, r.status);
+      continue;
+    }
+    std::string same = fmt::format("{}", fmt::join(r.indistinguishable, " "));
+    const bool timed = !r.samplesMs.empty();
+    text += fmt::format("  {:<14}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10.4f}{:>8.2f}%{:>9.4f}  {}\n", r.method,
+                        r.payloadBytes, r.rays, timed ? fmt::format("{:.1f}", r.time.median) : "-",
+                        timed ? fmt::format("{:.3f} ({:.3f}-{:.3f})", r.ratioToSchlick.median, r.ratioToSchlick.low,
+                                            r.ratioToSchlick.high)
+                              : "-",
+                        timed ? fmt::format("{:.1f}", static_cast<double>(r.rays) / r.time.median * 1e-3) : "-",
+                        r.error.relRms, 100 * r.error.shareOver1Percent, r.error.energyRatio, same);
+  }
+  return text;
+}
+
+}  // namespace malus::render

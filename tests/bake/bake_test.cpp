@@ -1,0 +1,261 @@
+// From a description to a scene: transforms, sides, the origin, what is refused.
+#include "bake/bake.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "bake/image/image.h"
+#include "bake/pack/reader.h"
+#include "tests/bake/fixtures.h"
+
+namespace malus::bake {
+namespace {
+
+using nlohmann::json;
+using test::contains;
+using test::errorOf;
+using test::TemporaryFolder;
+
+constexpr auto kSilent = [](std::string_view) {};
+
+class Bake : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("cube.obj", test::kCubeObj);
+    folder_.write("square.obj", test::kSquareObj);
+    scene_ = json::parse(R"({
+      "malus": 1, "name": "test",
+      "camera": {"position": [0, 1, 5], "target": [0, 0, 0], "verticalFovDegrees": 30},
+      "resolution": [64, 48], "depth": 4,
+      "materials": {"gold": {"type": "metal", "preset": "gold"}, "glass": {"type": "glass", "preset": "bk7"}},
+      "meshes": [{"name": "cube", "file": "cube.obj", "material": "gold"}]})");
+  }
+  pack::Scene baked() {
+    const SceneDescription description = readSceneFile(folder_.write("scene.json", scene_.dump()));
+    return bake(description, {}, kSilent).scene;
+  }
+  std::string error() {
+    return errorOf([&] { baked(); });
+  }
+  void instances(const char* list) { scene_["meshes"][0]["instances"] = json::parse(list); }
+
+  TemporaryFolder folder_;
+  json scene_;
+};
+
+// Six times the volume that the triangles enclose; positive where outside is outside.
+double volume6(const pack::Mesh& mesh) {
+  double sum = 0;
+  for (const glm::uvec3& t : mesh.triangles)
+    sum += glm::dot(glm::dvec3(mesh.positions[t.x]),
+                    glm::cross(glm::dvec3(mesh.positions[t.y]), glm::dvec3(mesh.positions[t.z])));
+  return sum;
+}
+
+glm::vec3 centre(const pack::Mesh& mesh) {
+  glm::vec3 low = mesh.positions[0], high = low;
+  for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  return (low + high) * 0.5f;
+}
+
+glm::vec3 extent(const pack::Mesh& mesh) {
+  glm::vec3 low = mesh.positions[0], high = low;
+  for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  return high - low;
+}
+
+void expectOutward(const pack::Mesh& mesh) {
+  EXPECT_GT(volume6(mesh), 0) << mesh.name;
+  const glm::vec3 middle = centre(mesh);
+  ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    EXPECT_GT(glm::dot(mesh.normals[i], mesh.positions[i] - middle), 0) << mesh.name << ", vertex " << i;
+    EXPECT_NEAR(glm::length(mesh.normals[i]), 1, 1e-6);
+  }
+  // A vertex's normal is that of the faces about it: these are cubes.
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::vec3 face = glm::normalize(
+        glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]));
+    for (const std::uint32_t v : {t.x, t.y, t.z}) EXPECT_GT(glm::dot(mesh.normals[v], face), 0.999f) << mesh.name;
+  }
+}
+
+TEST_F(Bake, ACubeAsItIs) {
+  const pack::Scene scene = baked();
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].name, "cube");
+  EXPECT_EQ(scene.vertexCount(), 24u);
+  EXPECT_EQ(scene.triangleCount(), 12u);
+  EXPECT_EQ(scene.origin, glm::dvec3(0));
+  EXPECT_EQ(scene.meshes[0].material, 1u);  // sorted by name: glass, gold
+  expectOutward(scene.meshes[0]);
+  EXPECT_NEAR(volume6(scene.meshes[0]), 6, 1e-6);
+}
+
+TEST_F(Bake, InstancesBecomeMeshesInWorldSpace) {
+  scene_["origin"] = {0, 0, 0};
+  instances(R"([{}, {"translate": [3, 0, 0]}, {"scale": [1, 2, 3], "translate": [0, 10, 0]}])");
+  const pack::Scene scene = baked();
+  ASSERT_EQ(scene.meshes.size(), 3u);
+  EXPECT_EQ(scene.meshes[0].name, "cube.1");
+  EXPECT_EQ(scene.meshes[2].name, "cube.3");
+  EXPECT_EQ(scene.vertexCount(), 72u);
+  EXPECT_EQ(centre(scene.meshes[1]), glm::vec3(3, 0, 0));
+  EXPECT_EQ(centre(scene.meshes[2]), glm::vec3(0, 10, 0));
+  EXPECT_EQ(extent(scene.meshes[2]), glm::vec3(1, 2, 3));
+  for (const pack::Mesh& mesh : scene.meshes) expectOutward(mesh);
+}
+
+TEST_F(Bake, MirroringScalesKeepOutsideOutside) {
+  instances(R"([{"scale": [-1, 1, 1]}, {"scale": [1, -2, 1], "translate": [5, 0, 0]},
+                {"scale": -1, "translate": [10, 0, 0]}, {"scale": [-1, -1, 1], "translate": [15, 0, 0]},
+                {"scale": [-1, 2, 3], "rotateDegrees": [20, 30, 40], "translate": [20, 0, 0]}])");
+  for (const pack::Mesh& mesh : baked().meshes) expectOutward(mesh);
+}
+
+TEST_F(Bake, TransformsAreScaleThenRotationsAboutXYZThenTranslation) {
+  // The corner that was at (x, y, z) of a flat, lopsided mesh.
+  folder_.write("flag.obj", "v 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 2 3\n");
+  scene_["meshes"][0] = {{"name", "flag"}, {"file", "flag.obj"}, {"material", "gold"}, {"flat", true}};
+  scene_["origin"] = {0, 0, 0};
+  const auto moved = [&](const char* list) {
+    instances(list);
+    return baked().meshes[0].positions;
+  };
+  using Points = std::vector<glm::vec3>;
+  EXPECT_EQ(moved("[{}]"), (Points{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}));
+  // Counter-clockwise about each axis, seen from its tip; quarter turns are exact.
+  EXPECT_EQ(moved(R"([{"rotateDegrees": [90, 0, 0]}])"), (Points{{1, 0, 0}, {0, 0, 2}, {0, -3, 0}}));
+  EXPECT_EQ(moved(R"([{"rotateDegrees": [0, 90, 0]}])"), (Points{{0, 0, -1}, {0, 2, 0}, {3, 0, 0}}));
+  EXPECT_EQ(moved(R"([{"rotateDegrees": [0, 0, 90]}])"), (Points{{0, 1, 0}, {-2, 0, 0}, {0, 0, 3}}));
+  EXPECT_EQ(moved(R"([{"rotateDegrees": [90, 0, 90]}])"), (Points{{0, 1, 0}, {0, 0, 2}, {3, 0, 0}}));  // x first
+  EXPECT_EQ(moved(R"([{"scale": [2, 1, 1], "rotateDegrees": [0, 0, 90], "translate": [0, 0, 7]}])"),
+            (Points{{0, 2, 7}, {-2, 0, 7}, {0, 0, 10}}));
+}
+
+TEST_F(Bake, TheOriginIsTheCentreUnlessGiven) {
+  instances(R"([{"translate": [10, 20, 30]}])");
+  pack::Scene scene = baked();
+  EXPECT_EQ(scene.origin, glm::dvec3(10, 20, 30));
+  EXPECT_EQ(centre(scene.meshes[0]), glm::vec3(0));
+  EXPECT_EQ(scene.camera.position, glm::dvec3(-10, -19, -25));
+  scene_["origin"] = {10, 20, 29};
+  scene_["lights"] = json::parse(R"([{"type": "point", "position": [10, 21, 29], "intensity": [1, 2, 3]}])");
+  scene = baked();
+  EXPECT_EQ(centre(scene.meshes[0]), glm::vec3(0, 0, 1));
+  EXPECT_EQ(scene.lights.at(0).position, glm::dvec3(0, 1, 0));
+}
+
+TEST_F(Bake, FarAwayNothingIsLost) {
+  // Floats at 1e5 m are 8 mm apart; the cube is 10 cm wide.
+  instances(R"([{"scale": 0.1, "translate": [100000.37, -70000.11, 50000.73]}])");
+  scene_["camera"]["position"] = {100000.37, -70000.11, 50001.73};
+  scene_["camera"]["target"] = {100000.37, -70000.11, 50000.73};
+  const pack::Scene scene = baked();
+  EXPECT_NEAR(scene.origin.x, 100000.37, 1e-9);
+  EXPECT_LT(glm::distance(extent(scene.meshes[0]), glm::vec3(0.1f)), 1e-6f);
+  EXPECT_LT(glm::distance(scene.camera.position, glm::dvec3(0, 0, 1)), 1e-9);
+  expectOutward(scene.meshes[0]);
+  const pack::Pack pack = pack::parse(pack::serialize(scene, {}).bytes, "test");
+  EXPECT_LT(glm::distance(extent(pack.scene.meshes[0]), glm::vec3(0.1f)), 1e-6f);
+}
+
+TEST_F(Bake, OpenGlassIsAnErrorUnlessASheet) {
+  scene_["meshes"][0] = {{"name", "pane"}, {"file", "square.obj"}, {"material", "glass"}};
+  const std::string message = error();
+  EXPECT_TRUE(contains(message, "square.obj: mesh 'pane': component 0 of a glass body is open")) << message;
+  EXPECT_TRUE(contains(message, "\"sheet\": true")) << message;
+  scene_["meshes"][0]["sheet"] = true;
+  EXPECT_TRUE(baked().meshes[0].sheet);
+  scene_["meshes"][0] = {{"name", "cube"}, {"file", "cube.obj"}, {"material", "glass"}};
+  EXPECT_EQ(error(), "");
+  scene_["meshes"][0] = {{"name", "plate"}, {"file", "square.obj"}, {"material", "gold"}};
+  EXPECT_EQ(error(), "");
+}
+
+TEST_F(Bake, FlatMeshesKeepTheirVertices) {
+  scene_["meshes"][0]["flat"] = true;
+  const pack::Scene scene = baked();
+  EXPECT_EQ(scene.vertexCount(), 8u);
+  EXPECT_TRUE(scene.meshes[0].normals.empty());
+  EXPECT_GT(volume6(scene.meshes[0]), 0);
+}
+
+TEST_F(Bake, CameraAxes) {
+  scene_["origin"] = {0, 0, 0};
+  scene_["camera"]["position"] = {0, 0, 5};
+  pack::Camera camera = baked().camera;
+  EXPECT_EQ(camera.forward, glm::dvec3(0, 0, -1));
+  EXPECT_EQ(camera.right, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+  scene_["camera"]["target"] = {0, 0, 5};
+  EXPECT_TRUE(contains(error(), "camera.target: is the camera's position"));
+  scene_["camera"]["target"] = {0, -3, 5};
+  EXPECT_TRUE(contains(error(), "camera.up: points along the view"));
+  scene_["camera"]["up"] = {0, 0, 0};
+  EXPECT_TRUE(contains(error(), "camera.up"));
+}
+
+TEST_F(Bake, EnvironmentPicture) {
+  image::Image sky;
+  sky.width = 8;
+  sky.height = 4;
+  sky.channels = {"R", "G", "B"};
+  sky.pixels.assign(8 * 4 * 3, 0.5f);
+  image::writeExr(folder_.path() / "sky.exr", sky);
+  scene_["environment"] = {{"image", "sky.exr"}, {"scale", 3}, {"diffuseFill", 0.5}};
+  const pack::Scene scene = baked();
+  EXPECT_EQ(scene.environment.size, 4u);
+  EXPECT_EQ(scene.environment.texels.at(0), glm::vec3(1.5f));
+  EXPECT_EQ(scene.environment.diffuseFill, 0.5);
+  scene_["environment"]["image"] = "missing.exr";
+  EXPECT_TRUE(contains(error(), "missing.exr: cannot open")) << error();
+  scene_["environment"]["image"] = "scene.json";
+  EXPECT_TRUE(contains(error(), "scene.json: cannot read the picture")) << error();
+}
+
+TEST_F(Bake, BadMeshesNameTheirFile) {
+  scene_["meshes"][0]["file"] = "missing.obj";
+  EXPECT_TRUE(contains(error(), "missing.obj")) << error();
+  folder_.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+  scene_["meshes"][0]["file"] = "nan.obj";
+  EXPECT_TRUE(contains(error(), "nan.obj")) << error();
+  folder_.write("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  scene_["meshes"][0]["file"] = "empty.obj";
+  EXPECT_TRUE(contains(error(), "empty.obj")) << error();
+}
+
+TEST_F(Bake, ProvenanceTellsSourcesAndSettings) {
+  pack::Scene scene = baked();
+  const json provenance = json::parse(scene.provenance);
+  ASSERT_EQ(provenance.at("sources").size(), 2u);
+  EXPECT_EQ(provenance["sources"][0]["file"], "scene.json");
+  EXPECT_EQ(provenance["sources"][1]["file"], "cube.obj");
+  EXPECT_EQ(provenance["settings"]["positionBits"], 20);
+  EXPECT_EQ(provenance["settings"]["normalBits"], 12);
+  const std::string before = provenance["sources"][1]["xxh3"];
+  EXPECT_EQ(before.size(), 16u);
+  folder_.write("cube.obj", std::string(test::kCubeObj) + "# changed\n");
+  EXPECT_NE(json::parse(baked().provenance)["sources"][1]["xxh3"], before);
+}
+
+TEST_F(Bake, TheSameSourcesGiveTheSameBytes) {
+  instances(R"([{"rotateDegrees": [20, 30, 40], "translate": [0.3, 0, 0]}, {"scale": [-1, 1, 1]}])");
+  const pack::Written a = pack::serialize(baked(), {}), b = pack::serialize(baked(), {});
+  EXPECT_TRUE(a.bytes == b.bytes);
+}
+
+TEST_F(Bake, SaysWhatItIsDoing) {
+  const SceneDescription description = readSceneFile(folder_.write("scene.json", scene_.dump()));
+  std::vector<std::string> said;
+  const Baked result = bake(description, {}, [&](std::string_view text) { said.emplace_back(text); });
+  EXPECT_EQ(said, std::vector<std::string>{"preparing cube"});
+  ASSERT_EQ(result.reports.size(), 1u);
+  EXPECT_EQ(result.reports[0].input.vertices, 8u);
+}
+
+}  // namespace
+}  // namespace malus::bake

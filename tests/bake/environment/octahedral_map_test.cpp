@@ -1,0 +1,235 @@
+// The octahedral map against the directions that bake/SCENE.md gives a latitude-longitude picture.
+#include "bake/environment/octahedral_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include <glm/geometric.hpp>
+
+#include "shaders/optics/optics.h"
+#include "tests/bake/fixtures.h"
+
+namespace malus::bake {
+namespace {
+
+using test::contains;
+using test::errorOf;
+constexpr double kPi = std::numbers::pi;
+
+// The direction of a picture's point by the document: +y up, the centre column toward -z, to its right +x.
+glm::dvec3 directionAt(double column, double row, int width, int height) {
+  const double azimuth = (column / width - 0.5) * 2 * kPi, fromTop = row / height * kPi;
+  return {std::sin(fromTop) * std::sin(azimuth), std::cos(fromTop), -std::sin(fromTop) * std::cos(azimuth)};
+}
+
+template <class Radiance>
+image::Image picture(int width, int height, Radiance radiance) {
+  image::Image result;
+  result.width = width;
+  result.height = height;
+  result.channels = {"R", "G", "B"};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec3 value = radiance(directionAt(x + 0.5, y + 0.5, width, height));
+      for (int c = 0; c < 3; ++c) result.pixels.push_back(static_cast<float>(value[c]));
+    }
+  return result;
+}
+
+pack::Environment baked(const image::Image& source, double scale = 1, double rotationDegrees = 0) {
+  pack::Environment environment;
+  bakeEnvironment(source, "sky.hdr", scale, rotationDegrees, environment);
+  return environment;
+}
+
+glm::dvec3 texel(const pack::Environment& e, int i, int j) {
+  const int row = static_cast<int>(e.size) + 2;
+  return glm::dvec3(e.texels.at(static_cast<std::size_t>((j + 1) * row + i + 1)));
+}
+
+// Bilinear, at map coordinates 0 to 1: what the renderers do.
+glm::dvec3 lookUp(const pack::Environment& e, double u, double v) {
+  const double x = u * e.size - 0.5, y = v * e.size - 0.5;
+  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
+  const double fx = x - i, fy = y - j;
+  return (texel(e, i, j) * (1 - fx) + texel(e, i + 1, j) * fx) * (1 - fy) +
+         (texel(e, i, j + 1) * (1 - fx) + texel(e, i + 1, j + 1) * fx) * fy;
+}
+
+glm::dvec3 lookUp(const pack::Environment& e, const glm::dvec3& d) {
+  double u = 0, v = 0;
+  f64::octahedralFromDirection(d, u, v);
+  return lookUp(e, u, v);
+}
+
+double irradiance(const pack::Environment& e, const glm::dvec3& n) {
+  const auto& c = e.irradiance;
+  return f64::irradiancePolynomial(n, c[0].x, c[1].x, c[2].x, c[3].x, c[4].x, c[5].x, c[6].x, c[7].x, c[8].x);
+}
+
+std::vector<glm::dvec3> directions() {
+  std::vector<glm::dvec3> list = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 500; ++i)
+    list.push_back(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))));
+  return list;
+}
+
+// No symmetry, and different at every direction.
+glm::dvec3 colourOf(const glm::dvec3& d) { return d * 0.5 + 0.5; }
+
+image::Image noise() {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  return picture(64, 32, [&](const glm::dvec3&) {
+    const double r = uniform(random), g = uniform(random), b = uniform(random);
+    return glm::dvec3(r, g, b);
+  });
+}
+
+TEST(OctahedralMap, ConstantStaysConstant) {
+  const pack::Environment e = baked(picture(32, 16, [](const glm::dvec3&) { return glm::dvec3(0.5, 2, 8); }), 0.25);
+  EXPECT_EQ(e.size, 16u);
+  ASSERT_EQ(e.texels.size(), 18u * 18u);
+  for (const glm::vec3& t : e.texels) EXPECT_EQ(t, glm::vec3(0.125f, 0.5f, 2));
+}
+
+TEST(OctahedralMap, DirectionsAreThoseOfTheDocument) {
+  const pack::Environment e = baked(picture(256, 128, colourOf));
+  for (const glm::dvec3& d : directions())
+    EXPECT_LT(glm::distance(lookUp(e, d), colourOf(d)), 0.02) << d.x << " " << d.y << " " << d.z;
+}
+
+TEST(OctahedralMap, RotationIsCounterClockwiseFromAbove) {
+  // By 90 degrees what was at -z goes to -x, what was at +x to -z.
+  const pack::Environment e = baked(picture(256, 128, colourOf), 1, 90);
+  EXPECT_LT(glm::distance(lookUp(e, {-1, 0, 0}), colourOf({0, 0, -1})), 0.02);
+  EXPECT_LT(glm::distance(lookUp(e, {0, 0, -1}), colourOf({1, 0, 0})), 0.02);
+  EXPECT_LT(glm::distance(lookUp(e, {0, 1, 0}), colourOf({0, 1, 0})), 0.02);
+  // Irradiance turns with it.
+  const auto lobe = [](const glm::dvec3& d) { return glm::dvec3(std::max(-d.z, 0.0)); };
+  const pack::Environment still = baked(picture(128, 64, lobe)), turned = baked(picture(128, 64, lobe), 1, 90);
+  EXPECT_NEAR(irradiance(turned, {-1, 0, 0}), irradiance(still, {0, 0, -1}), 1e-3);
+  EXPECT_NEAR(irradiance(turned, {0, 0, 1}), irradiance(still, {-1, 0, 0}), 1e-3);
+  EXPECT_LT(irradiance(turned, {1, 0, 0}), 0.1);
+}
+
+TEST(OctahedralMap, BorderRepeatsWhatLiesAcrossTheEdges) {
+  const pack::Environment e = baked(noise());
+  const int n = static_cast<int>(e.size);
+  for (int i = 0; i < n; ++i) {
+    EXPECT_EQ(texel(e, i, -1), texel(e, n - 1 - i, 0));
+    EXPECT_EQ(texel(e, i, n), texel(e, n - 1 - i, n - 1));
+    EXPECT_EQ(texel(e, -1, i), texel(e, 0, n - 1 - i));
+    EXPECT_EQ(texel(e, n, i), texel(e, n - 1, n - 1 - i));
+  }
+  EXPECT_EQ(texel(e, -1, -1), texel(e, n - 1, n - 1));
+  EXPECT_EQ(texel(e, n, n), texel(e, 0, 0));
+  EXPECT_EQ(texel(e, n, -1), texel(e, 0, n - 1));
+  EXPECT_EQ(texel(e, -1, n), texel(e, n - 1, 0));
+}
+
+TEST(OctahedralMap, ContinuousAcrossEveryEdge) {
+  // Points of the square's edge that stand for one direction look up to one value.
+  const pack::Environment e = baked(noise());
+  for (int i = 0; i <= 1000; ++i) {
+    const double t = i / 1000.0;
+    const glm::dvec3 here = f64::directionFromOctahedral(0.0, t), there = f64::directionFromOctahedral(0.0, 1 - t);
+    ASSERT_LT(glm::distance(here, there), 1e-12);
+    EXPECT_LT(glm::distance(lookUp(e, 0, t), lookUp(e, 0, 1 - t)), 1e-12) << t;
+    EXPECT_LT(glm::distance(lookUp(e, 1, t), lookUp(e, 1, 1 - t)), 1e-12) << t;
+    EXPECT_LT(glm::distance(lookUp(e, t, 0), lookUp(e, 1 - t, 0)), 1e-12) << t;
+    EXPECT_LT(glm::distance(lookUp(e, t, 1), lookUp(e, 1 - t, 1)), 1e-12) << t;
+  }
+}
+
+TEST(OctahedralMap, NoStepAlongAnyPath) {
+  // Great circles through poles, edges and corners of the map: neighbours differ by what a texel's slope allows.
+  const pack::Environment e = baked(picture(256, 128, colourOf));
+  constexpr int kSteps = 20000;
+  for (const auto& [a, b] : {std::pair<glm::dvec3, glm::dvec3>{{1, 0, 0}, {0, 1, 0}},
+                             {{1, 0, 0}, {0, 0, 1}},
+                             {{0, 1, 0}, {0, 0, 1}},
+                             {{0.6, 0.8, 0}, {0, 0, 1}},
+                             {{0.6, -0.8, 0}, {0.64, 0.48, 0.6}}}) {
+    glm::dvec3 last = lookUp(e, a);
+    for (int i = 1; i <= kSteps; ++i) {
+      const double angle = 2 * kPi * i / kSteps;
+      const glm::dvec3 value = lookUp(e, a * std::cos(angle) + b * std::sin(angle));
+      ASSERT_LT(glm::distance(value, last), 10.0 / kSteps) << i;
+      last = value;
+    }
+  }
+}
+
+TEST(OctahedralMap, TexelsAreHalves) {
+  for (const glm::vec3& t : baked(noise(), 0.37).texels)
+    for (int c = 0; c < 3; ++c) {
+      const float scaled = t[c] * 4194304;  // between 2^-12 and 1, halves are multiples of 2^-22
+      ASSERT_EQ(scaled, std::round(scaled));
+    }
+}
+
+TEST(OctahedralMap, BrightestRadianceSaturates) {
+  const pack::Environment e = baked(picture(64, 32, [](const glm::dvec3&) { return glm::dvec3(1e6); }));
+  EXPECT_EQ(lookUp(e, {0, 1, 0}).x, 65504);
+  EXPECT_NEAR(irradiance(e, {0, 1, 0}), kPi * 1e6, 1e4);  // the irradiance is the picture's
+}
+
+TEST(OctahedralMap, SmallestPicture) {
+  const pack::Environment e = baked(picture(1, 1, [](const glm::dvec3&) { return glm::dvec3(3); }));
+  EXPECT_EQ(e.size, 1u);
+  EXPECT_EQ(lookUp(e, {0.6, 0, 0.8}), glm::dvec3(3));
+}
+
+TEST(Irradiance, OfAConstantIsPiTimesIt) {
+  const pack::Environment e = baked(picture(64, 32, [](const glm::dvec3&) { return glm::dvec3(2.5); }));
+  pack::Environment constant;
+  bakeConstantEnvironment(glm::dvec3(2.5), constant);
+  EXPECT_EQ(constant.size, 0u);
+  EXPECT_EQ(constant.radiance, glm::dvec3(2.5));
+  for (const glm::dvec3& n : directions()) {
+    EXPECT_NEAR(irradiance(e, n), kPi * 2.5, 0.02);
+    EXPECT_NEAR(irradiance(constant, n), kPi * 2.5, 1e-12);
+  }
+}
+
+TEST(Irradiance, OfAClampedCosineLobe) {
+  // Both are clamped cosines, whose bands 0 to 2 weigh pi, 2 pi/3 and pi/4: the sum over the bands of
+  // (2 l + 1)/(4 pi) weight^2 P_l(cos).
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, 0.7, -0.5));
+  const pack::Environment e =
+      baked(picture(256, 128, [&](const glm::dvec3& d) { return glm::dvec3(std::max(glm::dot(d, axis), 0.0)); }));
+  for (const glm::dvec3& n : directions()) {
+    const double c = glm::dot(n, axis);
+    const double expected = kPi / 4 + kPi / 3 * c + 5 * kPi / 64 * (3 * c * c - 1) / 2;
+    EXPECT_NEAR(irradiance(e, n), std::max(expected, 0.0), 2e-3) << c;
+  }
+}
+
+TEST(OctahedralMap, BadPictures) {
+  image::Image grey = picture(4, 2, colourOf);
+  grey.channels = {"Y", "Z", "A"};
+  EXPECT_TRUE(contains(errorOf([&] { baked(grey); }), "sky.hdr: environment picture has no colour"));
+  for (const float bad : {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    image::Image source = picture(4, 2, colourOf);
+    source.pixels[3 * 5 + 1] = bad;
+    const std::string error = errorOf([&] { baked(source); });
+    EXPECT_TRUE(contains(error, "sky.hdr: environment texel 1, 1; expected a finite radiance of 0 or more")) << error;
+  }
+}
+
+TEST(OctahedralMap, ChannelsByName) {
+  image::Image source;
+  source.width = source.height = 1;
+  source.channels = {"A", "B", "G", "R"};
+  source.pixels = {9, 3, 2, 1};
+  EXPECT_EQ(lookUp(baked(source), {0, 1, 0}), glm::dvec3(1, 2, 3));
+}
+
+}  // namespace
+}  // namespace malus::bake

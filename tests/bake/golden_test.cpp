@@ -1,0 +1,142 @@
+// The packs of the three scenes, pinned: counts, a hash for each section but the provenance (which names
+// versions), and one of the decoded geometry.
+//
+// After a change that is meant: MALUS_UPDATE_GOLDEN=1 test_golden writes tests/bake/golden.json anew (and
+// fails, so that no test run passes by it); the difference belongs into the same commit, with its reason.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bake/bake.h"
+#include "bake/pack/format.h"
+#include "bake/pack/reader.h"
+#include "bake/pack/writer.h"
+#include "tests/bake/fixtures.h"
+
+namespace malus::bake {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path kSource = MALUS_SOURCE_DIR;
+const std::filesystem::path kGolden = kSource / "tests/bake/golden.json";
+
+// What the paper gives.
+struct Expected {
+  const char* name;
+  std::uint64_t vertices, triangles;
+  std::uint32_t width, height;
+};
+void PrintTo(const Expected& scene, std::ostream* stream) { *stream << scene.name; }
+constexpr Expected kScenes[] = {
+    {"glass-wall", 36, 28, 1920, 1080}, {"cornell-box", 74, 38, 2048, 2048}, {"engine", 10448, 12510, 2048, 2048}};
+
+struct Result {
+  std::vector<std::byte> bytes;
+  pack::Pack pack;
+};
+
+Result bakeScene(const std::string& name) {
+  Result result;
+  const SceneDescription description = readSceneFile(kSource / "scenes" / name / "scene.json");
+  const Baked baked = bake(description, {}, [](std::string_view) {});
+  result.bytes = pack::serialize(baked.scene, {}).bytes;
+  result.pack = pack::parse(result.bytes, name);
+  return result;
+}
+
+std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+json summaryOf(const pack::Pack& pack) {
+  json sections = json::object();
+  for (const pack::Section& s : pack.sections)
+    if (s.id != pack::kProvenance) sections[s.id] = {{"sizeBytes", s.sizeBytes}, {"hash", hex(s.hash)}};
+  return {{"vertices", pack.scene.vertexCount()},
+          {"triangles", pack.scene.triangleCount()},
+          {"meshes", pack.scene.meshes.size()},
+          {"geometryHash", hex(pack::canonicalGeometryHash(pack.scene))},
+          {"sections", sections}};
+}
+
+bool updating() {
+  const char* set = std::getenv("MALUS_UPDATE_GOLDEN");
+  return set != nullptr && std::string_view(set) == "1";
+}
+
+json readGolden() {
+  std::ifstream stream(kGolden);
+  return stream ? json::parse(stream, nullptr, false) : json();
+}
+
+// One line for every leaf that differs.
+std::string differences(const json& expected, const json& found) {
+  const json before = expected.is_object() ? expected.flatten() : json::object(), after = found.flatten();
+  std::string text;
+  for (const auto& item : before.items())
+    if (!after.contains(item.key()))
+      text += fmt::format("  {}: was {}, is gone\n", item.key(), item.value().dump());
+    else if (after[item.key()] != item.value())
+      text += fmt::format("  {}: was {}, is {}\n", item.key(), item.value().dump(), after[item.key()].dump());
+  for (const auto& item : after.items())
+    if (!before.contains(item.key())) text += fmt::format("  {}: is new, {}\n", item.key(), item.value().dump());
+  return text;
+}
+
+class Golden : public testing::TestWithParam<Expected> {};
+
+TEST_P(Golden, Counts) {
+  const pack::Scene scene = bakeScene(GetParam().name).pack.scene;
+  EXPECT_EQ(scene.name, GetParam().name);
+  EXPECT_EQ(scene.vertexCount(), GetParam().vertices);
+  EXPECT_EQ(scene.triangleCount(), GetParam().triangles);
+  EXPECT_EQ(scene.width, GetParam().width);
+  EXPECT_EQ(scene.height, GetParam().height);
+  EXPECT_GE(scene.depth, 2u);
+}
+
+TEST_P(Golden, Sections) {
+  const std::string name = GetParam().name;
+  const json found = summaryOf(bakeScene(name).pack);
+  json golden = readGolden();
+  if (updating()) {
+    if (!golden.is_object()) golden = json::object();
+    golden[name] = found;
+    std::ofstream stream(kGolden);
+    stream << golden.dump(2) << '\n';
+    ASSERT_TRUE(stream.flush()) << "cannot write " << kGolden;
+    FAIL() << "wrote " << name << " into " << kGolden << "; run again without MALUS_UPDATE_GOLDEN";
+  }
+  ASSERT_TRUE(golden.is_object()) << kGolden << " is missing or no JSON; MALUS_UPDATE_GOLDEN=1 writes it";
+  ASSERT_TRUE(golden.contains(name)) << kGolden << " does not know " << name;
+  const std::string text = differences(golden[name], found);
+  EXPECT_TRUE(text.empty()) << "the pack of " << name << " is not the one of " << kGolden << ":\n"
+                            << text << "If this is meant: MALUS_UPDATE_GOLDEN=1 writes the file anew.";
+}
+
+TEST_P(Golden, TheSameBytesTwice) {
+  const Result a = bakeScene(GetParam().name), b = bakeScene(GetParam().name);
+  EXPECT_TRUE(a.bytes == b.bytes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::ValuesIn(kScenes), [](const auto& scene) {
+  std::string name = scene.param.name;
+  for (char& c : name)
+    if (c == '-') c = '_';
+  return name;
+});
+
+TEST(GoldenDifference, IsReadable) {
+  const json before = {{"vertices", 36}, {"sections", {{"GEOM", {{"hash", "aa"}}}, {"OLD", 1}}}};
+  const json after = {{"vertices", 38}, {"sections", {{"GEOM", {{"hash", "bb"}}}}}, {"triangles", 2}};
+  EXPECT_EQ(differences(before, after),
+            "  /sections/GEOM/hash: was \"aa\", is \"bb\"\n  /sections/OLD: was 1, is gone\n"
+            "  /vertices: was 36, is 38\n  /triangles: is new, 2\n");
+  EXPECT_EQ(differences(before, before), "");
+}
+
+}  // namespace
+}  // namespace malus::bake

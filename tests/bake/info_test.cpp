@@ -1,0 +1,85 @@
+#include "bake/info.h"
+
+#include "bake/pack/writer.h"
+#include "tests/bake/fixtures.h"
+#include "tests/bake/pack/raw_pack.h"
+
+namespace malus::bake {
+namespace {
+
+using nlohmann::json;
+using test::contains;
+
+pack::Pack packOf(const pack::Scene& scene) { return pack::parse(pack::serialize(scene, {}).bytes, "test"); }
+
+TEST(Info, JsonHasWhatItPromises) {
+  const pack::Pack pack = packOf(test::smallScene());
+  const json info = infoJson(pack);
+  EXPECT_EQ(info.at("formatVersion"), 1);
+  EXPECT_EQ(info.at("name"), "small");
+  EXPECT_EQ(info.at("title"), "A title with \xc3\xa4");
+  EXPECT_EQ(info.at("resolution"), json({64, 48}));
+  EXPECT_EQ(info.at("depth"), 5);
+  EXPECT_EQ(info.at("vertices"), 8);
+  EXPECT_EQ(info.at("triangles"), 6);
+  EXPECT_EQ(info.at("lights"), 2);
+  EXPECT_EQ(info.at("hash").get<std::string>().size(), 16u);
+  EXPECT_EQ(info.at("geometryHash"), fmt::format("{:016x}", pack::canonicalGeometryHash(pack.scene)));
+  ASSERT_EQ(info.at("meshes").size(), 2u);
+  EXPECT_EQ(info["meshes"][0]["name"], "tetrahedron");
+  EXPECT_EQ(info["meshes"][0]["material"], "gold");
+  EXPECT_EQ(info["meshes"][0]["vertices"], 4);
+  EXPECT_EQ(info["meshes"][0]["triangles"], 4);
+  EXPECT_EQ(info["meshes"][0]["sheet"], false);
+  EXPECT_EQ(info["meshes"][1]["material"], "glass");
+  EXPECT_EQ(info["meshes"][1]["sheet"], true);
+  EXPECT_EQ(info["meshes"][1]["encoding"], pack.compression[1]);
+  ASSERT_EQ(info.at("materials").size(), 3u);
+  EXPECT_EQ(info["materials"][1]["name"], "gold");
+  EXPECT_EQ(info["materials"][1]["type"], "metal");
+  EXPECT_EQ(info["materials"][1]["k"], json({3.4034, 2.2309, 1.8693}));
+  ASSERT_EQ(info.at("effects").size(), 2u);
+  EXPECT_EQ(info["effects"][0], (json{{"name", "metal"}, {"on", true}, {"reason", "there is gold"}}));
+  ASSERT_EQ(info.at("sections").size(), 9u);
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(info["sections"][i]["id"], pack.sections[i].id);
+    EXPECT_EQ(info["sections"][i]["version"], 1);
+    EXPECT_EQ(info["sections"][i]["offset"], pack.sections[i].offset);
+    EXPECT_EQ(info["sections"][i]["sizeBytes"], pack.sections[i].sizeBytes);
+    EXPECT_EQ(info["sections"][i]["hash"], fmt::format("{:016x}", pack.sections[i].hash));
+  }
+  EXPECT_EQ(info.at("provenance"), (json{{"malus", "0"}}));
+}
+
+TEST(Info, TextNamesEverything) {
+  const std::string text = infoText(packOf(test::smallScene()));
+  for (const char* part : {"small", "8 vertices, 6 triangles, 2 lights, 64 x 48 pixels, depth 5", "tetrahedron", "gold",
+                           "(sheet)", "there is gold", "GEOM", "PROV"})
+    EXPECT_CONTAINS(text, part);
+}
+
+TEST(Info, ProvenanceThatIsNoJson) {
+  pack::Scene scene = test::smallScene();
+  scene.provenance = "not { json";
+  EXPECT_TRUE(infoJson(packOf(scene)).at("provenance").is_null());
+  scene.provenance = "";
+  EXPECT_TRUE(infoJson(packOf(scene)).at("provenance").is_null());
+}
+
+TEST(Info, DeepProvenanceDoesNotOverflowTheStack) {
+  pack::Scene scene = test::smallScene();
+  constexpr std::size_t kDeep = 1000000;
+  scene.provenance = R"({"malus": )" + std::string(kDeep, '[') + std::string(kDeep, ']') + "}";
+  EXPECT_LT(infoJson(packOf(scene)).dump().size(), 10000u);
+}
+
+TEST(Info, TextsThatAreNoUtf8) {
+  pack::Scene scene = test::smallScene();
+  scene.title = "\xff\xfe";
+  scene.provenance = "\"\xff\"";
+  const json info = infoJson(packOf(scene));
+  EXPECT_NO_THROW(info.dump(2, ' ', false, json::error_handler_t::replace));
+}
+
+}  // namespace
+}  // namespace malus::bake

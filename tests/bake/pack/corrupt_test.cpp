@@ -1,0 +1,374 @@
+// Damaged and hostile packs: always an Error that says what and where, never a crash or a large allocation.
+#include <sys/resource.h>
+
+#include <limits>
+#include <random>
+
+#include "bake/pack/reader.h"
+#include "bake/pack/writer.h"
+#include "tests/bake/fixtures.h"
+#include "tests/bake/pack/raw_pack.h"
+
+namespace malus::pack {
+namespace {
+
+using bake::test::contains;
+using bake::test::errorOf;
+using bake::test::smallScene;
+using test::Bytes;
+using test::RawSection;
+
+const Bytes& smallPack() {
+  static const Bytes kPack = serialize(smallScene(), {}).bytes;
+  return kPack;
+}
+
+std::string parseError(const Bytes& bytes) {
+  return errorOf([&] { parse(bytes, "file.pack"); });
+}
+
+// The error of the small pack after a change of its sections, hashes matching.
+template <class Change>
+std::string errorAfter(Change change) {
+  std::vector<RawSection> sections = test::takenApart(smallPack());
+  change(sections);
+  return parseError(test::putTogether(sections));
+}
+
+// The same for one number of one section.
+template <class T>
+std::string errorWith(std::string_view id, std::size_t at, T value) {
+  return errorAfter([&](std::vector<RawSection>& s) { test::setNumber(test::section(s, id).bytes, at, value); });
+}
+
+long peakMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(CorruptPack, TheSmallPackIsGood) { EXPECT_EQ(parseError(smallPack()), ""); }
+
+TEST(CorruptPack, EveryTruncationIsAnError) {
+  for (std::size_t size = 0; size < smallPack().size(); ++size) {
+    const Bytes cut(smallPack().begin(), smallPack().begin() + static_cast<std::ptrdiff_t>(size));
+    const std::string error = parseError(cut);
+    ASSERT_TRUE(contains(error, "file.pack")) << size << ": " << error;
+  }
+}
+
+TEST(CorruptPack, EveryFlippedBitIsAnError) {
+  Bytes bytes = smallPack();
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    for (int bit = 0; bit < 8; ++bit) {
+      bytes[i] ^= static_cast<std::byte>(1 << bit);
+      ASSERT_TRUE(contains(parseError(bytes), "file.pack")) << "byte " << i << ", bit " << bit;
+      bytes[i] ^= static_cast<std::byte>(1 << bit);
+    }
+}
+
+TEST(CorruptPack, BytesAfterTheEndAreAnError) {
+  Bytes bytes = smallPack();
+  bytes.push_back(std::byte{0});
+  EXPECT_TRUE(contains(parseError(bytes), "longer than its pack")) << parseError(bytes);
+  test::setNumber(bytes, 16, std::uint64_t{bytes.size()});
+  test::fixHashes(bytes);
+  EXPECT_TRUE(contains(parseError(bytes), "bytes after the last section")) << parseError(bytes);
+}
+
+// Behind every hash: any bit of any section flipped is refused or gives a scene within the schema.
+TEST(CorruptPack, EveryFlippedBitBehindTheHashesIsHarmless) {
+  const std::vector<RawSection> whole = test::takenApart(smallPack());
+  const long before = peakMegabytes();
+  std::size_t refused = 0, taken = 0;
+  for (std::size_t s = 0; s < whole.size(); ++s)
+    for (std::size_t i = 0; i < whole[s].bytes.size(); ++i)
+      for (int bit = 0; bit < 8; ++bit) {
+        std::vector<RawSection> sections = whole;
+        sections[s].bytes[i] ^= static_cast<std::byte>(1 << bit);
+        const Bytes bytes = test::putTogether(sections);
+        const std::string error = errorOf([&] {
+          const Scene scene = parse(bytes, "file.pack").scene;
+          for (const Mesh& mesh : scene.meshes) {
+            ASSERT_LT(mesh.material, scene.materials.size());
+            for (const glm::uvec3& t : mesh.triangles)
+              ASSERT_LT(std::max({t.x, t.y, t.z}), mesh.positions.size()) << s << " " << i << " " << bit;
+            for (const glm::vec3& p : mesh.positions)
+              ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+          }
+        });
+        error.empty() ? ++taken : ++refused;
+        if (!error.empty()) {
+          ASSERT_TRUE(contains(error, "file.pack")) << error;
+        }
+      }
+  EXPECT_GT(refused, 1000u);
+  EXPECT_GT(taken, 1000u);  // a digit of a number changes nothing that can be told
+  EXPECT_LT(peakMegabytes() - before, 512);
+}
+
+TEST(CorruptPack, RandomBytesBehindTheHashesAreHarmless) {
+  const std::vector<RawSection> whole = test::takenApart(smallPack());
+  std::mt19937 random(1);
+  const long before = peakMegabytes();
+  for (int round = 0; round < 5000; ++round) {
+    std::vector<RawSection> sections = whole;
+    RawSection& section = sections[random() % sections.size()];
+    const std::size_t first = random() % section.bytes.size();
+    for (std::size_t i = first; i < std::min(first + 1 + random() % 8, section.bytes.size()); ++i)
+      section.bytes[i] = static_cast<std::byte>(random() % 4 == 0 ? 0xff : random() & 0xff);
+    if (random() % 4 == 0) section.bytes.resize(random() % section.bytes.size());
+    const std::string error = parseError(test::putTogether(sections));
+    if (!error.empty()) {
+      ASSERT_TRUE(contains(error, "file.pack")) << error;
+    }
+  }
+  EXPECT_LT(peakMegabytes() - before, 512);
+}
+
+TEST(CorruptPack, OtherFilesAreNoPack) {
+  for (const std::string_view text : {"", "M", "\x89PNG\r\n\x1a\n then more than forty bytes of something else",
+                                      "MALUSPACK that is not one, forty bytes long or more"}) {
+    const std::span<const std::byte> source = std::as_bytes(std::span(text));
+    const Bytes bytes(source.begin(), source.end());
+    EXPECT_TRUE(contains(parseError(bytes), "file.pack: is not a scene pack")) << parseError(bytes);
+  }
+}
+
+TEST(CorruptPack, NewerAndOlderVersionsAreToldApart) {
+  const std::vector<RawSection> sections = test::takenApart(smallPack());
+  const std::string newer = parseError(test::putTogether(sections, 2)),
+                    older = parseError(test::putTogether(sections, 0));
+  EXPECT_TRUE(contains(newer, "newer than this malus")) << newer;
+  EXPECT_TRUE(contains(newer, "expected format version 1, found 2")) << newer;
+  EXPECT_TRUE(contains(older, "older than this malus reads")) << older;
+}
+
+TEST(CorruptPack, VersionComesBeforeEverythingElse) {
+  // A later format may keep its hashes elsewhere.
+  Bytes bytes = smallPack();
+  test::setNumber(bytes, 8, std::uint32_t{9});
+  EXPECT_TRUE(contains(parseError(bytes), "newer than this malus"));
+}
+
+TEST(CorruptPack, UnknownSections) {
+  const auto with = [](std::uint32_t flags, std::uint32_t version) {
+    return errorAfter([&](std::vector<RawSection>& s) {
+      s.push_back({"NEWS", version, flags, Bytes(24, std::byte{7})});
+    });
+  };
+  EXPECT_EQ(with(kOptional, 1), "");
+  EXPECT_EQ(with(kOptional, 77), "");
+  const std::string error = with(0, 1);
+  EXPECT_TRUE(contains(error, "section NEWS is required and unknown")) << error;
+  EXPECT_EQ(errorAfter([&](std::vector<RawSection>& s) {
+              s.insert(s.begin() + 2, {"NEWS", 1, kOptional, Bytes(5, std::byte{1})});
+            }),
+            "");
+}
+
+TEST(CorruptPack, UnknownVersionOfASection) {
+  for (const char* id : {"META", "GEOM", "EFCT"}) {
+    const std::string error = errorAfter([&](std::vector<RawSection>& s) { test::section(s, id).version = 2; });
+    EXPECT_TRUE(contains(error, std::string("section ") + id + " has an unknown version")) << error;
+  }
+}
+
+TEST(CorruptPack, MissingAndRepeatedSections) {
+  for (const char* id : {"META", "CAMR", "ENVR", "LGHT", "MATL", "MESH", "GEOM"}) {
+    const std::string error = errorAfter(
+        [&](std::vector<RawSection>& s) { std::erase_if(s, [&](const RawSection& r) { return r.id == id; }); });
+    EXPECT_TRUE(contains(error, std::string("section ") + id + " is missing")) << error;
+  }
+  for (const char* id : {"EFCT", "PROV"})
+    EXPECT_EQ(errorAfter([&](std::vector<RawSection>& s) {
+                std::erase_if(s, [&](const RawSection& r) { return r.id == id; });
+              }),
+              "");
+  for (const char* id : {"META", "PROV"}) {
+    const std::string error =
+        errorAfter([&](std::vector<RawSection>& s) { s.push_back(RawSection(test::section(s, id))); });
+    EXPECT_TRUE(contains(error, std::string("section ") + id + " is there twice")) << error;
+  }
+}
+
+TEST(CorruptPack, SwappedSections) {
+  // Another order is fine; another id is not.
+  EXPECT_EQ(errorAfter([](std::vector<RawSection>& s) { std::swap(s[0], s[5]); }), "");
+  const std::size_t count = test::takenApart(smallPack()).size();
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = a + 1; b < count; ++b)
+      EXPECT_NE(errorAfter([&](std::vector<RawSection>& s) { std::swap(s[a].bytes, s[b].bytes); }), "")
+          << a << " " << b;
+}
+
+TEST(CorruptPack, TableOfSections) {
+  const auto entry = [](std::size_t i, std::size_t field, auto value) {
+    Bytes bytes = smallPack();
+    test::setNumber(bytes, 40 + 40 * i + field, value);
+    test::fixHashes(bytes);
+    return parseError(bytes);
+  };
+  constexpr std::uint64_t kHuge = ~std::uint64_t{0};
+  EXPECT_TRUE(contains(entry(1, 16, std::uint64_t{0}), "lies outside the file or over another"));
+  EXPECT_TRUE(contains(entry(1, 16, std::uint64_t{401}), "lies outside the file or over another"));  // not aligned
+  EXPECT_TRUE(contains(entry(1, 16, kHuge - 15), "lies outside the file or over another"));
+  EXPECT_TRUE(contains(entry(1, 24, kHuge), "lies outside the file or over another"));
+  EXPECT_TRUE(contains(entry(0, 24, std::uint64_t{smallPack().size()}), "lies outside the file or over another"));
+  EXPECT_TRUE(contains(entry(1, 32, std::uint64_t{5}), "section CAMR is damaged"));
+  EXPECT_TRUE(contains(entry(0, 24, std::uint64_t{1}), "section META is damaged"));
+  Bytes many = smallPack();
+  test::setNumber(many, 12, std::uint32_t{65});
+  test::fixHashes(many);
+  EXPECT_TRUE(contains(parseError(many), "number of sections"));
+  test::setNumber(many, 12, std::uint32_t{64});
+  test::fixHashes(many);
+  EXPECT_NE(parseError(many), "");
+}
+
+TEST(CorruptPack, PaddingHoldsNothing) {
+  Bytes bytes = smallPack();
+  const auto end = test::numberAt<std::uint64_t>(bytes, 40 + 16) + test::numberAt<std::uint64_t>(bytes, 40 + 24);
+  ASSERT_NE(end % 16, 0u);
+  bytes[static_cast<std::size_t>(end)] = std::byte{1};
+  EXPECT_TRUE(contains(parseError(bytes), "padding is damaged")) << parseError(bytes);
+}
+
+TEST(CorruptPack, EverySectionTooShortOrTooLong) {
+  for (const RawSection& section : test::takenApart(smallPack())) {
+    if (section.id == "GEOM") continue;  // its meshes say what belongs to them
+    EXPECT_NE(errorAfter([&](std::vector<RawSection>& s) { test::section(s, section.id).bytes.pop_back(); }), "")
+        << section.id;
+    EXPECT_NE(
+        errorAfter([&](std::vector<RawSection>& s) { test::section(s, section.id).bytes.push_back(std::byte{0}); }), "")
+        << section.id;
+    EXPECT_NE(errorAfter([&](std::vector<RawSection>& s) { test::section(s, section.id).bytes.clear(); }), "")
+        << section.id;
+  }
+}
+
+TEST(CorruptPack, CountsTooLarge) {
+  const long before = peakMegabytes();
+  constexpr std::uint32_t kHuge = 0xffffffffu;
+  for (const std::uint32_t count : {kHuge, 0x10000000u, 3u}) {
+    EXPECT_TRUE(contains(errorWith("LGHT", 0, count), "number of lights")) << count;
+    if (count != 3u) {
+      EXPECT_TRUE(contains(errorWith("MATL", 0, count), "number of materials")) << count;
+      EXPECT_TRUE(contains(errorWith("EFCT", 0, count), "number of effects")) << count;
+    }
+    EXPECT_NE(errorWith("MESH", 0, count), "") << count;
+  }
+  EXPECT_TRUE(contains(errorWith("META", 0, kHuge), "length of a text"));
+  EXPECT_TRUE(contains(errorWith("META", 0, 60000u), "section ends early"));
+  EXPECT_TRUE(contains(errorWith("PROV", 0, kHuge), "length of a text"));
+  EXPECT_TRUE(contains(errorWith("ENVR", 248, kHuge), "environment size"));
+  EXPECT_TRUE(contains(errorWith("ENVR", 248, 8192u), "environment texels"));
+  EXPECT_TRUE(contains(errorWith("ENVR", 248, 0u), "longer than its contents"));
+  // MESH: count, name of 11 letters, then material, flags, vertices, triangles, encoding, offset, size.
+  constexpr std::size_t kMesh = 4 + 4 + 11;
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 8, kHuge), "vertices of a mesh"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 12, kHuge), "triangles of a mesh"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 8, kMaxVertices), "mesh 'tetrahedron'"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 12, kMaxTriangles), "mesh 'tetrahedron'"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 8, 5u), "mesh 'tetrahedron'"));
+  EXPECT_LT(peakMegabytes() - before, 256);
+}
+
+TEST(CorruptPack, MeshesOutOfBounds) {
+  constexpr std::size_t kMesh = 4 + 4 + 11;
+  const std::string material = errorWith("MESH", kMesh, 3u);
+  EXPECT_TRUE(contains(material, "material of a mesh; expected an index below 3, found 3")) << material;
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 4, 4u), "flags of a mesh"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 4, 0u), "normals of mesh 'tetrahedron'"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 16, 2u), "encoding of a mesh"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 20, ~std::uint64_t{15}), "geometry of mesh 'tetrahedron'"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 20, std::uint64_t{1}), "geometry of mesh 'tetrahedron'"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 28, ~std::uint64_t{0}), "geometry of mesh 'tetrahedron'"));
+  EXPECT_TRUE(contains(errorWith("MESH", kMesh + 28, std::uint64_t{0}), "mesh 'tetrahedron'"));
+  EXPECT_TRUE(contains(errorAfter([](std::vector<RawSection>& s) { test::section(s, "MESH").bytes = Bytes(4); }),
+                       "number of meshes"));
+}
+
+TEST(CorruptPack, NoGeometryIsDecodedTwice) {
+  // The second mesh claims the bytes of the first.
+  constexpr std::size_t kSecond = 4 + 4 + 11 + 36 + 4 + 5;
+  const std::string error = errorWith("MESH", kSecond + 20, std::uint64_t{0});
+  EXPECT_TRUE(contains(error, "geometry of mesh 'sheet'")) << error;
+}
+
+TEST(CorruptPack, CameraOutOfBounds) {
+  for (std::size_t at = 0; at < 112; at += 8) {
+    EXPECT_TRUE(contains(errorWith("CAMR", at, kNan), "not finite")) << at;
+    EXPECT_TRUE(contains(errorWith("CAMR", at, kInfinity), "not finite")) << at;
+    EXPECT_NE(errorWith("CAMR", at, 1e300), "") << at;
+  }
+  EXPECT_TRUE(contains(errorWith("CAMR", 24, 0.5), "orthonormal"));
+  EXPECT_TRUE(contains(errorWith("CAMR", 40, -1.0), "left-handed"));  // right = -z
+  EXPECT_TRUE(contains(errorWith("CAMR", 96, 0.0), "field of view"));
+  EXPECT_TRUE(contains(errorWith("CAMR", 96, 180.0), "field of view"));
+  EXPECT_TRUE(contains(errorWith("CAMR", 104, 0.0), "index of the camera's medium"));
+  // Where: the byte of the file.
+  const std::string error = errorWith("CAMR", 96, kNan);
+  EXPECT_TRUE(contains(error, "file.pack, byte ")) << error;
+}
+
+TEST(CorruptPack, PictureOutOfBounds) {
+  std::vector<RawSection> sections = test::takenApart(smallPack());
+  const std::size_t end = test::section(sections, "META").bytes.size();
+  EXPECT_TRUE(contains(errorWith("META", end - 8, kNan), "not finite"));
+  EXPECT_TRUE(contains(errorWith("META", end - 8, 101.0), "exposure"));
+  EXPECT_TRUE(contains(errorWith("META", end - 12, 31u), "depth"));
+  EXPECT_TRUE(contains(errorWith("META", end - 16, 16385u), "picture height"));
+  EXPECT_TRUE(contains(errorWith("META", end - 16, 0u), "picture without pixels"));
+  EXPECT_TRUE(contains(errorWith("META", end - 20, 0u), "picture without pixels"));
+  EXPECT_TRUE(contains(errorWith("META", end - 44, 1e16), "scene origin"));
+}
+
+TEST(CorruptPack, LightOutOfBounds) {
+  for (std::size_t at = 4; at < 4 + 96; at += 8) EXPECT_TRUE(contains(errorWith("LGHT", at, kNan), "not finite")) << at;
+  EXPECT_TRUE(contains(errorWith("LGHT", 4, 1e16), "light position"));
+  EXPECT_TRUE(contains(errorWith("LGHT", 28, -1.0), "light intensity"));
+  for (std::size_t at = 0; at < 248; at += 8) EXPECT_TRUE(contains(errorWith("ENVR", at, kNan), "not finite")) << at;
+  EXPECT_TRUE(contains(errorWith("ENVR", 0, -1.0), "environment radiance"));
+  EXPECT_TRUE(contains(errorWith("ENVR", 24, -1.0), "diffuse fill"));
+  EXPECT_TRUE(contains(errorWith("ENVR", 32, 1e16), "irradiance coefficient"));
+  for (const std::uint16_t half :
+       {std::uint16_t{0x7c00}, std::uint16_t{0x7e00}, std::uint16_t{0xbc00}})  // inf, NaN, -1
+    EXPECT_TRUE(contains(errorWith("ENVR", 252 + 6, half), "environment texel")) << half;
+}
+
+TEST(CorruptPack, MaterialOutOfBounds) {
+  constexpr std::size_t kGlass = 4 + 4 + 5;                // behind the first name
+  constexpr std::size_t kGold = kGlass + 120 + 4 + 4;      // behind the second
+  constexpr std::size_t kEta = 4, kK = 28, kOutside = 52;  // behind the kind
+  for (std::size_t at = kGlass + kEta; at + 8 <= kGlass + 116; at += 8)
+    EXPECT_TRUE(contains(errorWith("MATL", at, kNan), "not finite")) << at;
+  EXPECT_TRUE(contains(errorWith("MATL", kGlass, 6u), "kind of material"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGlass + kEta, 1e4), "index eta"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGlass + kEta, 1e-4), "index of refraction"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGlass + kK, 0.5), "index of a dielectric"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGold + kEta, -0.1), "index eta"));
+  EXPECT_EQ(errorWith("MATL", kGold + kEta, 0.0), "");  // n = 0 with k > 0
+  EXPECT_TRUE(contains(errorWith("MATL", kGold + kK, 1e4), "index k"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGold + kOutside, 0.0), "outside index"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGold + 60, 1.01), "albedo"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGold + 84, -1.0), "radiance"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGold + 108, -1.0), "highlight strength"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGold + 116, 4096u), "highlight exponent"));
+}
+
+TEST(CorruptPack, EffectOutOfBounds) {
+  const std::string error = errorWith("EFCT", 4 + 4 + 5, 2u);
+  EXPECT_TRUE(contains(error, "state of an effect")) << error;
+}
+
+TEST(CorruptPack, MissingFileAndFolder) {
+  EXPECT_TRUE(contains(errorOf([] { read("/nowhere/at-all.pack"); }), "/nowhere/at-all.pack: cannot open"));
+  EXPECT_TRUE(contains(errorOf([] { read("/"); }), "/: is not a regular file"));
+}
+
+}  // namespace
+}  // namespace malus::pack

@@ -1,0 +1,244 @@
+// A pack holds everything that a scene holds, and equal scenes are equal files.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <glm/geometric.hpp>
+
+#include "bake/pack/reader.h"
+#include "bake/pack/writer.h"
+#include "tests/bake/fixtures.h"
+#include "tests/bake/pack/raw_pack.h"
+
+namespace malus::pack {
+namespace {
+
+using bake::test::contains;
+using bake::test::errorOf;
+using bake::test::smallScene;
+using bake::test::TemporaryFolder;
+
+// The vertex of the mesh that is nearest to p.
+glm::vec3 nearest(const Mesh& mesh, const glm::vec3& p) {
+  return *std::min_element(mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& a, const glm::vec3& b) {
+    return glm::distance(a, p) < glm::distance(b, p);
+  });
+}
+
+TEST(PackRoundTrip, EveryFieldComesBack) {
+  const Scene scene = smallScene();
+  const Written written = serialize(scene, {});
+  const Pack pack = parse(written.bytes, "test");
+  EXPECT_EQ(pack.formatVersion, kFormatVersion);
+  const Scene& s = pack.scene;
+  EXPECT_EQ(s.name, scene.name);
+  EXPECT_EQ(s.title, scene.title);
+  EXPECT_EQ(s.origin, scene.origin);
+  EXPECT_EQ(s.width, scene.width);
+  EXPECT_EQ(s.height, scene.height);
+  EXPECT_EQ(s.depth, scene.depth);
+  EXPECT_EQ(s.exposureEv, scene.exposureEv);
+  EXPECT_EQ(s.camera.position, scene.camera.position);
+  EXPECT_EQ(s.camera.right, scene.camera.right);
+  EXPECT_EQ(s.camera.up, scene.camera.up);
+  EXPECT_EQ(s.camera.forward, scene.camera.forward);
+  EXPECT_EQ(s.camera.verticalFovDegrees, scene.camera.verticalFovDegrees);
+  EXPECT_EQ(s.camera.mediumEta, scene.camera.mediumEta);
+  EXPECT_EQ(s.environment.radiance, scene.environment.radiance);
+  EXPECT_EQ(s.environment.size, scene.environment.size);
+  EXPECT_EQ(s.environment.texels, scene.environment.texels);
+  EXPECT_EQ(s.environment.diffuseFill, scene.environment.diffuseFill);
+  EXPECT_EQ(s.environment.irradiance, scene.environment.irradiance);
+  ASSERT_EQ(s.lights.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(s.lights[i].position, scene.lights[i].position);
+    EXPECT_EQ(s.lights[i].intensity, scene.lights[i].intensity);
+  }
+  ASSERT_EQ(s.materials.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(s.materials[i].name, scene.materials[i].name);
+    EXPECT_EQ(s.materials[i].kind, scene.materials[i].kind);
+    EXPECT_EQ(s.materials[i].eta, scene.materials[i].eta);
+    EXPECT_EQ(s.materials[i].k, scene.materials[i].k);
+    EXPECT_EQ(s.materials[i].outsideEta, scene.materials[i].outsideEta);
+    EXPECT_EQ(s.materials[i].albedo, scene.materials[i].albedo);
+    EXPECT_EQ(s.materials[i].radiance, scene.materials[i].radiance);
+    EXPECT_EQ(s.materials[i].highlightStrength, scene.materials[i].highlightStrength);
+    EXPECT_EQ(s.materials[i].highlightExponent, scene.materials[i].highlightExponent);
+  }
+  ASSERT_EQ(s.effects.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(s.effects[i].name, scene.effects[i].name);
+    EXPECT_EQ(s.effects[i].on, scene.effects[i].on);
+    EXPECT_EQ(s.effects[i].reason, scene.effects[i].reason);
+  }
+  EXPECT_EQ(s.provenance, scene.provenance);
+}
+
+TEST(PackRoundTrip, MeshesComeBackWithinTheGrid) {
+  const Scene scene = smallScene();
+  const Pack pack = parse(serialize(scene, {}).bytes, "test");
+  ASSERT_EQ(pack.scene.meshes.size(), 2u);
+  ASSERT_EQ(pack.compression.size(), 2u);
+  const float step = 3.0f / 1048575.0f;  // the scene is 3 m wide, 20 bits
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Mesh &found = pack.scene.meshes[i], &source = scene.meshes[i];
+    EXPECT_EQ(found.name, source.name);
+    EXPECT_EQ(found.material, source.material);
+    EXPECT_EQ(found.sheet, source.sheet);
+    ASSERT_EQ(found.positions.size(), source.positions.size());
+    ASSERT_EQ(found.normals.size(), source.normals.size());
+    ASSERT_EQ(found.triangles.size(), source.triangles.size());
+    for (std::size_t v = 0; v < source.positions.size(); ++v) {
+      const glm::vec3 decoded = nearest(found, source.positions[v]);
+      EXPECT_LE(glm::distance(decoded, source.positions[v]), step) << source.name << ", vertex " << v;
+      if (source.normals.empty()) continue;
+      const auto at = static_cast<std::size_t>(std::find(found.positions.begin(), found.positions.end(), decoded) -
+                                               found.positions.begin());
+      EXPECT_LE(glm::distance(found.normals[at], source.normals[v]), 1.5e-3f) << source.name << ", vertex " << v;
+    }
+    // The sides are kept: each triangle's cross product is that of a source triangle.
+    for (const glm::uvec3& t : found.triangles) {
+      const auto cross = [](const Mesh& m, const glm::uvec3& f) {
+        return glm::cross(m.positions[f.y] - m.positions[f.x], m.positions[f.z] - m.positions[f.x]);
+      };
+      EXPECT_TRUE(std::any_of(source.triangles.begin(), source.triangles.end(), [&](const glm::uvec3& f) {
+        return glm::distance(cross(source, f), cross(found, t)) < 1e-4f;
+      }));
+    }
+  }
+}
+
+TEST(PackRoundTrip, TheSameBytesEveryTime) {
+  const Written a = serialize(smallScene(), {}), b = serialize(smallScene(), {});
+  EXPECT_TRUE(a.bytes == b.bytes);
+  Scene other = smallScene();
+  other.exposureEv += 1e-15;
+  EXPECT_FALSE(a.bytes == serialize(other, {}).bytes);
+}
+
+TEST(PackRoundTrip, ASecondImplementationWritesTheSameFile) {
+  const Written written = serialize(smallScene(), {});
+  EXPECT_TRUE(test::putTogether(test::takenApart(written.bytes)) == written.bytes);
+}
+
+TEST(PackRoundTrip, LayoutIsThatOfTheDocument) {
+  const test::Bytes bytes = serialize(smallScene(), {}).bytes;
+  const std::vector<test::RawSection> sections = test::takenApart(bytes);
+  const char* const kIds[] = {"META", "CAMR", "ENVR", "LGHT", "MATL", "MESH", "GEOM", "EFCT", "PROV"};
+  ASSERT_EQ(sections.size(), std::size(kIds));
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    EXPECT_EQ(sections[i].id, kIds[i]);
+    EXPECT_EQ(sections[i].version, 1u);
+    EXPECT_EQ(sections[i].flags, i >= 7 ? kOptional : 0u);
+    EXPECT_EQ(test::numberAt<std::uint64_t>(bytes, 40 + 40 * i + 16) % 16, 0u);
+  }
+  EXPECT_EQ(sections[1].bytes.size(), 112u);
+  EXPECT_EQ(sections[2].bytes.size(), 252u + 16 * 6);
+  EXPECT_EQ(sections[3].bytes.size(), 4u + 2 * 48);
+  EXPECT_EQ(sections[4].bytes.size(), 4u + 3 * 124 + 5 + 4 + 4);
+  EXPECT_EQ(sections[5].bytes.size(), 4u + 2 * 40 + 11 + 5);
+}
+
+TEST(PackRoundTrip, ConstantEnvironmentHasNoTexels) {
+  Scene scene = smallScene();
+  scene.environment.size = 0;
+  scene.environment.texels.clear();
+  EXPECT_TRUE(parse(serialize(scene, {}).bytes, "test").scene.environment.texels.empty());
+}
+
+TEST(PackRoundTrip, EqualPositionsOfDifferentMeshesDecodeEqual) {
+  // Two strips that touch along y = 0.1, at points that no grid holds.
+  Scene scene = smallScene();
+  scene.meshes.clear();
+  constexpr std::uint32_t kPoints = 200;
+  const auto x = [](std::uint32_t i) { return 0.1f + 0.0123457f * static_cast<float>(i); };
+  for (int side = 0; side < 2; ++side) {
+    Mesh mesh;
+    mesh.name = side == 0 ? "left" : "right";
+    for (std::uint32_t i = 0; i < kPoints; ++i) {
+      mesh.positions.emplace_back(x(i), 0.1f, 0.3333333f);
+      mesh.positions.emplace_back(x(i), side == 0 ? -0.7f : 1.9f, 0.01f * static_cast<float>(side));
+    }
+    for (std::uint32_t i = 0; i + 1 < kPoints; ++i) {
+      mesh.triangles.emplace_back(2 * i, 2 * i + 1, 2 * i + 2);
+      mesh.triangles.emplace_back(2 * i + 1, 2 * i + 3, 2 * i + 2);
+    }
+    scene.meshes.push_back(mesh);
+  }
+  for (const int bits : {12, 20, 22}) {
+    const Pack pack = parse(serialize(scene, {bits, 12}).bytes, "test");
+    for (std::uint32_t i = 0; i < kPoints; ++i) {
+      const glm::vec3 p(x(i), 0.1f, 0.3333333f);
+      EXPECT_EQ(nearest(pack.scene.meshes[0], p), nearest(pack.scene.meshes[1], p)) << bits << " bits, point " << i;
+    }
+  }
+}
+
+TEST(PackRoundTrip, MoreBitsComeNearer) {
+  const Written coarse = serialize(smallScene(), {8, 6}), fine = serialize(smallScene(), {20, 12});
+  EXPECT_GT(coarse.meshes[0].normalErrorMaxDegrees, fine.meshes[0].normalErrorMaxDegrees);
+  EXPECT_LE(coarse.meshes[0].positionErrorMax, 3.0f / 255 * 0.9f);
+  EXPECT_LE(fine.meshes[0].positionErrorMax, 3.0f / 1048575);
+  EXPECT_EQ(fine.meshes.size(), 2u);
+}
+
+TEST(PackRoundTrip, CanonicalGeometryHashTellsGeometryAlone) {
+  const auto hash = [](const Scene& scene) {
+    return canonicalGeometryHash(parse(serialize(scene, {}).bytes, "t").scene);
+  };
+  Scene scene = smallScene();
+  const std::uint64_t before = hash(scene);
+  scene.title = "another";
+  scene.materials[0].eta = glm::dvec3(1.6);
+  EXPECT_EQ(hash(scene), before);
+  scene.meshes[1].positions[2].z = 0.01f;
+  EXPECT_NE(hash(scene), before);
+}
+
+TEST(PackRoundTrip, WrittenFileIsReadBack) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "small.pack";
+  const Written written = write(path, smallScene(), {});
+  const Pack pack = read(path);
+  EXPECT_EQ(pack.hash, parse(written.bytes, "test").hash);
+  EXPECT_EQ(std::filesystem::file_size(path), written.bytes.size());
+}
+
+TEST(PackRoundTrip, WhatCannotBeReadBackIsNotWritten) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "small.pack";
+  const auto refuse = [&](const char* expected, auto change) {
+    Scene scene = smallScene();
+    change(scene);
+    const std::string error = errorOf([&] { write(path, scene, {}); });
+    EXPECT_TRUE(contains(error, expected)) << expected << " / " << error;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << expected;
+  };
+  refuse("not finite", [](Scene& s) { s.origin.x = NAN; });
+  refuse("finite", [](Scene& s) { s.environment.texels[3].y = NAN; });
+  refuse("environment texel", [](Scene& s) { s.environment.texels[3].y = -1; });
+  refuse("a position is not finite", [](Scene& s) { s.meshes[1].positions[0].x = INFINITY; });
+  refuse("mesh 'sheet'", [](Scene& s) { s.meshes[1].triangles[0].x = 4; });
+  refuse("material of a mesh", [](Scene& s) { s.meshes[1].material = 3; });
+  refuse("number of meshes", [](Scene& s) { s.meshes.clear(); });
+  refuse("positions of mesh 'sheet'", [](Scene& s) { s.meshes[1].positions[0].x = 1e12f; });
+  refuse("albedo", [](Scene& s) { s.materials[1].albedo.y = 1.5; });
+  refuse("left-handed", [](Scene& s) { s.camera.right = -s.camera.right; });
+  refuse("orthonormal", [](Scene& s) { s.camera.right.x = 0.5; });
+}
+
+TEST(PackRoundTrip, AFailedWriteKeepsWhatWasThere) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("small.pack", "precious");
+  Scene scene = smallScene();
+  scene.depth = kMaxDepth + 1;
+  EXPECT_NE(errorOf([&] { write(path, scene, {}); }), "");
+  std::ifstream stream(path);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_EQ(text, "precious");
+}
+
+}  // namespace
+}  // namespace malus::pack

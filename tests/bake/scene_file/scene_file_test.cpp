@@ -1,0 +1,318 @@
+// scene.json: every key of bake/SCENE.md, and what happens to everything else.
+#include "bake/scene_file/scene_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/bake/fixtures.h"
+
+namespace malus::bake {
+namespace {
+
+using nlohmann::json;
+using test::contains;
+using test::errorOf;
+using test::TemporaryFolder;
+
+// What is required and nothing else.
+json minimal() {
+  return json::parse(R"({
+    "malus": 1, "name": "plain",
+    "camera": {"position": [0, 1, 5], "target": [0, 0, 0], "verticalFovDegrees": 30},
+    "resolution": [64, 48], "depth": 4,
+    "materials": {"floor": {"type": "lambert", "albedo": 0.5}},
+    "meshes": [{"name": "floor", "file": "floor.obj", "material": "floor"}]})");
+}
+
+SceneDescription readText(const std::string& text) {
+  const TemporaryFolder folder;
+  return readSceneFile(folder.write("scene.json", text));
+}
+
+SceneDescription readJson(const json& value) { return readText(value.dump()); }
+
+// The error of the minimal scene with the value at a JSON pointer set to this text of JSON, or removed.
+std::string errorWith(const char* pointer, const char* value) {
+  json scene = minimal();
+  if (value == nullptr) {
+    const json::json_pointer at(pointer);
+    scene[at.parent_pointer()].erase(at.back());
+  } else {
+    scene[json::json_pointer(pointer)] = json::parse(value);
+  }
+  return errorOf([&] { readJson(scene); });
+}
+
+std::string errorOfMaterial(const char* value) { return errorWith("/materials/floor", value); }
+
+TEST(SceneFile, DefaultsAreThoseOfTheDocument) {
+  const SceneDescription scene = readJson(minimal());
+  EXPECT_EQ(scene.name, "plain");
+  EXPECT_EQ(scene.title, "");
+  EXPECT_FALSE(scene.origin.has_value());
+  EXPECT_EQ(scene.cameraPosition, glm::dvec3(0, 1, 5));
+  EXPECT_EQ(scene.cameraTarget, glm::dvec3(0, 0, 0));
+  EXPECT_EQ(scene.cameraUp, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(scene.verticalFovDegrees, 30);
+  EXPECT_EQ(scene.mediumEta, 1);
+  EXPECT_EQ(scene.width, 64u);
+  EXPECT_EQ(scene.height, 48u);
+  EXPECT_EQ(scene.depth, 4u);
+  EXPECT_EQ(scene.exposureEv, 0);
+  EXPECT_EQ(scene.environmentRadiance, glm::dvec3(0));
+  EXPECT_TRUE(scene.environmentImage.empty());
+  EXPECT_EQ(scene.diffuseFill, 0);
+  EXPECT_TRUE(scene.lights.empty());
+  ASSERT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(scene.materials[0].kind, pack::MaterialKind::lambert);
+  EXPECT_EQ(scene.materials[0].albedo, glm::dvec3(0.5));
+  EXPECT_EQ(scene.materials[0].outsideEta, 1);
+  EXPECT_EQ(scene.materials[0].highlightStrength, 0);
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].file, scene.file.parent_path() / "floor.obj");
+  EXPECT_FALSE(scene.meshes[0].flat);
+  EXPECT_FALSE(scene.meshes[0].sheet);
+  EXPECT_EQ(scene.meshes[0].creaseDegrees, 40);
+  EXPECT_EQ(scene.meshes[0].weldTolerance, 0);
+  ASSERT_EQ(scene.meshes[0].instances.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].instances[0].scale, glm::dvec3(1));
+}
+
+TEST(SceneFile, EveryKeyIsRead) {
+  const SceneDescription scene = readText(R"({
+    "malus": 1, "name": "Full-2", "title": "All of it", "origin": [1, 2, 3],
+    "camera": {"position": [4, 5, 6], "target": [7, 8, 9], "up": [0, 0, 1], "verticalFovDegrees": 25.5, "mediumEta": 1.33},
+    "resolution": [1, 16384], "depth": 30, "exposureEv": -1.5,
+    "environment": {"image": "sky.hdr", "scale": 2.5, "rotationDegrees": -90, "diffuseFill": 0.25},
+    "lights": [{"type": "point", "position": [1, 1, 1], "intensity": [2, 3, 4]}],
+    "materials": {
+      "a-metal": {"type": "metal", "eta": [0.2, 0.5, 1.3], "k": 3, "albedo": [0.1, 0.2, 0.3], "outsideEta": 1.5,
+                  "highlight": {"exponent": 200, "strength": 0.5}},
+      "b-glass": {"type": "glass", "preset": "bk7"},
+      "c-black": {"type": "mirror-glass", "eta": 1.5, "highlight": {"exponent": 1}},
+      "d-paint": {"type": "paint", "albedo": 1},
+      "e-paint": {"type": "paint", "albedo": 0, "eta": 1.7},
+      "f-lamp": {"type": "emitter", "radiance": [5, 6, 7]}},
+    "meshes": [{"name": "one", "file": "sub/one.ply", "material": "b-glass", "flat": true, "sheet": true,
+                "creaseDegrees": 30, "weldTolerance": 0.001,
+                "instances": [{}, {"scale": [1, -2, 3], "rotateDegrees": [10, 20, 30], "translate": [-1, -2, -3]},
+                              {"scale": 4}]}]})");
+  EXPECT_EQ(scene.name, "Full-2");
+  EXPECT_EQ(scene.title, "All of it");
+  EXPECT_EQ(scene.origin, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(scene.cameraUp, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(scene.mediumEta, 1.33);
+  EXPECT_EQ(scene.width, 1u);
+  EXPECT_EQ(scene.height, 16384u);
+  EXPECT_EQ(scene.depth, 30u);
+  EXPECT_EQ(scene.exposureEv, -1.5);
+  EXPECT_EQ(scene.environmentImage, scene.file.parent_path() / "sky.hdr");
+  EXPECT_EQ(scene.environmentScale, 2.5);
+  EXPECT_EQ(scene.environmentRotationDegrees, -90);
+  EXPECT_EQ(scene.diffuseFill, 0.25);
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].intensity, glm::dvec3(2, 3, 4));
+  ASSERT_EQ(scene.materials.size(), 6u);
+  EXPECT_EQ(scene.materials[0].kind, pack::MaterialKind::metal);
+  EXPECT_EQ(scene.materials[0].eta, glm::dvec3(0.2, 0.5, 1.3));
+  EXPECT_EQ(scene.materials[0].k, glm::dvec3(3));
+  EXPECT_EQ(scene.materials[0].albedo, glm::dvec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(scene.materials[0].outsideEta, 1.5);
+  EXPECT_EQ(scene.materials[0].highlightExponent, 200u);
+  EXPECT_EQ(scene.materials[0].highlightStrength, 0.5);
+  EXPECT_EQ(scene.materials[1].kind, pack::MaterialKind::glass);
+  EXPECT_EQ(scene.materials[1].eta.y, 1.5195);
+  EXPECT_EQ(scene.materials[2].kind, pack::MaterialKind::mirrorGlass);
+  EXPECT_EQ(scene.materials[2].highlightStrength, 1);
+  EXPECT_EQ(scene.materials[3].kind, pack::MaterialKind::paint);
+  EXPECT_EQ(scene.materials[3].eta, glm::dvec3(1.5));
+  EXPECT_EQ(scene.materials[4].eta, glm::dvec3(1.7));
+  EXPECT_EQ(scene.materials[5].kind, pack::MaterialKind::emitter);
+  EXPECT_EQ(scene.materials[5].radiance, glm::dvec3(5, 6, 7));
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  const MeshDescription& mesh = scene.meshes[0];
+  EXPECT_EQ(mesh.file, scene.file.parent_path() / "sub/one.ply");
+  EXPECT_TRUE(mesh.flat);
+  EXPECT_TRUE(mesh.sheet);
+  EXPECT_EQ(mesh.creaseDegrees, 30);
+  EXPECT_EQ(mesh.weldTolerance, 0.001);
+  ASSERT_EQ(mesh.instances.size(), 3u);
+  EXPECT_EQ(mesh.instances[1].scale, glm::dvec3(1, -2, 3));
+  EXPECT_EQ(mesh.instances[1].rotateDegrees, glm::dvec3(10, 20, 30));
+  EXPECT_EQ(mesh.instances[1].translate, glm::dvec3(-1, -2, -3));
+  EXPECT_EQ(mesh.instances[2].scale, glm::dvec3(4));
+}
+
+TEST(SceneFile, RequiredKeys) {
+  for (const char* pointer :
+       {"/malus", "/name", "/camera", "/camera/position", "/camera/target", "/camera/verticalFovDegrees", "/resolution",
+        "/depth", "/materials", "/materials/floor/type", "/materials/floor/albedo", "/meshes", "/meshes/0/name",
+        "/meshes/0/file", "/meshes/0/material"}) {
+    const std::string error = errorWith(pointer, nullptr);
+    EXPECT_TRUE(contains(error, "is missing")) << pointer << ": " << error;
+    EXPECT_TRUE(contains(error, "scene.json")) << error;
+  }
+}
+
+TEST(SceneFile, MisspeltKeysNameTheNearest) {
+  const struct {
+    const char *pointer, *expected;
+  } kCases[] = {
+      {"/titel", "titel: unknown key; expected 'title'"},
+      {"/exposureEV", "exposureEV: unknown key; expected 'exposureEv'"},
+      {"/light", "light: unknown key; expected 'lights'"},
+      {"/camera/mediumEtta", "camera.mediumEtta: unknown key; expected 'mediumEta'"},
+      {"/meshes/0/creaseDegree", "meshes[0].creaseDegree: unknown key; expected 'creaseDegrees'"},
+      {"/meshes/0/instance", "meshes[0].instance: unknown key; expected 'instances'"},
+      {"/materials/floor/outsideEtta", "materials.floor.outsideEtta: unknown key; expected 'outsideEta'"},
+  };
+  for (const auto& c : kCases) {
+    const std::string error = errorWith(c.pointer, "1");
+    EXPECT_TRUE(contains(error, c.expected)) << error;
+  }
+  json scene = minimal();
+  scene["environment"] = {{"radiance", {1, 1, 1}}, {"difuseFill", 1}};
+  EXPECT_TRUE(
+      contains(errorOf([&] { readJson(scene); }), "environment.difuseFill: unknown key; expected 'diffuseFill'"));
+  scene = minimal();
+  scene["lights"] = json::parse(R"([{"type": "point", "position": [0,0,0], "intensity": [1,1,1], "intensityy": 1}])");
+  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "lights[0].intensityy: unknown key; expected 'intensity'"));
+  scene = minimal();
+  scene["meshes"][0]["instances"] = json::parse(R"([{}, {"rotate": [0, 0, 0], "translat": [0, 0, 0]}])");
+  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "meshes[0].instances[1]."));
+}
+
+TEST(SceneFile, KeysOfAnotherKindAreUnknown) {
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "lambert", "albedo": 1, "eta": 1.5})"), "eta: unknown key"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "lambert", "albedo": 1, "radiance": [1, 1, 1]})"), "unknown key"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "glass", "eta": 1.5, "albedo": 1})"), "albedo: unknown key"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "emitter", "radiance": [1, 1, 1], "highlight": {"exponent": 1}})"),
+                       "highlight: unknown key"));
+  json scene = minimal();
+  scene["environment"] = {{"radiance", {1, 1, 1}}, {"scale", 1}};
+  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "environment.scale: unknown key"));
+}
+
+TEST(SceneFile, Ranges) {
+  const struct {
+    const char *pointer, *value;
+  } kCases[] = {
+      {"/malus", "2"},
+      {"/malus", "1.5"},
+      {"/malus", "\"1\""},
+      {"/name", "\"\""},
+      {"/name", "\"two words\""},
+      {"/name", "\"../x\""},
+      {"/title", "7"},
+      {"/origin", "[1, 2]"},
+      {"/origin", "[0, 0, 1e13]"},
+      {"/camera/position", "[0, 1]"},
+      {"/camera/verticalFovDegrees", "0"},
+      {"/camera/verticalFovDegrees", "171"},
+      {"/camera/mediumEta", "0"},
+      {"/resolution", "[0, 48]"},
+      {"/resolution", "[64, 16385]"},
+      {"/resolution", "[64]"},
+      {"/resolution", "[64.5, 48]"},
+      {"/resolution", "[-64, 48]"},
+      {"/depth", "31"},
+      {"/depth", "-1"},
+      {"/depth", "4.0"},
+      {"/exposureEv", "101"},
+      {"/environment", "{}"},
+      {"/environment", R"({"radiance": [1, 1, 1], "image": "a.hdr"})"},
+      {"/environment", R"({"radiance": [-1, 1, 1]})"},
+      {"/environment", R"({"image": "a.hdr", "rotationDegrees": 361})"},
+      {"/environment", R"({"radiance": [1, 1, 1], "diffuseFill": -1})"},
+      {"/lights", "{}"},
+      {"/lights", R"([{"type": "spot", "position": [0, 0, 0], "intensity": [1, 1, 1]}])"},
+      {"/lights", R"([{"type": "point", "position": [0, 0, 0], "intensity": [1, -1, 1]}])"},
+      {"/materials", "[]"},
+      {"/materials/floor/albedo", "1.1"},
+      {"/materials/floor/albedo", "[1, 1]"},
+      {"/materials/floor/outsideEta", "0"},
+      {"/meshes", "[]"},
+      {"/meshes", "{}"},
+      {"/meshes/0/flat", "1"},
+      {"/meshes/0/creaseDegrees", "181"},
+      {"/meshes/0/weldTolerance", "-1"},
+      {"/meshes/0/instances", "[]"},
+      {"/meshes/0/instances", "{}"},
+      {"/meshes/0/instances", R"([{"scale": 0}])"},
+      {"/meshes/0/instances", R"([{"scale": [1, 0, 1]}])"},
+      {"/meshes/0/instances", R"([{"rotateDegrees": [0, 0, 3601]}])"},
+  };
+  for (const auto& c : kCases) {
+    const std::string error = errorWith(c.pointer, c.value);
+    EXPECT_TRUE(contains(error, "expected")) << c.pointer << " = " << c.value << ": " << error;
+  }
+}
+
+TEST(SceneFile, Materials) {
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "marble", "albedo": 1})"),
+                       "expected lambert, paint, mirror-glass, metal, glass, emitter, found 'marble'"));
+  const std::string preset = errorOfMaterial(R"({"type": "metal", "preset": "golt"})");
+  EXPECT_TRUE(contains(preset, "materials.floor.preset: unknown material 'golt'; expected 'gold'")) << preset;
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "metal", "preset": "gold", "k": 1})"), "exclude each other"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "metal", "k": 1})"), "eta: is missing"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "glass"})"), "preset: is missing"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "glass", "preset": "gold"})"), "of a dielectric"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "glass", "eta": 1.5, "k": 0.1})"), "of a dielectric"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "glass", "eta": 0})"), "is too small"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "metal", "eta": 0, "k": 0})"), "is too small"));
+  EXPECT_EQ(errorOfMaterial(R"({"type": "metal", "eta": 0, "k": 3})"), "");
+  EXPECT_EQ(errorOfMaterial(R"({"type": "glass", "eta": 1})"), "");
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "metal", "eta": 1001, "k": 0})"), "out of range"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "paint", "albedo": 1, "highlight": {"exponent": 0}})"), "range"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "paint", "albedo": 1, "highlight": {"exponent": 5000}})"), "range"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "paint", "albedo": 1, "highlight": {"strength": 1}})"), "exponent"));
+}
+
+TEST(SceneFile, MeshesNameKnownMaterialsAndDiffer) {
+  const std::string error = errorWith("/meshes/0/material", "\"flor\"");
+  EXPECT_TRUE(contains(error, "meshes[0].material: unknown material 'flor'; expected 'floor'")) << error;
+  json scene = minimal();
+  scene["meshes"].push_back(scene["meshes"][0]);
+  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "meshes[1].name: is there twice"));
+}
+
+TEST(SceneFile, BadJsonTellsTheLine) {
+  const auto error = [](const std::string& text) { return errorOf([&] { readText(text); }); };
+  const std::string third = error("{\n  \"malus\": 1,\n  \"name\": oops\n}\n");
+  EXPECT_TRUE(contains(third, "scene.json:3: is not JSON")) << third;
+  EXPECT_TRUE(contains(error(""), "scene.json:1: is not JSON"));
+  EXPECT_TRUE(contains(error("{\n\n\n"), "is not JSON"));
+  EXPECT_TRUE(contains(error("\x89PNG\r\n"), "is not JSON"));
+  EXPECT_TRUE(contains(error("[]"), "top level"));
+  EXPECT_TRUE(contains(error("{\"name\": \"\xff\"}"), "is not JSON"));
+}
+
+TEST(SceneFile, KeysThatAreThereTwice) {
+  std::string text = minimal().dump();
+  text.insert(1, R"("depth": 2, )");
+  const std::string error = errorOf([&] { readText(text); });
+  EXPECT_TRUE(contains(error, "key 'depth' is there twice")) << error;
+  EXPECT_EQ(errorWith("/title", "\"name\""), "");  // a value may be called like a key
+}
+
+TEST(SceneFile, NumbersBeyondDoubles) {
+  std::string text = minimal().dump();
+  text.insert(1, R"("exposureEv": 1e999, )");
+  const std::string error = errorOf([&] { readText(text); });
+  EXPECT_TRUE(contains(error, "scene.json")) << error;
+  EXPECT_TRUE(contains(error, "1e999")) << error;
+}
+
+TEST(SceneFile, DeepNestingIsAnError) {
+  constexpr std::size_t kDeep = 1000000;
+  const std::string text = R"({"name": )" + std::string(kDeep, '[') + std::string(kDeep, ']') + "}";
+  const std::string error = errorOf([&] { readText(text); });
+  EXPECT_TRUE(contains(error, "is nested too deep")) << error.substr(0, 200);
+}
+
+TEST(SceneFile, MissingFile) {
+  EXPECT_TRUE(contains(errorOf([] { readSceneFile("/nowhere/scene.json"); }), "/nowhere/scene.json: cannot open"));
+}
+
+}  // namespace
+}  // namespace malus::bake

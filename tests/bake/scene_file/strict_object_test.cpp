@@ -1,0 +1,110 @@
+#include "bake/scene_file/strict_object.h"
+
+#include "tests/bake/fixtures.h"
+
+namespace malus::bake {
+namespace {
+
+using nlohmann::json;
+using test::contains;
+using test::errorOf;
+
+// The error of reading this object in this way.
+template <class Read>
+std::string errorIn(const char* text, Read read) {
+  const json value = json::parse(text);
+  return errorOf([&] {
+    StrictObject object(value, "file.json", "camera");
+    read(object);
+  });
+}
+
+TEST(StrictObject, ValuesComeThrough) {
+  const json value = json::parse(R"({"t": "x", "f": true, "n": 2.5, "i": 7, "v": [1, 2, 3], "s": 4, "o": {"a": 1}})");
+  StrictObject object(value, "file.json", "");
+  EXPECT_EQ(object.text("t"), "x");
+  EXPECT_TRUE(object.flag("f", false));
+  EXPECT_EQ(object.number("n", 0, 3), 2.5);
+  EXPECT_EQ(object.integer("i", 7, 7), 7u);
+  EXPECT_EQ(object.vector("v", 1, 3), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(object.numberOrVector("s", 0, 9), glm::dvec3(4));
+  EXPECT_EQ(object.numberOrVector("v", 0, 9), glm::dvec3(1, 2, 3));
+  StrictObject inner = object.object("o");
+  EXPECT_EQ(inner.pathOf("a"), "o.a");
+  EXPECT_EQ(inner.integer("a", 0, 1), 1u);
+  inner.finish();
+  object.finish();
+}
+
+TEST(StrictObject, Fallbacks) {
+  const json value = json::object();
+  StrictObject object(value, "file.json", "");
+  EXPECT_EQ(object.text("t", "y"), "y");
+  EXPECT_TRUE(object.flag("f", true));
+  EXPECT_EQ(object.number("n", 0, 3, 1.5), 1.5);
+  EXPECT_EQ(object.integer("i", 0, 9, 4), 4u);
+  EXPECT_EQ(object.vector("v", 0, 9, {1, 2, 3}), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(object.numberOrVector("s", 0, 9, {3, 2, 1}), glm::dvec3(3, 2, 1));
+  object.finish();
+}
+
+TEST(StrictObject, UnknownKeyNamesTheNearest) {
+  const auto read = [](StrictObject& o) {
+    o.number("position", 0, 1, 0);
+    o.number("target", 0, 1, 0);
+    o.finish();
+  };
+  EXPECT_EQ(errorIn(R"({"positon": 1})", read), "file.json: camera.positon: unknown key; expected 'position'");
+  EXPECT_EQ(errorIn(R"({"TARGET": 1})", read),
+            "file.json: camera.TARGET: unknown key; expected a key that bake/SCENE.md lists");
+}
+
+TEST(StrictObject, MissingKeyNamesAMisspeltOne) {
+  const auto read = [](StrictObject& o) { o.number("position", 0, 1); };
+  EXPECT_EQ(errorIn(R"({"posiiton": 1})", read),
+            "file.json: camera.position: is missing; expected it, found 'posiiton'");
+  EXPECT_EQ(errorIn("{}", read), "file.json: camera.position: is missing; expected it");
+}
+
+TEST(StrictObject, WrongTypes) {
+  EXPECT_EQ(errorIn("[1]", [](StrictObject&) {}), "file.json: camera; expected an object, found [1]");
+  EXPECT_EQ(errorIn(R"({"a": 1})", [](StrictObject& o) { o.text("a"); }),
+            "file.json: camera.a: is no text; expected a string, found 1");
+  EXPECT_TRUE(contains(errorIn(R"({"a": 1})", [](StrictObject& o) { o.flag("a", true); }), "true or false, found 1"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": "1"})", [](StrictObject& o) { o.number("a", 0, 9); }), "is no number"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": 1.5})", [](StrictObject& o) { o.integer("a", 0, 9); }), "no whole number"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": [1, 2]})", [](StrictObject& o) { o.vector("a", 0, 9); }), "is no vector"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": [1, 2, "3"]})", [](StrictObject& o) { o.vector("a", 0, 9); }), "is no number"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": "b"})", [](StrictObject& o) { o.numberOrVector("a", 0, 9); }), "is no vector"));
+}
+
+TEST(StrictObject, Ranges) {
+  const auto number = [](StrictObject& o) { o.number("a", -1, 2); };
+  EXPECT_EQ(errorIn(R"({"a": -1})", number), "");
+  EXPECT_EQ(errorIn(R"({"a": 2})", number), "");
+  EXPECT_EQ(errorIn(R"({"a": 2.001})", number), "file.json: camera.a: is out of range; expected -1 to 2, found 2.001");
+  const auto integer = [](StrictObject& o) { o.integer("a", 1, 30); };
+  EXPECT_TRUE(contains(errorIn(R"({"a": -1})", integer), "out of range"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": 4294967297})", integer), "out of range"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": 18446744073709551617})", integer), "found"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": [0, 0, 3]})", [](StrictObject& o) { o.vector("a", 0, 2); }), "out of range"));
+}
+
+TEST(StrictObject, LongValuesAreShortened) {
+  const std::string error =
+      errorIn(R"({"a": "0123456789012345678901234567890123456789012345678901234567890123456789"})",
+              [](StrictObject& o) { o.number("a", 0, 1); });
+  EXPECT_LT(error.size(), 120u) << error;
+}
+
+TEST(NearestName, ByEditDistance) {
+  const std::vector<std::string> names = {"position", "target", "up", "verticalFovDegrees"};
+  EXPECT_EQ(nearestName("positions", names), "position");
+  EXPECT_EQ(nearestName("tarrget", names), "target");
+  EXPECT_EQ(nearestName("verticalFOVdegrees", names), "verticalFovDegrees");
+  EXPECT_EQ(nearestName("completelyElse", names), "");
+  EXPECT_EQ(nearestName("x", {}), "");
+}
+
+}  // namespace
+}  // namespace malus::bake

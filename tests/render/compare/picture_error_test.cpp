@@ -1,0 +1,79 @@
+#include "render/compare/picture_error.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/base/error.h"
+
+namespace malus::render {
+namespace {
+
+Picture flat(float value, std::size_t channels = kColourChannels) {
+  Picture p;
+  p.width = 40;
+  p.height = 25;
+  p.channels = channels;
+  p.pixels.assign(1000 * channels, value);
+  return p;
+}
+
+TEST(PictureError, OfTheReferenceItselfIsNone) {
+  const PictureError e = pictureError(flat(0.5f), flat(0.5f, kStokesChannels), 0);
+  EXPECT_EQ(e.meanAbs, 0);
+  EXPECT_EQ(e.maxAbs, 0);
+  EXPECT_EQ(e.relRms, 0);
+  EXPECT_EQ(e.shareOver1Percent, 0);
+  EXPECT_EQ(e.perceptual, 0);
+  EXPECT_DOUBLE_EQ(e.energyRatio, 1);
+}
+
+TEST(PictureError, CountsWhatIsKnown) {
+  Picture p = flat(1);
+  for (std::size_t i = 0; i < 100; ++i) p.pixels[3 * i] = 1.5f;
+  const PictureError e = pictureError(p, flat(1), 0);
+  EXPECT_NEAR(e.meanAbs, 100 * 0.5 / 3000, 1e-12);
+  EXPECT_NEAR(e.maxAbs, 0.5, 1e-12);
+  EXPECT_NEAR(e.relRms, std::sqrt(100 * 0.25 / 3000), 1e-12);
+  EXPECT_NEAR(e.shareOver1Percent, 0.1, 1e-12);
+  EXPECT_NEAR(e.energyRatio, 1 + 50.0 / 3000, 1e-12);
+}
+
+TEST(PictureError, OnePercentIsTheLimit) {
+  EXPECT_EQ(pictureError(flat(1.009f), flat(1), 0).shareOver1Percent, 0);
+  EXPECT_EQ(pictureError(flat(1.011f), flat(1), 0).shareOver1Percent, 1);
+  // Black pixels are measured against the picture's mean.
+  Picture dark = flat(1), other = flat(1);
+  dark.pixels[0] = 0;
+  other.pixels[0] = 1e-6f;
+  EXPECT_EQ(pictureError(other, dark, 0).shareOver1Percent, 0);
+}
+
+TEST(PictureError, APersonSeesWhatIsJustNoticeable) {
+  Picture p = flat(0.2f);
+  for (std::size_t i = 0; i < 100; ++i)
+    for (std::size_t c = 0; c < 3; ++c) p.pixels[3 * i + c] = 0.8f;
+  EXPECT_NEAR(pictureError(p, flat(0.2f), 0).perceptual, 0.1, 1e-12);
+  // L* of grey 0.2 is 51.8; 0.216 is 53.6 (1.8 more: not seen), 0.224 is 54.4 (2.6 more: seen).
+  EXPECT_EQ(pictureError(flat(0.216f), flat(0.2f), 0).perceptual, 0);
+  EXPECT_EQ(pictureError(flat(0.224f), flat(0.2f), 0).perceptual, 1);
+  // What the display cuts off nobody sees.
+  EXPECT_EQ(pictureError(flat(5), flat(2), 0).perceptual, 0);
+  EXPECT_EQ(pictureError(flat(5), flat(2), -3).perceptual, 1);
+}
+
+TEST(PictureError, NotFiniteIsInfinitelyWrong) {
+  Picture p = flat(1);
+  p.pixels[7] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(std::isinf(pictureError(p, flat(1), 0).relRms));
+}
+
+TEST(PictureError, RefusesOtherSizes) {
+  Picture p = flat(1);
+  p.width = 20;
+  EXPECT_THROW(pictureError(p, flat(1), 0), Error);
+}
+
+}  // namespace
+}  // namespace malus::render

@@ -1,0 +1,64 @@
+// The pinhole camera: directions, the frame of its rays, analysers.
+#include "tests/shaders/optics_types.h"
+
+namespace malus::test {
+namespace {
+
+using oracle::Real;
+using oracle::Vec;
+
+MALUS_OPTICS_SUITE(CameraTest);
+
+TYPED_TEST(CameraTest, DirectionsOfMiddleAndCorners) {
+  MALUS_TYPES;
+  const real3 right = O::make3(1, 0, 0), up = O::make3(0, 0, 1), forward = O::make3(0, 1, 0);
+  const auto at = [&](double x, double y) {
+    return O::cameraDirection(right, up, forward, R(0.5L), R(0.25L), R(x), R(y));
+  };
+  EXPECT_EQ(at(0.5, 0.5), forward);
+  const real3 corner = at(0, 0);
+  EXPECT_CLOSE(corner.x / corner.y, -0.5L, 2 * kEps);  // left
+  EXPECT_CLOSE(corner.z / corner.y, 0.25L, 2 * kEps);  // up
+  const real3 low = at(1, 1);
+  EXPECT_CLOSE(low.x / low.y, 0.5L, 2 * kEps);
+  EXPECT_CLOSE(low.z / low.y, -0.25L, 2 * kEps);
+}
+
+TYPED_TEST(CameraTest, FrameOfARayHasXAcrossUp) {
+  MALUS_TYPES;
+  Draw draw(16);
+  Worst worst("camera", double(kEps));
+  for (int i = 0; i < 2000; ++i) {
+    const Vec d = draw.direction(), up{0, 0, 1};
+    if (std::abs(d[2]) > 0.99L) continue;  // x loses its meaning along up
+    real cos2, sin2;
+    O::cameraFrameTurn(toReal3<O>(d), toReal3<O>(up), cos2, sin2);
+    // The turn must take light measured in the canonical frame of -d to that measured with x = d x up.
+    const Vec k = oracle::along(d, -1, d, 0), x = oracle::unit(oracle::cross(d, up));
+    const oracle::Beam beam = oracle::polarized(k, oracle::anyAcross(k), {0.6L, 0.3L}, {-0.2L, 0.5L});
+    const oracle::Stokes4 s = oracle::measured(beam, oracle::canonicalX(k)), want = oracle::measured(beam, x);
+    typename O::Stokes in;
+    in.s0 = O::splat3(R(s[0]));
+    in.s1 = O::splat3(R(s[1]));
+    in.s2 = O::splat3(R(s[2]));
+    in.s3 = O::splat3(R(s[3]));
+    const auto out = O::stokesTurn(in, cos2, sin2);
+    const real got[4] = {out.s0.x, out.s1.y, out.s2.z, out.s3.x};
+    for (std::size_t j = 0; j < 4; ++j) worst.add((got[j] - want[j]) * std::sqrt(1 - d[2] * d[2]));
+  }
+  EXPECT_LT(worst.value(), 3);  // times 1/sin of the angle to up
+}
+
+TYPED_TEST(CameraTest, AnalyserIsARow) {
+  MALUS_TYPES;
+  typename O::Stokes s;
+  s.s0 = O::make3(1, 2, 3);
+  s.s1 = O::make3(R(0.5L), 0, 0);
+  s.s2 = O::make3(0, 1, 0);
+  s.s3 = O::make3(0, 0, 2);
+  const real3 out = O::analysed(s, R(0.5L), R(0.25L), R(-0.5L), 1);
+  EXPECT_EQ(out, O::make3(R(0.625L), R(0.5L), R(3.5L)));
+}
+
+}  // namespace
+}  // namespace malus::test

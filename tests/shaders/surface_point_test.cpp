@@ -1,0 +1,107 @@
+// Shading normals, and origins that no longer touch the face they leave.
+#include "tests/shaders/optics_types.h"
+
+namespace malus::test {
+namespace {
+
+using oracle::Real;
+using oracle::Vec;
+
+MALUS_OPTICS_SUITE(SurfacePointTest);
+
+TYPED_TEST(SurfacePointTest, NormalsTurnAgainstTheRay) {
+  MALUS_TYPES;
+  const real3 g = O::make3(0, 0, 1), n = O::make3(R(0.1L), 0, 1);
+  const real3 front = O::shadingNormal(O::make3(R(0.6L), 0, R(-0.8L)), g, n);
+  EXPECT_GT(front.z, 0);
+  const real3 back = O::shadingNormal(O::make3(R(0.6L), 0, R(0.8L)), g, n);
+  EXPECT_LT(back.z, 0);
+  EXPECT_CLOSE(front.x / front.z, 0.1L, 2 * kEps);
+  EXPECT_CLOSE(back.x / back.z, 0.1L, 2 * kEps);
+}
+
+TYPED_TEST(SurfacePointTest, GeometricNormalWhereTheInterpolatedOneCannotBeUsed) {
+  MALUS_TYPES;
+  const real3 g = O::make3(0, 0, 1);
+  // Facing away from the ray.
+  EXPECT_EQ(O::shadingNormal(O::make3(R(0.995L), 0, R(-0.0999L)), g, O::make3(1, 0, R(0.5L))), g);
+  // Sending the mirror direction below the face.
+  EXPECT_EQ(O::shadingNormal(O::make3(R(0.8L), 0, R(-0.6L)), g, O::make3(-1, 0, R(0.2L))), g);
+  // Grazing: the geometric normal always sends the ray upward.
+  EXPECT_EQ(O::shadingNormal(O::make3(1, 0, 0), g, g).x, 0);
+}
+
+TYPED_TEST(SurfacePointTest, EveryNormalSendsTheMirrorDirectionAboveTheFace) {
+  MALUS_TYPES;
+  Draw draw(13);
+  for (int i = 0; i < 5000; ++i) {
+    const real3 d = toReal3<O>(draw.direction()), g = toReal3<O>(draw.direction());
+    const Vec bend = draw.direction();
+    const real3 n = O::shadingNormal(d, g, O::normalize3(g + toReal3<O>(oracle::along(bend, 0.8L, bend, 0))));
+    const Real c = -oracle::dot(toVec(d), toVec(n));
+    EXPECT_GE(c, 0);
+    const Vec mirror = oracle::along(toVec(d), 1, toVec(n), 2 * c);
+    const Real side = oracle::dot(toVec(d), toVec(g)) < 0 ? 1 : -1;
+    EXPECT_GE(side * oracle::dot(mirror, toVec(g)), -4 * kEps);
+    EXPECT_CLOSE(oracle::dot(toVec(n), toVec(n)), 1, 4 * kEps);
+  }
+}
+
+TYPED_TEST(SurfacePointTest, ErrorBoundHoldsTheTrueError) {
+  MALUS_TYPES;
+  Draw draw(14);
+  for (int i = 0; i < 5000; ++i) {
+    const Real size = std::pow(10.0L, draw.between(-3, 4));
+    const auto corner = [&] {
+      const Vec v = draw.direction();
+      return toReal3<O>(oracle::along(v, size, v, 0));
+    };
+    const real3 p0 = corner(), p1 = corner(), p2 = corner();
+    const real b1 = R(draw.unit()), b2 = (1 - b1) * R(draw.unit()), b0 = 1 - b1 - b2;
+    const real3 p = p0 * b0 + p1 * b1 + p2 * b2;
+    const real3 error = O::hitPointError(p0, p1, p2, b0, b1, b2, kEps / 2);
+    const Vec exact = oracle::along(oracle::along(toVec(p0), b0, toVec(p1), b1), 1, toVec(p2), b2);
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_LE(std::abs(toVec(p)[j] - exact[j]), toVec(error)[j]);
+      EXPECT_LE(toVec(error)[j], 3 * size * 8 * kEps) << "and is not much more";
+    }
+  }
+}
+
+TYPED_TEST(SurfacePointTest, IntersectionErrorGrowsWithTheTriangle) {
+  MALUS_TYPES;
+  const auto errorAt = [&](Real s) {
+    return O::intersectionError(O::make3(R(s), 0, 0), O::make3(0, R(s), 0), O::make3(0, 0, R(-2 * s)), O::splat3(0),
+                                kEps / 2);
+  };
+  EXPECT_CLOSE(errorAt(1), 8 * kEps, 1e-3 * kEps);
+  EXPECT_CLOSE(errorAt(1024), 1024 * 8 * kEps, kEps);
+  // A far origin of the whole scene changes nothing but the differences' rounding.
+  const real3 far = O::splat3(1000);
+  EXPECT_CLOSE(O::intersectionError(far + O::make3(1, 0, 0), far, far, far, kEps / 2), 4 * kEps, 1e-3 * kEps);
+}
+
+TYPED_TEST(SurfacePointTest, OriginsLieBeyondTheErrorBox) {
+  MALUS_TYPES;
+  Draw draw(15);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec at = draw.direction(), normal = draw.direction();
+    const Real size = std::pow(10.0L, draw.between(-3, 4));
+    const real3 p = toReal3<O>(oracle::along(at, size, at, 0)), n = toReal3<O>(normal);
+    const real3 error = O::make3(R(size * 4 * kEps), R(size * 4 * kEps), R(size * 4 * kEps));
+    const real3 o = O::rayOrigin(p, error, n, kEps / 2);
+    // The corner of the box that reaches farthest along n stays below the origin.
+    Real reach = 0, gone = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      reach += toVec(error)[j] * std::abs(toVec(n)[j]);
+      gone += (toVec(o)[j] - toVec(p)[j]) * toVec(n)[j];
+    }
+    EXPECT_GE(gone, reach * (1 - 4 * Real(kEps)));
+    EXPECT_LE(gone, 2 * reach + 4 * kEps * size) << "and no farther than needed";
+  }
+  // A point at 0 with no error stays.
+  EXPECT_EQ(O::rayOrigin(O::splat3(0), O::splat3(0), O::make3(0, 0, 1), kEps), O::splat3(0));
+}
+
+}  // namespace
+}  // namespace malus::test

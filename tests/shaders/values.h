@@ -1,0 +1,96 @@
+// One call of every function of the optics, in the shared words: glsl_values_test.cpp runs it in C++ and, in a
+// compute shader, on the device. Structs of numbers alone, so that they lie in memory in the same way.
+
+struct Given {
+  real c;
+  real n1;
+  real n2;
+  real k2;
+  real3 d;  // unit
+  real3 n;  // unit
+  real3 interpolated;
+  real3 radiance;
+  real cos2;
+  real sin2;
+};
+
+struct Values {
+  Reflectance dielectric;
+  Transmittance transmittance;
+  Reflectance conductor;
+  real t;
+  real tau;
+  real total;    // 1: total reflection
+  real matched;  // 1: no interface
+  real schlick;
+  real3 mirror;
+  real3 refracted;
+  real3 x;
+  real3 y;
+  real turnCos;
+  real turnSin;
+  real cameraCos;
+  real cameraSin;
+  Stokes turned;
+  Stokes reflected;
+  real3 analysed;
+  real3 lambert;
+  real phong;
+  real u;
+  real v;
+  real3 fromOctahedral;
+  real irradiance;
+  real3 shading;
+  real3 error;
+  real intersection;
+  real3 origin;
+  real3 camera;
+  real3 clamped;
+  real halved;    // back from 16 bits
+  real fraction;  // as above
+};
+
+FN Values valuesOf(Given g) {
+  Values r;
+  r.dielectric = dielectricReflectance(g.c, g.n1, g.n2);
+  r.transmittance = dielectricTransmittance(g.c, g.n1, g.n2);
+  r.conductor = conductorReflectance(g.c, g.n1, g.n2, g.k2);
+  Refraction f = refractionTerms(g.c, g.n1, g.n2);
+  r.t = f.t;
+  r.tau = f.tau;
+  r.total = selectR(f.total, R(1.0), R(0.0));
+  r.matched = selectR(f.matched, R(1.0), R(0.0));
+  r.schlick = schlickReflectance(g.c, g.n1, g.n2, g.k2);
+  real c = clampUnit(R(0.0) - dot3(g.d, g.n));
+  r.mirror = mirrorDirection(g.d, g.n, c);
+  r.refracted = refractedDirection(g.d, g.n, c, g.n1, g.n2);
+  canonicalFrame(g.d, r.x, r.y);
+  sDirectionTurn(g.n, r.x, r.y, r.turnCos, r.turnSin);
+  cameraFrameTurn(g.d, g.n, r.cameraCos, r.cameraSin);
+  Stokes light;
+  light.s0 = g.radiance;
+  light.s1 = g.radiance * R(0.5);
+  light.s2 = g.radiance * R(-0.25);
+  light.s3 = g.radiance * R(0.75);
+  light = stokesAdd(light, stokesUnpolarized(g.radiance));
+  r.turned = stokesTurn(light, g.cos2, g.sin2);
+  r.reflected = stokesInterface(light, splat3(r.conductor.rs), splat3(r.conductor.rp), splat3(r.conductor.xRe),
+                                splat3(r.conductor.xIm));
+  r.analysed = analysed(light, R(0.5), R(0.5) * g.cos2, R(0.5) * g.sin2, g.c);
+  r.lambert = lambertRadiance(g.radiance, g.interpolated, splat3(g.c));
+  r.phong = phongLobe(g.d, g.n, 37);
+  octahedralFromDirection(g.d, r.u, r.v);
+  r.fromOctahedral = directionFromOctahedral(g.c, g.n1 * R(0.01));
+  r.irradiance =
+      irradiancePolynomial(g.n, g.radiance.x, g.radiance.y, g.radiance.z, g.d.x, g.d.y, g.d.z, g.c, g.k2, g.cos2);
+  r.shading = shadingNormal(g.d, g.n, g.interpolated);
+  r.error = hitPointError(g.d, g.n, g.interpolated, g.c, R(0.25), R(0.125), R(0.001));
+  r.intersection = intersectionError(g.d, g.n, g.interpolated, g.radiance, R(0.001));
+  r.origin = rayOrigin(g.radiance, r.error, g.n, R(0.001));
+  r.camera = cameraDirection(g.d, g.n, g.interpolated, R(0.5), R(0.25), g.c, g.cos2);
+  r.clamped = max3(select3(lessR(g.c, R(0.5)), cross3(g.d, g.n), g.n), square(g.c) * kPi);
+  word bits = joinWord(halfBits(g.k2), fractionBits(g.cos2));
+  r.halved = halfValue(lowHalf(bits));
+  r.fraction = fractionValue(highHalf(bits));
+  return r;
+}

@@ -1,0 +1,306 @@
+#!/usr/bin/python3
+"""Tests of tools/report/compare_report.py on tiny results whose numbers are known."""
+import copy
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+import OpenImageIO as oiio
+
+kScript = pathlib.Path(__file__).resolve().parents[2] / "tools" / "report" / "compare_report.py"
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(kScript.parent))
+import report_colours  # noqa: E402
+import report_data  # noqa: E402
+import report_errors  # noqa: E402
+import report_pictures  # noqa: E402
+
+kWidth, kHeight = 12, 9
+
+
+def write_exr(path: pathlib.Path, rgb: numpy.ndarray, stokes: numpy.ndarray = None) -> None:
+    names, planes = list("RGB"), [rgb]
+    if stokes is not None:
+        names += [f"S{s}.{c}" for s in range(4) for c in "RGB"]
+        planes.append(stokes.reshape(kHeight, kWidth, 12))
+    pixels = numpy.concatenate(planes, axis=2).astype(numpy.float32)
+    spec = oiio.ImageSpec(kWidth, kHeight, len(names), oiio.FLOAT)
+    spec.channelnames = names
+    spec.attribute("compression", "zip")
+    out = oiio.ImageOutput.create(str(path))
+    assert out.open(str(path), spec) and out.write_image(pixels), out.geterror()
+    out.close()
+
+
+def reference_pixels():
+    rgb = numpy.full((kHeight, kWidth, 3), 0.5)
+    stokes = numpy.zeros((kHeight, kWidth, 4, 3))
+    stokes[:, :, 0] = rgb
+    stokes[6:, :4, 1] = 0.25  # the lower left ninth is half polarized along x
+    return rgb, stokes
+
+
+def row(renderer: str, method: str, **changes) -> dict:
+    base = {"scene": "tiny", "renderer": renderer, "method": method, "effects": "auto", "width": kWidth,
+            "height": kHeight, "depth": 3, "payloadBytes": 12, "rays": 1234, "samplesMs": [10.0] * 7,
+            "medianMs": 10.0, "quartilesMs": [9.9, 10.1], "wallMs": 11.0, "cpuMs": 20.0, "buildMs": 1.0,
+            "uploadMs": 0.5, "readBackMs": 0.25, "ratioToSchlick": {"median": 1.0, "low": 0.99, "high": 1.01},
+            "raysPerSecond": 123400.0,
+            "error": {"meanAbs": 0.0, "maxAbs": 0.0, "relRms": 1e-7, "shareOver1Percent": 0.0, "perceptual": 0.0,
+                      "energyRatio": 1.0},
+            "indistinguishable": [], "status": "ok", "picture": f"pictures/{renderer}-{method}.exr"}
+    base.update(changes)
+    return base
+
+
+def failed(renderer: str, method: str, reason: str) -> dict:
+    result = row(renderer, method, status=reason, samplesMs=[], picture=None)
+    for name in ("rays", "medianMs", "quartilesMs", "wallMs", "cpuMs", "buildMs", "uploadMs", "readBackMs",
+                 "ratioToSchlick", "raysPerSecond", "error"):
+        result[name] = None
+    return result
+
+
+def off(share: float, rms: float) -> dict:
+    return {"meanAbs": 0.01, "maxAbs": 0.05, "relRms": rms, "shareOver1Percent": share, "perceptual": share / 2,
+            "energyRatio": 1.02}
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.temporary.name)
+        (self.folder / "pictures").mkdir()
+        rgb, stokes = reference_pixels()
+        write_exr(self.folder / "pictures/reference.exr", rgb, stokes)
+        wrong = rgb.copy()
+        wrong[6:, :4] *= 1.2  # 12 of 108 pixels, all in the lower left
+        for renderer in ("vulkan", "embree"):
+            for method in ("schlick", "fresnel"):
+                write_exr(self.folder / f"pictures/{renderer}-{method}.exr", wrong)
+            write_exr(self.folder / f"pictures/{renderer}-stokes.exr", rgb, stokes)
+        rows = []
+        for renderer in ("vulkan", "embree"):
+            rows += [row(renderer, "schlick", error=off(12 / 108, 0.07), indistinguishable=["fresnel"]),
+                     row(renderer, "fresnel", error=off(12 / 108, 0.06), indistinguishable=["schlick"]),
+                     row(renderer, "stokes", medianMs=15.0, quartilesMs=[14.5, 15.5], payloadBytes=48,
+                         ratioToSchlick={"median": 1.5, "low": 1.45, "high": 1.55})]
+        rows.append(failed("vulkan", "stokes-half", "recursion limit 1 is below depth <3>"))
+        self.results = {
+            "malus": "0.1.0", "commit": "abc", "compiler": "g++", "devices":
+            {"vulkan": "llvmpipe (LLVM)", "embree": "Embree 3", "reference": "double"}, "driver": {},
+            "settings": {"rounds": 7, "methods": ["schlick", "fresnel"], "backends": ["vulkan", "embree"],
+                         "effects": "auto", "exposureEv": {"tiny": 0}},
+            "scenes": {"tiny": {"title": "A tiny <scene>", "vertices": 3, "triangles": 1, "packHash": "00ff",
+                                "exposureEv": 0}},
+            "rows": rows, "gpuModel": [],
+            "references": [{"scene": "tiny", "width": kWidth, "height": kHeight, "depth": 3,
+                            "picture": "pictures/reference.exr"}]}
+
+    def run_script(self, *arguments):
+        return subprocess.run([sys.executable, str(kScript), *map(str, arguments)], capture_output=True, text=True,
+                              check=False)
+
+    def page(self, results=None) -> str:
+        (self.folder / "results.json").write_text(json.dumps(results or self.results))
+        done = self.run_script(self.folder)
+        self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", ""))
+        return (self.folder / "index.html").read_text(encoding="utf-8")
+
+    def fails(self, text: str, *arguments):
+        done = self.run_script(*arguments)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn(text, done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+
+    def assertIn(self, member, container, message=None):  # noqa: N802: without printing the whole page
+        self.assertTrue(member in container, message or f"missing: {member}")
+
+    def assertNotIn(self, member, container, message=None):  # noqa: N802
+        self.assertTrue(member not in container, message or f"there: {member}")
+
+    # The page
+
+    def test_every_row_is_in_the_page(self):
+        page = self.page()
+        for entry in self.results["rows"]:
+            self.assertEqual(page.count(f'data-row="{entry["renderer"]}/{entry["method"]}"'), 1)
+
+    def test_it_needs_no_other_file(self):
+        page = self.page()
+        self.assertNotRegex(page, r"https?://")
+        self.assertNotIn("@import", page)
+        self.assertNotIn("<link", page)
+        for reference in re.findall(r'(?:src|href)="([^"]*)"', page):
+            self.assertRegex(reference, r"^(#|data:)")
+        ids = re.findall(r'\sid="([^"]*)"', page)
+        self.assertEqual(len(ids), len(set(ids)))
+        for anchor in set(re.findall(r'href="#([^"]*)"', page)):
+            self.assertIn(anchor, ids)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["index.html", "pictures", "results.json"])
+
+    def test_the_same_results_give_the_same_page(self):
+        self.assertEqual(self.page(), self.page())
+
+    def test_failed_rows_show_their_reason(self):
+        self.assertIn("failed: recursion limit 1 is below depth &lt;3&gt;", self.page())
+
+    def test_rows_that_cannot_be_told_apart_are_marked(self):
+        self.assertIn("≈ fresnel", self.page())
+
+    def test_names_are_escaped(self):
+        self.assertIn("A tiny &lt;scene&gt;", self.page())
+
+    def test_several_sizes_stand_apart(self):
+        results = copy.deepcopy(self.results)
+        results["rows"].append(row("embree", "schlick", depth=1, picture=None))
+        page = self.page(results)
+        self.assertIn("<summary>12 × 9, depth 3</summary>", page)
+        self.assertIn("<summary>12 × 9, depth 1</summary>", page)
+
+    # The sentences
+
+    def test_it_says_where_polarization_matters(self):
+        page = self.page()
+        self.assertIn("polarization matters in 11 % of the pixels, mostly in the lower left", page)
+        self.assertIn("by 20 % at most; a person would see it in 5.6 % of all pixels", page)
+        self.assertIn("take <code>stokes</code>, which takes 1.500 times as long as <code>schlick</code> "
+                      "(1.450 to 1.550)", page)
+
+    def test_it_says_where_polarization_may_be_left_out(self):
+        rgb, _ = reference_pixels()
+        for renderer in ("vulkan", "embree"):
+            write_exr(self.folder / f"pictures/{renderer}-fresnel.exr", rgb * 1.004)
+        for entry in self.results["rows"]:
+            if entry["method"] == "fresnel":
+                entry["error"] = off(0, 0.004)
+        page = self.page()
+        self.assertIn("<code>fresnel</code> is within 0.40 % of the reference everywhere: polarization may be left "
+                      "out", page)
+        self.assertIn("take <code>fresnel</code>, which cannot be told apart from <code>schlick</code> in time", page)
+
+    def test_nothing_is_claimed_inside_the_noise(self):
+        self.assertIn("<code>fresnel</code> against <code>schlick</code>: cannot be told apart in 2 of 2 cases",
+                      self.page())
+
+    def test_a_difference_outside_the_noise_is_named(self):
+        for entry in self.results["rows"]:
+            if entry["renderer"] == "embree" and entry["method"] == "fresnel":
+                entry.update(indistinguishable=[], ratioToSchlick={"median": 0.9, "low": 0.88, "high": 0.93})
+        self.assertIn("faster in 1, cannot be told apart in 1 of 2 cases", self.page())
+
+    def test_lavapipe_says_nothing_about_small_payloads(self):
+        for method, size, ms in (("sp", 36, 20.0), ("sp-ratio", 20, 10.0)):
+            self.results["rows"].append(row("vulkan", method, payloadBytes=size, medianMs=ms, picture=None,
+                                            quartilesMs=[ms - 0.1, ms + 0.1]))
+        page = self.page()
+        self.assertIn("faster, not by its bytes", page)
+        self.assertIn("on which payloads of 12 to 36 bytes cannot be told apart", page)
+        self.assertNotIn("The method with the smaller payload: faster", page)
+
+    def test_the_gpu_model_is_called_an_estimate(self):
+        self.assertNotIn('id="gpu"', self.page())
+        stage = {"registers": {"vgpr": 64}, "spills": 0, "lds": 0, "codeSize": 400, "instructions": 90, "latency": 300,
+                 "wavesPerSimd": 16}
+        self.results["gpuModel"] = [
+            {"family": "navi21", "method": method, "scene": "tiny", "stackBytes": 112, "stages":
+             [{"stage": "closest hit", "inverseThroughput": cost, **stage},
+              {"stage": "traversal", "inverseThroughput": 1737, **stage}]}
+            for method, cost in (("schlick", 100), ("fresnel", 125))]
+        page = self.page()
+        self.assertIn('id="gpu"', page)
+        self.assertIn("no number here\nis a time", page)
+        self.assertIn("1.250 times the estimate of <code>schlick</code>", page)
+        self.assertIn("inverse throughput", page)
+
+    # Bad input
+
+    def test_bad_input_ends_with_one_line(self):
+        self.fails("no such folder", self.folder / "missing")
+        self.fails("results.json: cannot be read", self.folder)
+        (self.folder / "results.json").write_text('{"rows": [')
+        self.fails("results.json: not JSON", self.folder)
+        (self.folder / "results.json").write_text("[]")
+        self.fails("expected an object", self.folder)
+        (self.folder / "results.json").write_text('{"scenes": {}, "rows": 3, "references": []}')
+        self.fails("expected 'rows' to be a list", self.folder)
+        results = copy.deepcopy(self.results)
+        del results["rows"][1]["method"]
+        (self.folder / "results.json").write_text(json.dumps(results))
+        self.fails("row 1 lacks 'method'", self.folder)
+        self.assertFalse((self.folder / "index.html").exists())
+
+    def test_a_missing_or_broken_picture_is_named(self):
+        (self.folder / "results.json").write_text(json.dumps(self.results))
+        (self.folder / "pictures/embree-fresnel.exr").write_bytes(b"not a picture")
+        self.fails("embree-fresnel.exr", self.folder)
+        (self.folder / "pictures/reference.exr").unlink()
+        self.fails("reference.exr", self.folder)
+
+    def test_usage(self):
+        self.assertEqual(self.run_script().returncode, 2)
+
+
+class Parts(unittest.TestCase):
+    def test_tone_curve(self):
+        # Values worked out from render/image/output.cpp's formula.
+        expected = {0.0: 0, 0.001: 3, 0.18: 118, 0.7: 218, 1.0: 242, 1e9: 255, math.nan: 0}
+        got = report_colours.tone_mapped(numpy.array(list(expected)), 0)
+        self.assertEqual(got.tolist(), list(expected.values()))
+        self.assertEqual(report_colours.tone_mapped(numpy.array([0.35]), 1).tolist(), [218])
+
+    def test_polarization_angles(self):
+        one = numpy.array([1.0])
+        for s1, s2, degrees in ((1, 0, 0), (0, 1, 45), (-1, 0, 90), (0, -1, 135)):
+            dolp, aolp = report_colours.linear_polarization(one, s1 * one / 2, s2 * one / 2)
+            self.assertAlmostEqual(math.degrees(aolp[0]), degrees)
+            self.assertAlmostEqual(dolp[0], 0.5)
+        self.assertEqual(report_colours.linear_polarization(0 * one, 0 * one, 0 * one)[0][0], 0)
+
+    def test_places(self):
+        mask = numpy.zeros((9, 9), bool)
+        self.assertEqual(report_errors.place(mask), "")
+        mask[4, 4] = True
+        self.assertEqual(report_errors.place(mask), "the centre")
+        mask[:] = False
+        mask[0:3, :] = True
+        self.assertEqual(report_errors.place(mask), "the upper third")
+        mask[:] = True
+        self.assertEqual(report_errors.place(mask), "all parts of the picture")
+
+    def test_packed_stokes_keeps_what_it_says(self):
+        import base64
+        import zlib
+        generator = numpy.random.default_rng(4)
+        stokes = generator.uniform(0, 2, (kHeight, kWidth, 4, 3))
+        stokes[:, :, 1:] = stokes[:, :, :1] * generator.uniform(-0.7, 0.7, (kHeight, kWidth, 3, 3))
+        packed = report_pictures.packed_stokes(stokes)
+        planes = numpy.frombuffer(zlib.decompress(base64.b64decode(packed["data"])), numpy.uint8)
+        planes = numpy.cumsum(planes.reshape(12, kHeight, kWidth), axis=2, dtype=numpy.uint8).transpose(1, 2, 0)
+        level = (planes[:, :, 0:3].astype(float) * 256 + planes[:, :, 3:6]) / 65535
+        s0 = packed["largest"] * level**2
+        self.assertLess(numpy.abs(s0 - numpy.minimum(stokes[:, :, 0], packed["largest"])).max(), 2 / 30000)
+        for at, s in ((6, 1), (9, 2)):
+            relative = (planes[:, :, at:at + 3].astype(float) - 128) / 127
+            self.assertLess(numpy.abs(relative - stokes[:, :, s] / stokes[:, :, 0]).max(), 0.00395)
+
+    def test_pareto_front(self):
+        make = lambda ms, rms: {"status": "ok", "medianMs": ms, "error": {"relRms": rms}}  # noqa: E731
+        rows = [make(3, 0.1), make(1, 0.5), make(2, 0.5), make(4, 0.2), make(5, 0.01)]
+        self.assertEqual(report_data.pareto(rows), [rows[1], rows[0], rows[4]])
+
+    def test_blocks_are_averaged(self):
+        picture = numpy.arange(24, dtype=float).reshape(4, 6, 1)
+        self.assertEqual(report_pictures.shrunk(picture, 3)[:, :, 0].tolist(), [[3.5, 5.5, 7.5], [15.5, 17.5, 19.5]])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,41 @@
+"use strict";
+// Two pictures of one view over each other; a slider, or a pointer on the picture, moves the edge between them.
+for (const box of document.querySelectorAll("[data-pictures]")) {
+  const data = JSON.parse(box.querySelector('script[type="application/json"]').textContent);
+  const stack = box.querySelector(".stack"), split = box.querySelector("[data-split]");
+
+  for (const select of box.querySelectorAll("[data-side]")) {
+    const image = box.querySelector(`[data-show="${select.dataset.side}"]`);
+    const show = () => {
+      image.src = data.pictures[select.value];
+      image.alt = `${select.options[select.selectedIndex].text}: picture on the ${select.dataset.side}`;
+    };
+    select.addEventListener("change", show);
+    show();
+  }
+
+  const place = (percent) => {
+    split.value = percent;
+    stack.style.setProperty("--split", `${split.value}%`);
+  };
+  split.addEventListener("input", () => place(split.value));
+  const follow = (event) => {
+    const frame = stack.getBoundingClientRect();
+    place((100 * (event.clientX - frame.left)) / frame.width);
+  };
+  stack.addEventListener("pointerdown", (event) => {
+    stack.setPointerCapture(event.pointerId);
+    follow(event);
+  });
+  stack.addEventListener("pointermove", (event) => {
+    if (stack.hasPointerCapture(event.pointerId)) follow(event);
+  });
+  // Flip: all of the one, then all of the other.
+  box.querySelector("[data-flip]").addEventListener("click", () => place(Number(split.value) < 50 ? 100 : 0));
+
+  // Differences of one renderer at a time.
+  const renderer = box.querySelector("[data-renderer]");
+  renderer?.addEventListener("change", () => {
+    for (const grid of box.querySelectorAll("[data-of]")) grid.hidden = grid.dataset.of !== renderer.value;
+  });
+}

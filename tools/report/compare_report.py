@@ -1,0 +1,50 @@
+#!/usr/bin/python3
+"""Writes the pages of `malus compare`: FOLDER/index.html from FOLDER/results.json and FOLDER/pictures.
+
+    compare_report.py FOLDER
+
+The page holds everything it shows: plots as SVG, pictures as data, style and script inline. Exit codes: 0 done,
+1 failed (one line on stderr), 2 usage. Debian packages: python3-matplotlib, python3-jinja2, python3-numpy,
+python3-openimageio.
+"""
+import os
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True  # the script may lie in a folder that is not the user's
+
+
+def main() -> int:
+    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+        print("usage: compare_report.py FOLDER", file=sys.stderr)
+        return 2
+    folder = pathlib.Path(sys.argv[1])
+    try:
+        from report_data import ReportError, read_results
+    except ImportError as error:
+        print(f"compare_report: {error}", file=sys.stderr)
+        return 1
+    try:
+        results = read_results(folder)
+        try:
+            from report_page import page
+        except ImportError as error:
+            raise ReportError(f"{error.name}: cannot be imported; expected python3-matplotlib, python3-jinja2, "
+                              f"python3-numpy and python3-openimageio of {sys.executable}") from None
+        # Written beside, then renamed: no half-written page is left.
+        unfinished = folder / "index.html.part"
+        try:
+            unfinished.write_text(page(folder, results), encoding="utf-8")
+            os.replace(unfinished, folder / "index.html")
+        except OSError as error:
+            raise ReportError(f"{error.filename or unfinished}: {error.strerror}") from None
+        finally:
+            unfinished.unlink(missing_ok=True)
+    except ReportError as error:
+        print(f"compare_report: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

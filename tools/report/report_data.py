@@ -1,0 +1,100 @@
+"""Reads results.json: checks what the page relies on, and gathers rows that may be compared with each other."""
+import json
+import math
+import pathlib
+from dataclasses import dataclass, field
+
+
+class ReportError(Exception):
+    """One line: what, which file, what was expected."""
+
+
+@dataclass
+class Group:
+    """Rows of one scene, one size and one depth: the same rays, so their times and errors compare."""
+    scene: str
+    width: int
+    height: int
+    depth: int
+    rows: list = field(default_factory=list)
+    reference: dict = None
+
+    @property
+    def key(self) -> str:
+        return f"{self.scene}-{self.width}x{self.height}-{self.depth}"
+
+    @property
+    def renderers(self) -> list:
+        return list(dict.fromkeys(row["renderer"] for row in self.rows))
+
+    def row(self, renderer: str, method: str):
+        """The row, or None where it is missing or failed."""
+        for row in self.rows:
+            if row["renderer"] == renderer and row["method"] == method and row["status"] == "ok":
+                return row
+        return None
+
+
+def read_results(folder: pathlib.Path) -> dict:
+    path = folder / "results.json"
+    if not folder.is_dir():
+        raise ReportError(f"{folder}: no such folder; expected one that malus compare wrote")
+    try:
+        results = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ReportError(f"{path}: cannot be read: {error.strerror}") from None
+    except ValueError as error:
+        raise ReportError(f"{path}: not JSON: {error}") from None
+    if not isinstance(results, dict):
+        raise ReportError(f"{path}: expected an object, found {type(results).__name__}")
+    for name, kind in (("scenes", dict), ("rows", list), ("references", list)):
+        if not isinstance(results.get(name), kind):
+            raise ReportError(f"{path}: expected '{name}' to be {'an object' if kind is dict else 'a list'}")
+    for at, row in enumerate(results["rows"]):
+        for name in ("scene", "renderer", "method", "width", "height", "depth", "status"):
+            if not isinstance(row, dict) or name not in row:
+                raise ReportError(f"{path}: row {at} lacks '{name}'")
+        if row["scene"] not in results["scenes"]:
+            raise ReportError(f"{path}: row {at} names scene '{row['scene']}', which 'scenes' lacks")
+    for at, reference in enumerate(results["references"]):
+        for name in ("scene", "width", "height", "depth", "picture"):
+            if not isinstance(reference, dict) or name not in reference:
+                raise ReportError(f"{path}: reference {at} lacks '{name}'")
+    return results
+
+
+def groups_of(results: dict) -> list:
+    groups = {}
+    for row in results["rows"]:
+        key = (row["scene"], row["width"], row["height"], row["depth"])
+        groups.setdefault(key, Group(*key)).rows.append(row)
+    for reference in results["references"]:
+        key = tuple(reference[name] for name in ("scene", "width", "height", "depth"))
+        if key in groups:
+            groups[key].reference = reference
+    # Within a scene the largest picture first, then the deepest: the sentences speak of that one.
+    scenes = list(results["scenes"])
+    return sorted(groups.values(), key=lambda g: (scenes.index(g.scene), -g.width * g.height, -g.depth))
+
+
+def number(row: dict, *names):
+    """A finite number of a row, or None: failed rows have nulls."""
+    value = row
+    for name in names:
+        value = value.get(name) if isinstance(value, dict) else None
+    return value if isinstance(value, (int, float)) and math.isfinite(value) else None
+
+
+def timed(row: dict) -> bool:
+    return row["status"] == "ok" and (number(row, "medianMs") or 0) > 0
+
+
+def pareto(rows: list) -> list:
+    """Rows than which no other is both at least as fast and at least as exact, fastest first."""
+    front, best = [], math.inf
+    known = [row for row in rows if timed(row) and number(row, "error", "relRms") is not None]
+    for row in sorted(known, key=lambda r: (r["medianMs"], r["error"]["relRms"])):
+        if row["error"]["relRms"] < best:
+            best = row["error"]["relRms"]
+            front.append(row)
+    return front

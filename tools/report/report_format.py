@@ -1,0 +1,57 @@
+"""Numbers as a person reads them."""
+import math
+
+
+def plain(value, digits: int = 3) -> str:
+    """Three significant digits, without an exponent between 0.0001 and a million."""
+    if value is None:
+        return "–"
+    if value == 0:
+        return "0"
+    size = abs(value)
+    if size < 1e-4 or size >= 1e7:
+        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+        superscript = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+        return f"{mantissa} · 10{superscript}"
+    decimals = max(0, digits - 1 - math.floor(math.log10(size)))
+    return f"{value:,.{decimals}f}"
+
+
+def percent(share) -> str:
+    """Of a share between 0 and 1 (or more): two significant digits, and never 0 for what is not."""
+    if share is None:
+        return "–"
+    value = 100 * share
+    if value == 0:
+        return "0 %"
+    if abs(value) < 0.001:
+        return "under 0.001 %"
+    if 99.5 <= value < 100:
+        return f"{math.floor(value * 10) / 10:.1f} %"
+    decimals = max(0, 1 - math.floor(math.log10(abs(value))))
+    return f"{value:,.{decimals}f} %"
+
+
+def ratio(value) -> str:
+    return "–" if value is None else f"{value:.3f}"
+
+
+def energy(value) -> str:
+    return "–" if value is None else f"{value:.4f}"
+
+
+def count(value) -> str:
+    return "–" if value is None else f"{value:,.0f}" if value == int(value) else f"{value:,.2f}"
+
+
+def interval(low, high) -> str:
+    return "" if low is None or high is None else f"{ratio(low)} to {ratio(high)}"
+
+
+def size_of(group) -> str:
+    return f"{group.width} × {group.height}, depth {group.depth}"
+
+
+def listed(names: list, last: str = "and") -> str:
+    names = list(names)
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {last} {names[-1]}" if names else ""

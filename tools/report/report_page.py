@@ -1,0 +1,188 @@
+"""Puts the page together: numbers, sentences, plots and pictures into the templates."""
+import json
+import math
+import pathlib
+
+import jinja2
+import numpy
+from markupsafe import Markup
+
+import report_format
+from report_colours import (aolp_colours, difference_colours, difference_limit, dolp_colours, kSignificantDoLP,
+                            linear_polarization, luminance, mapped, signed_difference, tone_mapped)
+from report_data import groups_of, number, pareto
+from report_errors import Wrongness, kOff, relative_error
+from report_findings import findings
+from report_gpu import gpu_sections
+from report_pictures import Picture, jpeg, kPictureWidth, kStokesWidth, packed_stokes, png, shrunk
+from report_plots import error_against_time
+from report_words import first_sentence, second_sentence
+
+kHere = pathlib.Path(__file__).resolve().parent
+
+
+class GroupView:
+    """One group of rows with everything the page shows of it."""
+
+    def __init__(self, folder: pathlib.Path, group, exposure_ev: float):
+        self.group, self.key, self.size = group, group.key, report_format.size_of(group)
+        self.wrongs, self.added, self.pictures, self.names = {}, None, {}, []
+        self.differences, self.limit, self.polarization, self.stokes = {}, 0, None, None
+        self.exposure_ev = exposure_ev
+        front = [id(row) for renderer in group.renderers
+                 for row in pareto([r for r in group.rows if r["renderer"] == renderer])]
+        self.on_front = {id(row): id(row) in front for row in group.rows}
+        self.plots = [(renderer, Markup(error_against_time(group, renderer))) for renderer in group.renderers]
+        self._read(folder)
+
+    def _read(self, folder: pathlib.Path) -> None:
+        group = self.group
+        reference = Picture(folder / group.reference["picture"]) if group.reference else None
+        if reference is not None:
+            self._add("reference", "reference", reference.rgb)
+            if reference.stokes is not None:
+                self._polarization(reference.stokes)
+        dolp = None
+        if reference is not None and reference.stokes is not None:
+            dolp, _ = linear_polarization(*(luminance(reference.stokes[:, :, s]) for s in range(3)))
+        rgb = {}
+        for row in group.rows:
+            if row["status"] != "ok" or not row.get("picture"):
+                continue
+            name = (row["renderer"], row["method"])
+            rgb[name] = Picture(folder / row["picture"]).rgb
+            self._add(f"{name[0]}/{name[1]}", f"{name[1]}, {name[0]}", rgb[name])
+        if reference is None:
+            return
+        small = shrunk(reference.rgb, kPictureWidth)
+        signed = {}
+        for (renderer, method), picture in rgb.items():
+            if picture.shape != reference.rgb.shape:
+                continue
+            self.wrongs[self.key, renderer, method] = Wrongness(picture, reference.rgb, dolp)
+            signed[renderer, method] = signed_difference(shrunk(picture, kPictureWidth), small)
+        for renderer in group.renderers:  # what is off with full polarization too is not polarization
+            plain, full = rgb.get((renderer, "fresnel")), rgb.get((renderer, "stokes"))
+            if (renderer, "fresnel") in signed:
+                too = relative_error(full, reference.rgb) > kOff if (renderer, "stokes") in signed else None
+                self.wrongs[self.key, renderer, "polarization"] = Wrongness(plain, reference.rgb, dolp, too)
+            if self.added is None and {(renderer, "sp"), (renderer, "sp-ratio")} <= signed.keys():
+                self.added = Wrongness(rgb[renderer, "sp-ratio"], rgb[renderer, "sp"])
+        self.limit = difference_limit(list(signed.values()))
+        for (renderer, method), d in signed.items():
+            self.differences.setdefault(renderer, []).append(
+                (method, png(*difference_colours(d, self.limit)), self.group.row(renderer, method)))
+
+    def _add(self, name: str, label: str, rgb: numpy.ndarray) -> None:
+        self.names.append((name, label))
+        self.pictures[name] = jpeg(tone_mapped(shrunk(rgb, kPictureWidth), self.exposure_ev))
+
+    def _polarization(self, stokes: numpy.ndarray) -> None:
+        light = shrunk(luminance(stokes), kPictureWidth)
+        dolp, aolp = linear_polarization(light[:, :, 0], light[:, :, 1], light[:, :, 2])
+        lit = light[:, :, 0] > 0
+        self.polarization = {
+            "dolp": png(*dolp_colours(dolp)), "aolp": png(*aolp_colours(aolp, dolp)),
+            "median": float(numpy.median(dolp[lit])) if lit.any() else 0.0, "largest": float(dolp.max())}
+        self.stokes = packed_stokes(stokes)
+
+    @property
+    def first_choice(self) -> str:
+        """Shown beside the reference at first: the exact unpolarized picture, or whatever there is."""
+        names = [name for name, _ in self.names]
+        return next((name for name in names if name.endswith("/fresnel")), names[-1])
+
+    @property
+    def data(self) -> Markup:
+        return script_json({"pictures": self.pictures, "stokes": self.stokes, "exposureEv": self.exposure_ev})
+
+    @property
+    def sentences(self) -> list:
+        wrong = next((w for (_, _, name), w in self.wrongs.items() if name == "polarization"), None)
+        exact = next((w for (_, _, name), w in self.wrongs.items() if name == "fresnel"), None)
+        row = next((r for r in map(lambda r: self.group.row(r, "fresnel"), self.group.renderers) if r), None)
+        return [Markup(first_sentence(exact, wrong, number(row, "error", "perceptual"))),
+                Markup(second_sentence(self.group))]
+
+    def same_as(self, row: dict) -> str:
+        """The methods that a row's time cannot be told apart from, briefly."""
+        names = row.get("indistinguishable") or []
+        others = [r["method"] for r in self.group.rows
+                  if r["renderer"] == row["renderer"] and r is not row and r["status"] == "ok"]
+        rest = [name for name in others if name not in names]
+        if not names or len(others) < 3 or len(rest) > 2:
+            return ", ".join(names)
+        return "all others" + (f" but {report_format.listed(rest)}" if rest else "")
+
+    @property
+    def scale(self) -> dict:
+        """The legend of the difference pictures: colours, and the ticks' places in percent."""
+        strip = mapped(numpy.linspace(0, 1, 64), "RdBu_r")
+        knee = self.limit / 100
+        at = lambda v: 50 + 50 * math.copysign(math.log1p(abs(v) / knee) / math.log1p(self.limit / knee), v)  # noqa: E731
+        values = [s * self.limit for s in (-1, -0.1, -0.01, 0, 0.01, 0.1, 1)]
+        return {"gradient": gradient(strip),
+                "ticks": [(at(v) if v else 50, ("+" if v > 0 else "−" if v < 0 else "") +
+                           report_format.plain(abs(v), 1)) for v in values]}
+
+
+def gradient(colours: numpy.ndarray) -> str:
+    return f"linear-gradient(to right, {', '.join('#%02x%02x%02x' % tuple(c) for c in colours)})"
+
+
+def wheel() -> list:
+    """Wedges of the angle's legend: a line through the middle in the direction of the field has its colour."""
+    count, wedges = 72, []
+    for i in range(count):
+        a, b = (math.radians(360 * k / count) for k in (i, i + 1.3 if i + 1 < count else i + 1))
+        middle = (a + math.radians(360 * (i + 1) / count)) / 2
+        colour = "#%02x%02x%02x" % tuple(mapped(numpy.array([(middle % math.pi) / math.pi]), "hsv")[0])
+        points = " ".join(f"{50 * math.cos(t):.2f},{-50 * math.sin(t):.2f}" for t in (a, b))
+        wedges.append((f"0,0 {points}", colour))
+    return wedges
+
+
+def script_json(value) -> Markup:
+    """JSON that may stand inside a script element."""
+    return Markup(json.dumps(value, separators=(",", ":")).replace("<", "\\u003c"))
+
+
+def described(value) -> str:
+    """A setting or a driver's entry as text."""
+    if value is None or value == []:
+        return "the scene's"
+    if isinstance(value, dict):
+        return ", ".join(f"{k} {described(v)}" for k, v in value.items()) or "none"
+    if isinstance(value, list):
+        return ", ".join(map(str, value))
+    return {True: "yes", False: "no"}.get(value, str(value)) if isinstance(value, bool) else str(value)
+
+
+def page(folder: pathlib.Path, results: dict) -> str:
+    scenes, wrongs, added = {}, {}, {}
+    for group in groups_of(results):
+        ev = number(results["scenes"][group.scene], "exposureEv") or 0.0
+        view = GroupView(folder, group, ev)
+        scenes.setdefault(group.scene, []).append(view)
+        wrongs.update(view.wrongs)
+        if view.added is not None:
+            added[group.key] = view.added
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(kHere / "templates"), autoescape=True,
+                                     trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters.update({name: getattr(report_format, name) for name in ("plain", "percent", "ratio", "energy", "count")})
+    environment.filters["described"] = described
+    environment.filters["pyid"] = id
+    groups = [view.group for views in scenes.values() for view in views]
+    devices = results.get("devices") or {}
+    model = results.get("gpuModel") or []
+    return environment.get_template("index.html.j2").render(
+        results=results, devices=devices, settings=results.get("settings") or {}, driver=results.get("driver") or {},
+        scenes=[(name, results["scenes"][name], views) for name, views in scenes.items()],
+        findings=[{**f, "answer": [Markup(a) for a in f["answer"]]}
+                  for f in findings(groups, wrongs, added, devices, model, results["rows"])],
+        gpu=gpu_sections(model, results["rows"]), number=number, wheel=wheel(),
+        dolp_gradient=gradient(mapped(numpy.linspace(0, 1, 32), "viridis")), least_dolp=kSignificantDoLP,
+        picture_width=kPictureWidth, stokes_width=kStokesWidth,
+        style=Markup((kHere / "report.css").read_text(encoding="utf-8")),
+        script=Markup("\n".join((kHere / name).read_text(encoding="utf-8")
+                                for name in ("compare.js", "polarizer.js"))))

@@ -1,0 +1,128 @@
+"""Plots as SVG for the page: text and axes take the colour of the text around them, light or dark."""
+import hashlib
+import html
+import io
+import re
+
+import matplotlib
+
+matplotlib.use("svg")
+from matplotlib import pyplot, ticker  # noqa: E402
+
+from report_data import number, pareto, timed  # noqa: E402
+
+kInk = "#010203"  # replaced by currentColor
+kFront, kOther = "#c2541a", "#3f7fb5"  # both readable on white and on black
+kWidth, kHeight = 4.9, 3.7  # inches
+
+
+def _svg(figure, title: str) -> str:
+    # Names in the file come from the title, so that equal plots are equal and several fit on one page.
+    with matplotlib.rc_context({"svg.hashsalt": title}):
+        file = io.StringIO()
+        figure.savefig(file, format="svg", transparent=True, metadata={"Date": None})
+    pyplot.close(figure)
+    text = file.getvalue()
+    text = text[text.index("<svg"):]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
+    text = re.sub(r'<g id="[^"]*"', "<g", text)
+    text = re.sub(r' xmlns(:xlink)?="[^"]*"', "", text).replace("xlink:href", "href")
+    prefix = hashlib.sha256(title.encode()).hexdigest()[:8]
+    text = re.sub(r'(id="|href="#|url\(#)', rf"\g<1>p{prefix}", text)
+    text = re.sub(r'<svg [^>]*viewBox="([^"]*)"[^>]*>',
+                  lambda m: f'<svg class="plot" viewBox="{m[1]}" role="img" aria-label="{html.escape(title)}">', text, count=1)
+    return text.replace(kInk, "currentColor").replace("font: ", "font-family: inherit; font: ")
+
+
+def _axes(width=kWidth, height=kHeight):
+    style = {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10, "axes.edgecolor": kInk,
+             "axes.labelcolor": kInk, "text.color": kInk, "xtick.color": kInk, "ytick.color": kInk,
+             "axes.spines.top": False, "axes.spines.right": False, "axes.linewidth": 0.6}
+    with matplotlib.rc_context(style):
+        figure, axes = pyplot.subplots(figsize=(width, height))
+    matplotlib.rcParams["svg.fonttype"] = "none"
+    axes.grid(True, color="#808080", alpha=0.25, linewidth=0.5)
+    axes.set_axisbelow(True)
+    return figure, axes
+
+
+def _spread(wanted: list, gap: float, low: float, high: float) -> list:
+    """Places near the wanted ones, sorted upwards, at least gap apart, within low..high where that fits."""
+    places = []
+    for value in wanted:
+        places.append(max(value, places[-1] + gap if places else low))
+    top = high
+    for i in reversed(range(len(places))):
+        places[i] = min(places[i], top)
+        top = places[i] - gap
+    return places
+
+
+def _labels(figure, axes, points: list) -> None:
+    """Names at the right edge, in the order of the points' heights, with a thin line to each point."""
+    axes.autoscale_view()
+    box = axes.get_window_extent()
+    points = sorted(points, key=lambda p: axes.transData.transform(p[:2])[1])
+    heights = [axes.transData.transform(p[:2])[1] for p in points]
+    places = _spread(heights, 12.5 * figure.dpi / 72, box.y0, box.y1)
+    for (x, y, name, colour, bold), place in zip(points, places):
+        at = axes.transAxes.inverted().transform((box.x1, place))
+        axes.annotate(name, xy=(x, y), xytext=(1.04, at[1]), textcoords="axes fraction", va="center", ha="left",
+                      fontsize=9.5, color=kInk, fontweight="bold" if bold else "normal", annotation_clip=False,
+                      arrowprops={"arrowstyle": "-", "color": "#808080", "linewidth": 0.5, "alpha": 0.7,
+                                  "shrinkA": 1, "shrinkB": 3})
+
+
+def error_against_time(group, renderer: str) -> str:
+    """Relative RMS error against median time of one renderer's rows, with quartiles and the Pareto front."""
+    rows = [r for r in group.rows if r["renderer"] == renderer and timed(r)
+            and number(r, "error", "relRms") is not None]
+    if not rows:
+        return ""
+    front = pareto(rows)
+    least = min((r["error"]["relRms"] for r in rows if r["error"]["relRms"] > 0), default=1e-7)
+    height = lambda r: max(r["error"]["relRms"], least / 2)  # noqa: E731: a logarithm has no 0
+    figure, axes = _axes()
+    axes.set_yscale("log")
+    steps_x, steps_y = [], []
+    for i, row in enumerate(front):
+        if i:
+            steps_x.append(row["medianMs"]), steps_y.append(height(front[i - 1]))
+        steps_x.append(row["medianMs"]), steps_y.append(height(row))
+    axes.plot(steps_x, steps_y, color=kFront, linewidth=1.2, zorder=2)
+    for row in rows:
+        colour = kFront if row in front else kOther
+        low, high = row.get("quartilesMs") or [row["medianMs"]] * 2
+        median = row["medianMs"]
+        axes.errorbar(median, height(row), xerr=[[max(0, median - low)], [max(0, high - median)]], fmt="o",
+                      markersize=5, color=colour, elinewidth=1, capsize=2.5,
+                      markerfacecolor=colour if row in front else "none", zorder=3)
+    axes.margins(x=0.08, y=0.08)
+    axes.set_xlabel("median time of a picture in ms, bar: quartiles")
+    axes.set_ylabel("relative RMS error")
+    axes.xaxis.set_major_locator(ticker.MaxNLocator(5))
+    low, high = axes.get_ylim()
+    if high / low < 50:  # few powers of ten: steps between them need names too
+        axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+        axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
+    axes.yaxis.set_minor_formatter(ticker.NullFormatter())
+    figure.subplots_adjust(left=0.17, right=0.75, top=0.97, bottom=0.13)
+    _labels(figure, axes, [(r["medianMs"], height(r), r["method"], kInk, r in front) for r in rows])
+    return _svg(figure, f"Error against time: {group.scene}, {group.width} x {group.height}, depth {group.depth}, "
+                        f"{renderer}")
+
+
+def cost_against_payload(points: list, family: str, label: str) -> str:
+    """points: (payload bytes, cost, method) of one GPU family."""
+    if not points:
+        return ""
+    figure, axes = _axes()
+    for x, y, name in points:
+        axes.plot(x, y, "o", markersize=5, color=kOther)
+    axes.set_ylim(bottom=0)
+    axes.margins(x=0.08, y=0.1)
+    axes.set_xlabel("payload in bytes")
+    axes.set_ylabel(label)
+    figure.subplots_adjust(left=0.16, right=0.75, top=0.97, bottom=0.13)
+    _labels(figure, axes, [(x, y, name, kInk, False) for x, y, name in points])
+    return _svg(figure, f"{label} against payload bytes, {family}")

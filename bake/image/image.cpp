@@ -67,6 +67,9 @@ void writeGrey(const fs::path& path, int width, int height, GreyDepth depth, con
   writeBeside(path, [&](const fs::path& temporary) {
     check(path, "cannot write",
           module().writeGrey(temporary.string(), width, height, depth, values.data(), description));
+    // OpenImageIO's PNG writer keeps silent about a full disk: what was written must read back.
+    Image back;
+    check(path, "cannot write", module().read(temporary.string(), back));
   });
 }
 

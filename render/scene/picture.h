@@ -13,12 +13,12 @@ inline constexpr std::size_t kColourChannels = 3;
 inline constexpr std::size_t kStokesChannels = 15;
 
 struct Cost {
-  double buildMs = 0;     // acceleration structure
-  double uploadMs = 0;    // the scene to the device
-  double compileMs = 0;   // shaders and pipeline, where this render was their first use
-  double traceMs = 0;     // rays and shading alone (on a GPU by its own clock)
-  double readBackMs = 0;  // the picture from the device
-  double wallMs = 0;      // tracing and read-back as the caller sees them
+  double buildMs = 0;      // acceleration structure
+  double uploadMs = 0;     // the scene to the device
+  double compileMs = 0;    // shaders and pipeline, where this render was their first use
+  double traceMs = 0;      // rays and shading alone (on a GPU by its own clock)
+  double readBackMs = 0;   // the picture from the device
+  double wallMs = 0;       // tracing and read-back as the caller sees them
   std::uint64_t rays = 0;  // camera, specular and shadow rays; 0 where they were not counted
 };
 

@@ -7,6 +7,7 @@
 
 #include "render/embree/renderer.h"
 #include "render/reference/reference.h"
+#include "render/scene/methods.h"
 #include "tests/render/test_scene.h"
 
 namespace malus {
@@ -180,6 +181,31 @@ TEST(ClosedForms, DepthCountsSpecularInteractions) {
     EXPECT_NEAR(reference(scene)[0], depth * (r.s + r.p) / 2, 1e-6);
     EXPECT_NEAR(embreeStokes(scene)[0], depth * (r.s + r.p) / 2, 1e-6);
   }
+}
+
+// Fairness of every comparison: without polarization-dependent branching all methods send the same rays.
+TEST(ClosedForms, EveryMethodTracesTheSameRays) {
+  pack::Scene scene = test::emptyScene(6);
+  scene.width = scene.height = 24;
+  scene.camera.verticalFovDegrees = 60;
+  scene.environment.radiance = glm::dvec3(1);
+  pack::Material paint = test::dielectric(MaterialKind::paint, kN, 0.5);
+  paint.highlightStrength = 1;
+  paint.highlightExponent = 20;
+  const auto floor = test::addMaterial(scene, paint),
+             glass = test::addMaterial(scene, test::dielectric(MaterialKind::glass, kN)),
+             gold = test::addMaterial(scene, test::metal({0.2, 0.5, 1.3}, {3, 2, 2}));
+  test::addSquare(scene, floor, {0, -1, 0}, {0, 1, 0}, 4);
+  test::addSquare(scene, glass, {0, 0, 0}, {0, 0.3, 1}, 1);
+  test::addSquare(scene, glass, {0, 0, -0.1}, {0, -0.3, -1}, 1);
+  test::addSquare(scene, gold, {-2, 0, 0}, {1, 0, 0.2}, 2);
+  scene.lights.push_back({{1, 3, 2}, {5, 5, 5}});
+  test::look(scene, {0.5, 0.3, 4}, {0, 0, 0});
+  const embree::Renderer renderer(scene, 1);
+  const std::uint64_t rays = renderer.render("schlick", render::viewOf(scene)).cost.rays;
+  EXPECT_GT(rays, 24u * 24u * 3u);
+  for (const std::string& method : render::methodNames())
+    EXPECT_EQ(renderer.render(method, render::viewOf(scene)).cost.rays, rays) << method;
 }
 
 TEST(ClosedForms, EmittersShineOnTheirFrontOnly) {

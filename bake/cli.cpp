@@ -1,5 +1,6 @@
 #include "bake/cli.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>

@@ -1,6 +1,7 @@
 #include "meshprep/prepare.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 // the nearest known one. All errors carry the path inside the document ("camera.position").
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

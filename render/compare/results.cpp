@@ -1,6 +1,7 @@
 #include "render/compare/results.h"
 
 #include <cmath>
+#include <utility>
 
 #include <commit.h>
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 #include "render/embree/renderer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <thread>

@@ -1,5 +1,6 @@
 #include "render/reference/reference.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>

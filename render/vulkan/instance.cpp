@@ -1,6 +1,7 @@
 #include "render/vulkan/instance.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <thread>

@@ -1,6 +1,7 @@
 #include "render/vulkan/pipeline.h"
 
 #include <cstring>
+#include <utility>
 
 #include "render/vulkan/check.h"
 #include "render/vulkan/shader_cache.h"

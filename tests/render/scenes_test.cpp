@@ -3,6 +3,7 @@
 //
 // MALUS_UPDATE_REFERENCES=1 writes the stored pictures anew and fails, so that it cannot go unnoticed. They
 // are looked at before they are committed, and never together with the code that they judge.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

@@ -1,6 +1,7 @@
 // Small scenes built in code, for closed forms: quads of any material in an environment.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include <glm/geometric.hpp>

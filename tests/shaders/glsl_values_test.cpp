@@ -1,6 +1,7 @@
 // The optics compiled by glslang and run on the device, in float and in double, against the C++ build: one
 // compute shader calls every function (values.h), C++ calls the same. No device is a failure, and so is any
 // message of the validation layers.
+#include <cstdlib>
 #include <cstring>
 
 #include "render/vulkan/glsl_compiler.h"

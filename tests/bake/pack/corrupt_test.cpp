@@ -1,6 +1,8 @@
 // Damaged and hostile packs: always an Error that says what and where, never a crash or a large allocation.
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 

@@ -1,5 +1,7 @@
 #include "meshprep/clean/orient.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "meshprep/clean/edges.h"

@@ -1,5 +1,6 @@
 #include "render/image/mosaic.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>

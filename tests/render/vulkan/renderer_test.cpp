@@ -1,5 +1,7 @@
 #include "render/vulkan/renderer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include <gtest/gtest.h>

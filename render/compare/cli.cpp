@@ -4,11 +4,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "bake/pack/format.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
@@ -61,16 +63,28 @@ void runCompare(const Arguments& a) {
   const InterruptScope scope;
   Comparison comparison = compare({a.packs.begin(), a.packs.end()}, a.settings, folder, console::progress);
   console::progressDone();
+  const auto depthOf = [&](const pack::Scene& scene) {
+    return a.settings.depths.empty() ? scene.depth : a.settings.depths.front();
+  };
+  const auto keep = [&](const std::vector<vulkan::PipelineStatistics>& list, const std::string& scene) {
+    for (const vulkan::PipelineStatistics& s : list) {
+      comparison.gpuModel.push_back(vulkan::toJson(s));
+      comparison.gpuModel.back()["scene"] = scene;
+      if (s.family.empty()) comparison.gpuModel.back()["family"] = s.device;  // a real one
+    }
+  };
+  // What the compiler of the device that was timed tells of its pipelines, where it tells.
+  const auto& backends = a.settings.backends;
+  if (std::find(backends.begin(), backends.end(), "vulkan") != backends.end())
+    for (const auto& [name, pack] : comparison.packs)
+      if (!comparison.interrupted && comparison.devices.contains("vulkan"))
+        keep(vulkan::deviceStatistics(pack.scene, a.settings.methods, depthOf(pack.scene), a.settings.device), name);
   // Compilers' estimates for GPUs that are not here.
   for (const std::string& family : a.settings.gpuFamilies)
     for (std::size_t i = 0; i < a.packs.size() && !comparison.interrupted; ++i) {
       const pack::Scene scene = pack::read(a.packs[i]).scene;
       console::progress(fmt::format("{}: compiling for {}", scene.name, family));
-      const std::uint32_t depth = a.settings.depths.empty() ? scene.depth : a.settings.depths.front();
-      for (const vulkan::PipelineStatistics& s : vulkan::gpuModel(a.packs[i], family, a.settings.methods, depth)) {
-        comparison.gpuModel.push_back(vulkan::toJson(s));
-        comparison.gpuModel.back()["scene"] = scene.name;
-      }
+      keep(vulkan::gpuModel(a.packs[i], family, a.settings.methods, depthOf(scene)), scene.name);
     }
   const nlohmann::json results = toJson(comparison, a.settings);
   writeFile(folder / "results.json", results.dump(1) + "\n");
@@ -108,12 +122,16 @@ void addCompareCommand(CLI::App& app) {
   auto* width = command->add_option("--width", a->settings.widths, "widths of the pictures (default: the scene's)")
                     ->delimiter(',')
                     ->check(CLI::Range(1u, 16384u));
+  auto* height = command->add_option("--height", a->settings.heights, "their heights (default: by the scene's aspect)")
+                     ->delimiter(',')
+                     ->check(CLI::Range(1u, 16384u));
   command->add_option("--scale", a->settings.scale, "size relative to the scene's, along each side")
       ->check(CLI::Range(0.001, 4.0))
-      ->excludes(width);
+      ->excludes(width)
+      ->excludes(height);
   command->add_option("--depth", a->settings.depths, "depths (default: the scene's)")
       ->delimiter(',')
-      ->check(CLI::Range(0u, 30u));
+      ->check(CLI::Range(0u, pack::kMaxDepth));
   command->add_option("--rounds", a->settings.rounds, "timed rounds after the warm-up")->capture_default_str();
   command->add_option("--threads", a->settings.threads, "CPU threads, 0 for all")
       ->check(CLI::Range(0u, 1024u))

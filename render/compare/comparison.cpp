@@ -73,16 +73,21 @@ std::string stem(const std::string& scene, const View& view, const std::string& 
 }
 
 std::vector<View> viewsOf(const pack::Scene& scene, const ComparisonSettings& settings) {
-  std::vector<std::uint32_t> widths = settings.widths, depths = settings.depths;
-  if (widths.empty()) widths = {std::max(1u, static_cast<std::uint32_t>(std::lround(scene.width * settings.scale)))};
+  std::vector<std::uint32_t> widths = settings.widths, heights = settings.heights, depths = settings.depths;
+  const double aspect = static_cast<double>(scene.width) / scene.height;
+  const auto rounded = [](double side) { return std::max(1u, static_cast<std::uint32_t>(std::lround(side))); };
+  if (widths.empty() && heights.empty()) widths = {rounded(scene.width * settings.scale)};
+  if (widths.empty())
+    for (const std::uint32_t height : heights) widths.push_back(rounded(height * aspect));
+  if (heights.empty())
+    for (const std::uint32_t width : widths) heights.push_back(rounded(width / aspect));
   if (depths.empty()) depths = {scene.depth};
   std::vector<View> views;
-  for (const std::uint32_t width : widths)
+  for (std::size_t i = 0; i < widths.size(); ++i)
     for (const std::uint32_t depth : depths) {
       View view = viewOf(scene);
-      view.width = width;
-      view.height = std::max(
-          1u, static_cast<std::uint32_t>(std::lround(static_cast<double>(width) * scene.height / scene.width)));
+      view.width = widths[i];
+      view.height = heights[i];
       view.region = {0, 0, view.width, view.height};
       view.depth = depth;
       if (settings.polarizerDegrees) view.analyser = linearPolarizer(*settings.polarizerDegrees);
@@ -139,6 +144,9 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
   ComparisonSettings settings = asked;
   if (packs.empty()) throw Error("malus compare", "no scene pack", "one or more");
   if (settings.rounds == 0) throw Error("--rounds", "no round", "1 or more", "0");
+  if (!settings.widths.empty() && !settings.heights.empty() && settings.widths.size() != settings.heights.size())
+    throw Error("--height", "are not as many as the widths", fmt::format("{}", settings.widths.size()),
+                fmt::format("{}", settings.heights.size()));
   if (std::find(settings.methods.begin(), settings.methods.end(), "schlick") == settings.methods.end())
     settings.methods.insert(settings.methods.begin(), "schlick");
   for (const std::string& method : settings.methods) methodNamed(method);

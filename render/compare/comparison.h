@@ -23,7 +23,8 @@ namespace malus::render {
 struct ComparisonSettings {
   std::vector<std::string> methods;  // schlick is added where it is missing: ratios need it
   std::vector<std::string> backends = {"vulkan", "embree"};
-  std::vector<std::uint32_t> widths;  // pictures' widths; empty: the scene's times scale
+  std::vector<std::uint32_t> widths;   // pictures' widths; empty: the scene's times scale
+  std::vector<std::uint32_t> heights;  // their heights, as many as widths; empty: by the scene's aspect
   double scale = 1;
   std::vector<std::uint32_t> depths;  // empty: the scene's
   std::uint32_t rounds = 7;

@@ -11,11 +11,11 @@ struct PictureError {
   double relRms = 0;             // root of the sum of squared differences over the sum of squared reference values
   double shareOver1Percent = 0;  // of pixels with a colour off by more than 1 % of the reference's, or of a
                                  // thousandth of its mean where that is more
-  double perceptual = 0;         // share of pixels in which a person would see it: CIELAB difference over 2.3
+  double perceptual = 0;         // mean FLIP (flip.h), 0 to 1: what a person sees who flips between them
   double energyRatio = 0;        // sum over the picture against the reference's
 };
 
-// Colours behind the filter. exposureEv: of the display, for the perceptual share. A non-finite value in the
+// Colours behind the filter. exposureEv: of the display, for FLIP. A non-finite value in the
 // picture makes meanAbs, maxAbs and relRms infinite. Throws Error where the sizes differ.
 PictureError pictureError(const Picture& picture, const Picture& reference, double exposureEv);
 

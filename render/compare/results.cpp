@@ -76,6 +76,7 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
             {"roundsAsked", settings.rounds},
             {"interrupted", comparison.interrupted},
             {"widths", settings.widths},
+            {"heights", settings.heights},
             {"scale", settings.scale},
             {"depths", settings.depths},
             {"methods", settings.methods},

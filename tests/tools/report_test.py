@@ -211,7 +211,8 @@ class Report(unittest.TestCase):
         stage = {"registers": {"vgpr": 64}, "spills": 0, "lds": 0, "codeSize": 400, "instructions": 90, "latency": 300,
                  "wavesPerSimd": 16}
         self.results["gpuModel"] = [
-            {"family": "navi21", "method": method, "scene": "tiny", "stackBytes": 112, "stages":
+            {"family": "navi21", "method": method, "scene": "tiny",
+             "stackBytes": {"closest hit": 7112, "ray generation": 16}, "stages":
              [{"stage": "closest hit", "inverseThroughput": cost, **stage},
               {"stage": "traversal", "inverseThroughput": 1737, **stage}]}
             for method, cost in (("schlick", 100), ("fresnel", 125))]
@@ -220,6 +221,8 @@ class Report(unittest.TestCase):
         self.assertIn("no number here\nis a time", page)
         self.assertIn("1.250 times the estimate of <code>schlick</code>", page)
         self.assertIn("inverse throughput", page)
+        self.assertIn("7,112", page)
+        self.assertIn("largest stack of a stage", page)
 
     # Bad input
 

@@ -100,7 +100,7 @@ def error_rows(groups, wrongs, methods) -> list:
                     continue
                 rows.append([title_of(group), renderer, method, plain(number(row, "error", "relRms")),
                              percent(number(row, "error", "shareOver1Percent")),
-                             percent(number(row, "error", "perceptual")), energy(number(row, "error", "energyRatio")),
+                             plain(number(row, "error", "perceptual")), energy(number(row, "error", "energyRatio")),
                              wrong.place or "nowhere",
                              "–" if wrong.dolp_off is None or wrong.dolp_rest is None
                              else f"{percent(wrong.dolp_off)} / {percent(wrong.dolp_rest)}"])
@@ -108,7 +108,7 @@ def error_rows(groups, wrongs, methods) -> list:
     return rows
 
 
-kErrorHead = ["scene", "picture of", "method", "rel. RMS", "pixels off > 1 %", "a person would see", "energy",
+kErrorHead = ["scene", "picture of", "method", "rel. RMS", "pixels off > 1 %", "FLIP", "energy",
               "mostly in", "DoLP there / elsewhere"]
 
 

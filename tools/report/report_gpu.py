@@ -25,10 +25,11 @@ def gpu_sections(model: list, rows: list) -> list:
             method, size = entry.get("method"), payload.get(entry.get("method"))
             if size is not None and own_cost(entry) is not None:
                 cost.append((size, own_cost(entry), method))
-            if size is not None and number(entry, "stackBytes") is not None:
-                stack.append((size, entry["stackBytes"], method))
+            deepest = max((entry.get("stackBytes") or {"": None}).values(), key=lambda v: v or 0)
+            if size is not None and deepest is not None:
+                stack.append((size, deepest, method))
         plots = [cost_against_payload(cost, family, "inverse throughput, no traversal"),
-                 cost_against_payload(stack, family, "stack in bytes")]
+                 cost_against_payload(stack, family, "largest stack of a stage in bytes")]
         sections.append({"family": family, "scene": scene, "entries": entries, "payload": payload,
                          "plots": [Markup(p) for p in plots if p]})
     return sections

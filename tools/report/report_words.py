@@ -2,7 +2,7 @@
 import html
 
 from report_data import number, timed
-from report_format import listed, percent, ratio
+from report_format import listed, percent, plain, ratio
 
 kEverywhere = 0.01  # "everywhere" allows no pixel more than this
 kGood = 0.001  # share of pixels that a recommended method may have off by more than 1 %
@@ -49,7 +49,7 @@ def mostly(wrong) -> str:
 def first_sentence(wrong, polarization, visible=None) -> str:
     """What leaving polarization out does. wrong: of the exact unpolarized method, None where it was not run;
     polarization: the same without the pixels in which full polarization is off too (rounding at edges);
-    visible: share of pixels in which a person would see what the method changes."""
+    visible: mean FLIP of the method's picture, 0 to 1."""
     if wrong is None:
         return f"{code('fresnel')} was not run on this scene: what polarization changes is not known."
     if wrong.largest <= kEverywhere:
@@ -59,7 +59,7 @@ def first_sentence(wrong, polarization, visible=None) -> str:
         return (f"In this scene {code('fresnel')} is off by more than 1 % only where {code('stokes')} is too "
                 f"({percent(wrong.share)} of the pixels, rounding at edges): polarization may be left out.")
     size = f"by {percent(polarization.largest)} at most" if polarization.largest <= 1 else "in places by more than 100 %"
-    seen = "" if visible is None else f"; a person would see it in {percent(visible)} of all pixels"
+    seen = "" if visible is None else f"; to the eye (mean FLIP, 0 to 1) the picture is {plain(visible)} away"
     return (f"In this scene polarization matters in {percent(polarization.share)} of the pixels"
             f"{mostly(polarization)}: there {code('fresnel')}, which leaves it out, is off by more than 1 % of the "
             f"reference, {size}{seen}.")

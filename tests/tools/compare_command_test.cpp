@@ -1,0 +1,166 @@
+// `malus compare` and `malus render --max-error`: results, refusals, rows that fail, interruption.
+#include <csignal>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/command.h"
+
+namespace malus::test {
+namespace {
+
+using nlohmann::json;
+
+class Compare : public testing::Test {
+ protected:
+  void SetUp() override {
+    writeTinyScene(folder_.path());
+    ASSERT_EQ(malus({"bake", folder_ / "scene.json", "-o", pack()}).exitCode, 0);
+  }
+  std::string pack() const { return folder_ / "tiny.pack"; }
+  std::string report() const { return folder_ / "report"; }
+  Finished compare(std::vector<std::string> more) const {
+    std::vector<std::string> arguments = {"compare", pack(), "-o", report(), "--width", "32", "--no-report"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Start start;
+    start.environment = {{"MALUS_DEVICE", "llvmpipe"}};
+    start.timeoutSeconds = 110;
+    return malus(arguments, start);
+  }
+  json results() const { return json::parse(textOf(report() + "/results.json")); }
+
+  Folder folder_;
+};
+
+TEST_F(Compare, EveryMethodOnBothRenderers) {
+  const Finished finished = compare({"--rounds", "2"});
+  ASSERT_EQ(finished.exitCode, 0) << finished.err;
+  const json document = results();
+  EXPECT_EQ(document.at("settings").at("rounds"), 2);
+  ASSERT_EQ(document.at("rows").size(), 18u);
+  std::map<std::string, std::set<std::uint64_t>> rays;
+  for (const json& row : document.at("rows")) {
+    EXPECT_EQ(row.at("status"), "ok");
+    EXPECT_EQ(row.at("width"), 32);
+    EXPECT_EQ(row.at("height"), 24);
+    EXPECT_EQ(row.at("samplesMs").size(), 2u);
+    EXPECT_GT(row.at("medianMs"), 0);
+    EXPECT_TRUE(std::filesystem::exists(report() + "/" + row.at("picture").get<std::string>()));
+    for (const char* number : {"meanAbs", "maxAbs", "relRms", "shareOver1Percent", "perceptual", "energyRatio"})
+      EXPECT_TRUE(row.at("error").at(number).is_number()) << number;
+    rays[row.at("renderer")].insert(row.at("rays").get<std::uint64_t>());
+    if (row.at("method") == "stokes") {
+      EXPECT_LT(row.at("error").at("relRms"), 1e-3);
+    }
+    if (row.at("method") == "schlick") {
+      EXPECT_EQ(row.at("ratioToSchlick").at("median"), 1);
+    }
+  }
+  // Fairness: every method sends the same rays.
+  for (const auto& [renderer, counts] : rays) EXPECT_EQ(counts.size(), 1u) << renderer;
+  EXPECT_TRUE(contains(finished.out, "ratio to schlick"));
+  EXPECT_TRUE(contains(textOf(report() + "/results.csv"), "tiny,embree,stokes-half,32,24,4,24,"));
+}
+
+TEST_F(Compare, SizesAndDepths) {
+  const Finished finished =
+      malus({"compare", pack(), "-o", report(), "--backends", "embree", "--methods", "fresnel", "--width", "16,20",
+             "--height", "10,30", "--depth", "0,3", "--rounds", "1", "--no-report"});
+  ASSERT_EQ(finished.exitCode, 0) << finished.err;
+  std::set<std::string> views;
+  const json document = results();
+  for (const json& row : document.at("rows"))
+    if (row.at("method") == "fresnel")
+      views.insert(row.at("width").dump() + "x" + row.at("height").dump() + " " + row.at("depth").dump());
+  EXPECT_EQ(views, (std::set<std::string>{"16x10 0", "16x10 3", "20x30 0", "20x30 3"}));
+  expectRefusal(malus({"compare", pack(), "-o", report(), "--width", "16,20", "--height", "10", "--no-report"}),
+                "--height");
+}
+
+TEST_F(Compare, RowsThatFailKeepTheirReasonAndTheOthersGoOn) {
+  const Finished finished = compare({"--rounds", "1", "--methods", "fresnel", "--depth", "40"});
+  ASSERT_EQ(finished.exitCode, 0) << finished.err;
+  std::size_t failed = 0;
+  const json document = results();
+  for (const json& row : document.at("rows")) {
+    if (row.at("renderer") == "embree") {
+      EXPECT_EQ(row.at("status"), "ok");
+      continue;
+    }
+    ++failed;
+    EXPECT_TRUE(contains(row.at("status").get<std::string>(), "cannot recurse that deep")) << row.at("status");
+    EXPECT_TRUE(row.at("medianMs").is_null());
+  }
+  EXPECT_EQ(failed, 2u);
+  EXPECT_TRUE(contains(finished.out, "failed: ")) << finished.out;
+}
+
+TEST_F(Compare, Refusals) {
+  EXPECT_EQ(compare({"--methods", "magic"}).exitCode, 2);
+  EXPECT_EQ(compare({"--backends", "magic"}).exitCode, 2);
+  EXPECT_EQ(malus({"compare", "-o", report()}).exitCode, 2);
+  expectRefusal(compare({"--rounds", "0"}), "--rounds");
+  expectRefusal(malus({"compare", pack(), pack(), "-o", report()}), "second pack");
+  expectRefusal(malus({"compare", folder_ / "no.pack", "-o", report()}), "no.pack");
+  writeText(folder_ / "taken", "");
+  expectRefusal(malus({"compare", pack(), "-o", folder_ / "taken/report"}), "taken");
+  expectRefusal(compare({"--rounds", "1", "--backends", "embree", "--methods", "fresnel", "--gpu-model", "magic"}),
+                "magic");
+}
+
+TEST_F(Compare, InterruptingKeepsTheFinishedRounds) {
+  Start start;
+  // Progress is shown on a terminal alone, -v shows it in a pipe too.
+  start.sendSignalWhen = [](std::string_view said) { return contains(said, "round 3 of "); };
+  start.sendSignal = SIGINT;
+  const Finished finished = malus({"-v", "compare", pack(), "-o", report(), "--backends", "embree", "--width", "200",
+                                   "--rounds", "100000", "--no-report"},
+                                  start);
+  ASSERT_EQ(finished.exitCode, 130) << finished.err;
+  const json document = results();
+  const auto rounds = document.at("settings").at("rounds").get<std::size_t>();
+  EXPECT_GE(rounds, 2u);
+  EXPECT_LT(rounds, 100000u);
+  EXPECT_EQ(document.at("settings").at("interrupted"), true);
+  ASSERT_EQ(document.at("rows").size(), 9u);
+  for (const json& row : document.at("rows")) EXPECT_EQ(row.at("samplesMs").size(), rounds);
+  EXPECT_TRUE(contains(finished.err, "interrupted: ")) << finished.err;
+}
+
+TEST_F(Compare, MaxErrorTakesAMethodThatIsGoodEnoughAndRemembersIt) {
+  Start start;
+  start.environment = {{"XDG_CACHE_HOME", folder_ / "cache"}};
+  const auto render = [&](const char* bound) {
+    return malus({"render", pack(), "-o", folder_ / "a.exr", "--backend", "embree", "--max-error", bound, "--json"},
+                 start);
+  };
+  const Finished exact = render("1e-4");
+  ASSERT_EQ(exact.exitCode, 0) << exact.err;
+  const json chosen = json::parse(exact.out).at("method");
+  for (const char* wrong : {"schlick", "fresnel", "sp", "sp-cosine", "sp-ratio"}) EXPECT_NE(chosen, wrong);
+  EXPECT_TRUE(contains(exact.err, "relative RMS error")) << exact.err;
+  // What was measured is kept by the pack's hash.
+  const auto cached = [&] {
+    std::vector<std::filesystem::path> files;
+    for (const auto& e : std::filesystem::directory_iterator(folder_.path() / "cache/malus/errors"))
+      files.push_back(e.path());
+    return files;
+  };
+  ASSERT_EQ(cached().size(), 1u);
+  const auto written = std::filesystem::last_write_time(cached()[0]);
+  const Finished coarse = render("1000");
+  ASSERT_EQ(coarse.exitCode, 0) << coarse.err;
+  ASSERT_EQ(cached().size(), 1u);
+  EXPECT_EQ(std::filesystem::last_write_time(cached()[0]), written);
+  // The fastest of all, by the times that were kept.
+  const json estimates = json::parse(textOf(cached()[0])).at("estimates");
+  const auto fastest = std::min_element(estimates.begin(), estimates.end(), [](const json& a, const json& b) {
+    return a.at("medianMs") < b.at("medianMs");
+  });
+  EXPECT_EQ(json::parse(coarse.out).at("method"), fastest->at("method"));
+  expectRefusal(render("0"), "no method is within 0");
+}
+
+}  // namespace
+}  // namespace malus::test

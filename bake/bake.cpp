@@ -78,6 +78,9 @@ pack::Camera cameraOf(const SceneDescription& d, const glm::dvec3& origin) {
 
 void requireClosedGlass(const MeshDescription& mesh, const pack::Material& material, const prep::Report& report) {
   if (material.kind != pack::MaterialKind::glass || mesh.sheet) return;
+  if (mesh.asIs)
+    throw Error(mesh.file.string(), fmt::format("mesh '{}': a glass body that is taken as it is", mesh.name),
+                "\"sheet\": true beside \"asIs\": true, because nobody checks that it is closed");
   for (std::size_t i = 0; i < report.components.size(); ++i)
     if (!report.components[i].closed)
       throw Error(mesh.file.string(), fmt::format("mesh '{}': component {} of a glass body is open", mesh.name, i),
@@ -108,6 +111,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     prep::Options options;
     options.flat = mesh.flat;
     options.sheet = mesh.sheet;
+    options.asIs = mesh.asIs;
     options.creaseDegrees = mesh.creaseDegrees;
     options.weldTolerance = mesh.weldTolerance;
     prep::Report report;

@@ -14,6 +14,7 @@
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
 #include "bake/scene_file/scene_file.h"
+#include "bake/unpack.h"
 #include "meshprep/base/console.h"
 
 namespace malus::bake {
@@ -104,6 +105,27 @@ void addInfoCommand(CLI::App& app) {
       std::fputs(infoText(pack).c_str(), stdout);
       if (arguments->verify)
         fmt::print("verified: {} sections, every hash, count, index and number\n", pack.sections.size());
+    }
+  });
+}
+
+void addUnpackCommand(CLI::App& app) {
+  struct Arguments {
+    std::string input, output;
+    bool json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("unpack", "Takes a scene pack apart into JSON, PLY and EXR files");
+  command->add_option("pack", arguments->input, "scene pack")->required();
+  command->add_option("-o,--output", arguments->output, "folder to write (contents: bake/unpack.h)")->required();
+  command->add_flag("--json", arguments->json, "print scene.json as well");
+  command->callback([arguments] {
+    const pack::Pack pack = pack::read(arguments->input);
+    const nlohmann::json document = unpack(pack, arguments->output);
+    if (arguments->json) {
+      fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else {
+      fmt::print("{}: {} meshes -> {}\n", pack.scene.name, pack.scene.meshes.size(), arguments->output);
     }
   });
 }

@@ -1,6 +1,7 @@
 // The command lines of baking:
 //   malus bake SCENE.json -o OUT.pack [--position-bits N] [--normal-bits N] [--json]
 //   malus info PACK [--verify] [--json]
+//   malus unpack PACK -o FOLDER [--json]
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@ namespace malus::bake {
 
 void addBakeCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
+void addUnpackCommand(CLI::App& app);
 
 // For --list-materials: one line a material with its constants and source.
 void listMaterials();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "meshprep/base/error.h"
 #include "meshprep/clean/degenerate_faces.h"
@@ -24,6 +25,19 @@ void checkOptions(const Options& options) {
     throw Error("prep", "a crease angle out of bounds", "0 to 180 degrees", fmt::to_string(options.creaseDegrees));
   if (!(options.weldTolerance >= 0) || !std::isfinite(options.weldTolerance))
     throw Error("prep", "a weld tolerance out of bounds", "0 or more metres", fmt::to_string(options.weldTolerance));
+}
+
+// The file's own normals, made unit.
+std::vector<glm::vec3> authoredNormals(const Polygons& polygons, const std::string& source) {
+  if (polygons.normals.empty()) throw Error(source, "has no normals", "nx, ny, nz in a PLY file, or a flat mesh");
+  std::vector<glm::vec3> normals;
+  for (std::size_t i = 0; i < polygons.normals.size(); ++i) {
+    const glm::dvec3 n(polygons.normals[i]);
+    const double length = glm::length(n);
+    if (!(length > 0)) throw Error(source, fmt::format("the normal of vertex {} has no length", i), "a direction");
+    normals.emplace_back(n / length);
+  }
+  return normals;
 }
 
 }  // namespace
@@ -86,7 +100,13 @@ Mesh prepare(const std::filesystem::path& source, const Options& options, Report
   report.steps.push_back({"polygons-self-crossing", counts.crossing});
   report.steps.push_back({"polygon-corners-repeated", counts.repeatedCorners});
 
-  // Step 3: everything else.
+  // Step 3: everything else, or nothing.
+  if (options.asIs) {
+    if (!options.flat) mesh.normals = authoredNormals(polygons, report.source);
+    report.output.vertices = mesh.positions.size();
+    report.output.triangles = mesh.triangles.size();
+    return mesh;
+  }
   return clean(std::move(mesh), options, report);
 }
 

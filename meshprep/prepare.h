@@ -18,10 +18,12 @@ struct Options {
   bool sheet = false;         // an open surface on purpose: keeps its side, opposite duplicates stay
   double creaseDegrees = 40;  // edges sharper than this get two normals; 0 to 180
   double weldTolerance = 0;   // metres; corners closer than this become one vertex; 0: equal positions only
+  bool asIs = false;          // only triangulate: the file's own vertices, faces and, unless flat, normals (PLY)
 };
 
 // Fills `report` except for errors and compression. Throws Error: unreadable file, unknown extension,
-// anything in the file that cannot be read right, options out of bounds, nothing left after cleaning.
+// anything in the file that cannot be read right, options out of bounds, nothing left after cleaning; asIs
+// and not flat where the file has no normals, or one without a length.
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report);
 
 // The same from a mesh in memory, from weld on; report.input is left to the caller.

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/image/image.h"
+#include "bake/pack/format.h"
 #include "bake/pack/reader.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
@@ -314,7 +315,7 @@ void addRenderSettings(CLI::App& command, RenderSettings& a) {
       ->check(CLI::Range(1u, 16384u));
   command.add_option("--height", a.height, "picture height")->check(CLI::Range(1u, 16384u));
   command.add_option("--depth", a.depth, "most specular interactions along a path (default: the pack's)")
-      ->check(CLI::Range(0u, 30u));
+      ->check(CLI::Range(0u, pack::kMaxDepth));
   command.add_option("--samples", a.samples, "rays a pixel along each axis")
       ->check(CLI::Range(1u, 64u))
       ->capture_default_str();

@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   malus::prep::addPrepCommand(app);
   malus::bake::addBakeCommand(app);
   malus::bake::addInfoCommand(app);
+  malus::bake::addUnpackCommand(app);
   malus::render::addRenderCommand(app);
   malus::render::addCompareCommand(app);
   malus::render::addCompareImagesCommand(app);

@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kMaxLights = 4096;
 inline constexpr std::uint32_t kMaxVertices = 1u << 28;
 inline constexpr std::uint32_t kMaxTriangles = 1u << 28;
 inline constexpr double kMaxCoordinate = 1e9;  // metres; the squared area of a face still fits a float
-inline constexpr std::uint32_t kMaxDepth = 30;
+inline constexpr std::uint32_t kMaxDepth = 64;
 inline constexpr std::uint32_t kMaxResolution = 16384;
 inline constexpr std::uint32_t kMaxEnvironmentSize = 8192;
 

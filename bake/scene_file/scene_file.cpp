@@ -164,6 +164,7 @@ MeshDescription readMesh(StrictObject mesh, const SceneDescription& scene, const
   }
   result.flat = mesh.flag("flat", false);
   result.sheet = mesh.flag("sheet", false);
+  result.asIs = mesh.flag("asIs", false);
   result.creaseDegrees = mesh.number("creaseDegrees", 0, 180, 40);
   result.weldTolerance = mesh.number("weldTolerance", 0, kFar, 0);
   if (mesh.has("instances")) {

@@ -26,6 +26,7 @@ struct MeshDescription {
   std::string material;
   bool flat = false;
   bool sheet = false;
+  bool asIs = false;
   double creaseDegrees = 40;
   double weldTolerance = 0;
   std::vector<Transform> instances;

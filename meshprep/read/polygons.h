@@ -13,6 +13,7 @@ namespace malus::prep {
 
 struct Polygons {
   std::vector<glm::dvec3> positions;
+  std::vector<glm::vec3> normals;              // one a position, as written, where the file has them (PLY)
   std::vector<std::uint32_t> corners;          // indices into positions, face after face
   std::vector<std::size_t> firstCorner = {0};  // of every face, and one past the last
 

@@ -56,8 +56,9 @@ struct Header {
   std::size_t faces = 0;
   std::vector<Property> vertexProperties;
   std::vector<Property> faceProperties;
-  std::array<std::size_t, 3> xyz{};  // which vertex properties are the coordinates
-  std::size_t end = 0;               // offset of the first byte of data
+  std::array<std::size_t, 3> xyz{};                  // which vertex properties are the coordinates
+  std::optional<std::array<std::size_t, 3>> normal;  // and the normal, nx ny nz
+  std::size_t end = 0;                               // offset of the first byte of data
 };
 
 Type typeNamed(std::string_view name, const Lines& at) {
@@ -99,7 +100,20 @@ void checkHeader(Header& header, const Lines& at) {
     header.xyz[axis] = static_cast<std::size_t>(found - header.vertexProperties.begin());
   }
 
-  // Step 2: corners, first of the face's properties; lists beside them are not read right by OpenMesh.
+  // Step 2: normals, where all three are there.
+  constexpr std::array<std::string_view, 3> kNormal = {"nx", "ny", "nz"};
+  std::array<std::size_t, 3> normal{};
+  std::size_t known = 0;
+  for (std::size_t k = 0; k < header.vertexProperties.size(); ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (header.vertexProperties[k].name == kNormal[axis] &&
+          header.vertexProperties[k].type.kind == Type::Kind::kFloat) {
+        normal[axis] = k;
+        ++known;
+      }
+  if (known == 3) header.normal = normal;
+
+  // Step 3: corners, first of the face's properties; lists beside them are not read right by OpenMesh.
   const auto isCorners = [](const Property& p) {
     return p.countType && (p.name == "vertex_indices" || p.name == "vertex_index");
   };
@@ -192,13 +206,16 @@ void scanAscii(const Header& header, Lines& lines, std::string_view where, Polyg
   };
   for (std::size_t i = 0; i < header.vertices; ++i) {
     std::string_view rest = nextLine("vertices", header.vertices, i);
-    glm::dvec3 p(0);
+    glm::dvec3 p(0), n(0);
     for (std::size_t k = 0; k < header.vertexProperties.size(); ++k) {
       const std::string_view word = takeWord(rest);
       if (word.empty()) lines.fail("a vertex lacks numbers", fmt::to_string(header.vertexProperties.size()));
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
         if (header.xyz[axis] == k) p[static_cast<int>(axis)] = coordinate(word, lines);
+        if (header.normal && (*header.normal)[axis] == k) n[static_cast<int>(axis)] = coordinate(word, lines);
+      }
     }
+    if (header.normal) polygons.normals.emplace_back(n);
     if (!takeWord(rest).empty())
       lines.fail("a vertex has too many numbers", fmt::to_string(header.vertexProperties.size()));
     polygons.positions.push_back(p);
@@ -281,11 +298,17 @@ class Bytes {
 void scanBinary(const Header& header, std::string_view bytes, std::string_view where, Polygons& polygons) {
   Bytes data(bytes, header.end, header.encoding, where);
   for (std::size_t i = 0; i < header.vertices; ++i) {
-    glm::dvec3 p(0);
+    glm::dvec3 p(0), n(0);
     for (std::size_t k = 0; k < header.vertexProperties.size(); ++k) {
       const Type& type = header.vertexProperties[k].type;
-      const auto axis = std::find(header.xyz.begin(), header.xyz.end(), k);
-      if (axis == header.xyz.end()) {
+      glm::dvec3* target = nullptr;
+      int axis = 0;
+      for (int a = 0; a < 3; ++a) {
+        const auto at = static_cast<std::size_t>(a);
+        if (header.xyz[at] == k) target = &p, axis = a;
+        if (header.normal && (*header.normal)[at] == k) target = &n, axis = a;
+      }
+      if (!target) {
         data.skip(type.bytes);
         continue;
       }
@@ -293,8 +316,9 @@ void scanBinary(const Header& header, std::string_view bytes, std::string_view w
       if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
         data.fail(fmt::format("a bad number in vertex {}", i), "a finite number that a float holds",
                   fmt::to_string(value));
-      p[static_cast<int>(axis - header.xyz.begin())] = value;
+      (*target)[axis] = value;
     }
+    if (header.normal) polygons.normals.emplace_back(n);
     polygons.positions.push_back(p);
   }
   const Property& list = header.faceProperties.front();

@@ -9,6 +9,7 @@
 
 #include "bake/image/image.h"
 #include "bake/pack/reader.h"
+#include "bake/pack/writer.h"
 #include "tests/bake/fixtures.h"
 
 namespace malus::bake {
@@ -255,6 +256,25 @@ TEST_F(Bake, SaysWhatItIsDoing) {
   EXPECT_EQ(said, std::vector<std::string>{"preparing cube"});
   ASSERT_EQ(result.reports.size(), 1u);
   EXPECT_EQ(result.reports[0].input.vertices, 8u);
+}
+
+TEST_F(Bake, AsItIsKeepsWhatCleaningWouldDrop) {
+  folder_.write("bad.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                "property float nx\nproperty float ny\nproperty float nz\nelement face 3\n"
+                "property list uchar int vertex_indices\nend_header\n"
+                "0 0 0 0 0 1\n1 0 0 0 0 -1\n0 1 0 1 0 0\n3 0 1 2\n3 0 1 2\n3 0 1 0\n");
+  scene_["meshes"][0]["file"] = "bad.ply";
+  scene_["meshes"][0]["asIs"] = true;
+  const pack::Scene scene = baked();
+  const pack::Pack pack = pack::parse(pack::serialize(scene, {}).bytes, "bad");
+  ASSERT_EQ(pack.scene.meshes[0].triangles.size(), 3u);
+  EXPECT_EQ(pack.scene.meshes[0].triangles, scene.meshes[0].triangles);
+  EXPECT_LT(pack.scene.meshes[0].normals[1].z, -0.999f);
+  scene_["meshes"][0]["material"] = "glass";
+  EXPECT_CONTAINS(error(), "taken as it is");
+  scene_["meshes"][0]["sheet"] = true;
+  EXPECT_EQ(error(), "");
 }
 
 }  // namespace

@@ -157,5 +157,42 @@ TEST(Prepare, BadOptionsAndNothingLeft) {
   EXPECT_TRUE(contains(errorOf([&] { prepare(file.path(), options, report); }), "weld tolerance"));
 }
 
+// A face without area, a copy of a face, a vertex that nothing uses, normals of any length.
+constexpr const char* kBadOnPurpose =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "property float nx\nproperty float ny\nproperty float nz\nelement face 3\n"
+    "property list uchar int vertex_indices\nend_header\n"
+    "0 0 0 0 0 2\n1 0 0 0 0 -1\n0 1 0 1 0 0\n9 9 9 0 3 4\n3 0 1 2\n3 0 1 2\n3 0 1 0\n";
+
+TEST(Prepare, AsItIsCleansNothing) {
+  const TemporaryFile file(".ply", kBadOnPurpose);
+  Options options;
+  options.asIs = true;
+  Report report;
+  const Mesh mesh = prepare(file.path(), options, report);
+  ASSERT_EQ(mesh.positions.size(), 4u);
+  ASSERT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(mesh.triangles[2], glm::uvec3(0, 1, 0));
+  EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, 1));
+  EXPECT_EQ(mesh.normals[1], glm::vec3(0, 0, -1));
+  EXPECT_EQ(mesh.normals[3], glm::vec3(0, 0.6f, 0.8f));
+  EXPECT_EQ(report.output.vertices, 4u);
+  EXPECT_EQ(report.output.triangles, 3u);
+  options.flat = true;
+  EXPECT_TRUE(prepare(file.path(), options, report).normals.empty());
+}
+
+TEST(Prepare, AsItIsNeedsNormals) {
+  Options options;
+  options.asIs = true;
+  Report report;
+  const TemporaryFile without(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_TRUE(contains(errorOf([&] { prepare(without.path(), options, report); }), "has no normals"));
+  std::string text = kBadOnPurpose;
+  text.replace(text.find("0 0 2\n"), 5, "0 0 0");
+  const TemporaryFile zero(".ply", text);
+  EXPECT_TRUE(contains(errorOf([&] { prepare(zero.path(), options, report); }), "vertex 0 has no length"));
+}
+
 }  // namespace
 }  // namespace malus::prep

@@ -28,7 +28,7 @@ TEST(Usage, HelpOfEveryCommand) {
   EXPECT_EQ(all.exitCode, 0);
   EXPECT_EQ(all.err, "");
   const std::vector<std::string> commands = listedCommands(all.out);
-  for (const char* command : {"prep", "bake", "info", "render", "compare-images"})
+  for (const char* command : {"prep", "bake", "info", "unpack", "render", "compare", "compare-images", "sweep"})
     EXPECT_NE(std::find(commands.begin(), commands.end(), command), commands.end()) << command << "\n" << all.out;
   for (const std::string& command : commands) {
     const Finished help = malus({command, "--help"});
@@ -77,7 +77,7 @@ TEST(Usage, MistakesEndWithTwo) {
       {"render", "a.pack", "-o", "a.exr", "--backend", "magic"},
       {"render", "a.pack", "-o", "a.exr", "--width", "0"},
       {"render", "a.pack", "-o", "a.exr", "--width", "wide"},
-      {"render", "a.pack", "-o", "a.exr", "--depth", "31"},
+      {"render", "a.pack", "-o", "a.exr", "--depth", "65"},
       {"render", "a.pack", "-o", "a.exr", "--region", "1", "2", "3"},
       {"render", "a.pack", "-o", "a.exr", "--polarizer", "nan"},
       {"render", "a.pack", "-o", "a.exr", "--polarizer", "inf"},

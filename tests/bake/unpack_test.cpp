@@ -1,0 +1,60 @@
+// A pack taken apart: the numbers of the files are those of the pack.
+#include "bake/unpack.h"
+
+#include "bake/image/image.h"
+#include "bake/pack/writer.h"
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/read/read_mesh.h"
+#include "tests/bake/fixtures.h"
+
+namespace malus::bake {
+namespace {
+
+using nlohmann::json;
+
+TEST(Unpack, WritesWhatThePackHolds) {
+  const test::TemporaryFolder folder;
+  const pack::Pack pack = pack::parse(pack::serialize(test::smallScene(), {}).bytes, "small");
+  const json document = unpack(pack, folder.path() / "out");
+  EXPECT_EQ(json::parse(readTextFile(folder.path() / "out/scene.json")), document);
+
+  const pack::Scene& scene = pack.scene;
+  EXPECT_EQ(document.at("origin"), json({1e5, -2, 3.25}));
+  EXPECT_EQ(document.at("camera").at("mediumEta"), 1.33);
+  EXPECT_EQ(document.at("lights").size(), 2u);
+  EXPECT_EQ(document.at("materials")[1].at("highlight").at("exponent"), 200);
+  EXPECT_TRUE(document.at("materials")[0].at("highlight").is_null());
+  EXPECT_EQ(document.at("environment").at("size"), 2);
+
+  const image::Image sky = image::read(folder.path() / "out/environment.exr");
+  ASSERT_EQ(sky.width, 4);
+  ASSERT_EQ(sky.height, 4);
+  for (std::size_t i = 0; i < scene.environment.texels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_EQ(sky.pixels[i * 3 + c], scene.environment.texels[i][static_cast<int>(c)]);
+
+  // The PLY files, read by the reader of meshes.
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const pack::Mesh& mesh = scene.meshes[i];
+    const json& entry = document.at("meshes")[i];
+    EXPECT_EQ(entry.at("material"), scene.materials[mesh.material].name);
+    const prep::Polygons read = prep::readMesh(folder.path() / "out" / entry.at("file").get<std::string>());
+    ASSERT_EQ(read.positions.size(), mesh.positions.size());
+    ASSERT_EQ(read.normals.size(), mesh.normals.size());
+    ASSERT_EQ(read.faceCount(), mesh.triangles.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) EXPECT_EQ(read.positions[v], glm::dvec3(mesh.positions[v]));
+    for (std::size_t v = 0; v < mesh.normals.size(); ++v) EXPECT_EQ(read.normals[v], mesh.normals[v]);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(read.face(t)[static_cast<std::size_t>(k)], mesh.triangles[t][k]);
+  }
+}
+
+TEST(Unpack, AFolderThatCannotBeIsNamed) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("taken", "");
+  const pack::Pack pack = pack::parse(pack::serialize(test::smallScene(), {}).bytes, "small");
+  EXPECT_CONTAINS(test::errorOf([&] { unpack(pack, file); }), "taken");
+}
+
+}  // namespace
+}  // namespace malus::bake

@@ -53,12 +53,12 @@ dmat4 turnMatrix(double cos2, double sin2) {
   return rows({1, 0, 0, 0, 0, cos2, sin2, 0, 0, -sin2, cos2, 0, 0, 0, 0, 1});
 }
 
-// From the canonical frame of a ray in direction d to the frame whose x is the s direction of normal n.
-dmat4 toSurface(const dvec3& d, const dvec3& n) {
+// From the canonical frame of a ray in direction d to the frame whose x is a surface's s direction.
+dmat4 toSurface(const dvec3& d, const dvec3& s) {
   dvec3 x, y;
   double cos2, sin2;
   f64::canonicalFrame(-d, x, y);
-  f64::sDirectionTurn(n, x, y, cos2, sin2);
+  f64::turnTo(s, x, y, cos2, sin2);
   return turnMatrix(cos2, sin2);
 }
 Light turned(const dmat4& turn, const Light& l) { return {turn * l[0], turn * l[1], turn * l[2]}; }
@@ -228,20 +228,21 @@ struct Tracer {
     }
     const Interface interface = interfaceOf(m, h.c, n1, n2);
     const dvec3 mirror = f64::mirrorDirection(d, h.normal, h.c);
+    const dvec3 s = f64::sDirection(d, h.normal);  // across all three rays
     directLight(h, depth, mirror, diffuse, highlight);
 
     // What leaves in the surface's frame: diffuse light through the interface, the mirror ray reflected, the
     // refracted ray transmitted; then back to the ray's own frame.
     Light toEye = glass ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
     if (depth > 0) {
-      const Light arriving = turned(toSurface(mirror, h.normal), trace(h.position, queryAbove(h), mirror, depth - 1));
+      const Light arriving = turned(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1));
       toEye = toEye + interface.reflection * (arriving + unpolarized(highlight));
       if (glass && !f64::refractionTerms(h.c, n1, n2).total) {
-        const Light below = turned(toSurface(through, h.normal), trace(h.position, queryBelow(h), through, depth - 1));
+        const Light below = turned(toSurface(through, s), trace(h.position, queryBelow(h), through, depth - 1));
         toEye = toEye + interface.transmission * below;
       }
     }
-    return turned(glm::transpose(toSurface(d, h.normal)), toEye);
+    return turned(glm::transpose(toSurface(d, s)), toEye);
   }
 };
 
@@ -277,7 +278,8 @@ render::Picture render(const pack::Scene& scene, const render::View& view, unsig
           const double py = (view.region.y + y + (j + 0.5) / view.samples) / view.height;
           const dvec3 d = f64::cameraDirection(camera.right, camera.up, camera.forward, tanX, tanY, px, py);
           // The camera's frame of this ray: x across d and up, the s direction of a surface with normal up.
-          sum = sum + turned(toSurface(d, camera.up), tracer.trace(camera.position, camera.position, d, view.depth));
+          sum = sum + turned(toSurface(d, f64::sDirection(d, camera.up)),
+                             tracer.trace(camera.position, camera.position, d, view.depth));
         }
       float* out = picture.pixels.data() + (std::size_t{y} * view.region.width + x) * picture.channels;
       const double scale = toRadiance / (static_cast<double>(view.samples) * view.samples);

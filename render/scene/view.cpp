@@ -42,9 +42,10 @@ CarriedLight probe() {
   const real3 glassNormal = glm::normalize(side * 1.5f - toGlass);
   const auto glass = M::dielectricFactors(-glm::dot(toGlass, glassNormal), 1.0f, 1.5f);
   const auto metal = M::conductorFactors(metalNormal.z, 1.0f, real3(0.2f), real3(3.0f));
-  const auto fromGlass = M::payloadSend(M::lightReflect(glass, M::lightUnpolarized(real3(1))), toGlass, glassNormal);
+  const real3 glassS = M::surfaceS(toGlass, glassNormal), metalS = M::surfaceS(toMetal, metalNormal);
+  const auto fromGlass = M::payloadSend(M::lightReflect(glass, M::lightUnpolarized(real3(1))), toGlass, glassS);
   const auto fromMetal =
-      M::payloadSend(M::lightReflect(metal, M::lightReceive(fromGlass, toGlass, metalNormal)), toMetal, metalNormal);
+      M::payloadSend(M::lightReflect(metal, M::lightReceive(fromGlass, toGlass, metalS)), toMetal, metalS);
   const f32::Stokes seen = M::payloadStokes(fromMetal, toMetal);
   const auto some = [&](const real3& v) { return std::abs(v.x) > 1e-2f * seen.s0.x; };
   return {some(seen.s1) || some(seen.s2), some(seen.s3)};

@@ -4,6 +4,9 @@
 FN real payloadDepth(Payload p) { return p.colour.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.colour.x = depth; }
 
+// No direction across the ray means anything.
+FN real3 surfaceS(real3 d, real3 n) { return n; }
+
 FN Payload payloadSource(real3 radiance) {
   Payload p;
   p.colour = radiance;
@@ -21,12 +24,12 @@ FN Light lightAdd(Light a, Light b) {
   l.colour = a.colour + b.colour;
   return l;
 }
-FN Light lightReceive(Payload p, real3 d, real3 n) {
+FN Light lightReceive(Payload p, real3 d, real3 s) {
   Light l;
   l.colour = p.colour;
   return l;
 }
-FN Payload payloadSend(Light l, real3 d, real3 n) {
+FN Payload payloadSend(Light l, real3 d, real3 s) {
   Payload p;
   p.colour = l.colour;
   return p;

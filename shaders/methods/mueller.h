@@ -59,22 +59,24 @@ FN Light lightTransmit(Factors f, Light l) {
 }
 FN Light lightLeave(Factors f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
 
-// From the canonical frame of a ray in direction d to the frame of a surface with normal n, and back.
-FN Stokes stokesToSurface(Stokes a, real3 d, real3 n) {
+FN real3 surfaceS(real3 d, real3 n) { return sDirection(d, n); }
+
+// From the canonical frame of a ray in direction d to the frame of a surface with s direction s, and back.
+FN Stokes stokesToSurface(Stokes a, real3 d, real3 s) {
   real3 x;
   real3 y;
   real cos2;
   real sin2;
   canonicalFrame(d * R(-1.0), x, y);
-  sDirectionTurn(n, x, y, cos2, sin2);
+  turnTo(s, x, y, cos2, sin2);
   return stokesTurn(a, cos2, sin2);
 }
-FN Stokes stokesFromSurface(Stokes a, real3 d, real3 n) {
+FN Stokes stokesFromSurface(Stokes a, real3 d, real3 s) {
   real3 x;
   real3 y;
   real cos2;
   real sin2;
   canonicalFrame(d * R(-1.0), x, y);
-  sDirectionTurn(n, x, y, cos2, sin2);
+  turnTo(s, x, y, cos2, sin2);
   return stokesTurn(a, cos2, R(0.0) - sin2);
 }

@@ -57,21 +57,7 @@ FN Light lightTransmit(Factors f, Light l) {
 }
 FN Light lightLeave(Factors f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
 
-// Unit s direction of a surface with normal n, for a ray in direction d; the canonical x where the plane
-// of incidence does not exist.
-FN real3 sDirection(real3 d, real3 n) {
-  real3 x;
-  real3 y;
-  canonicalFrame(d * R(-1.0), x, y);
-  real nx = dot3(n, x);
-  real ny = dot3(n, y);
-  real sum = nx * nx + ny * ny;
-  mask none = equalR(sum, R(0.0));
-  real inverse = R(1.0) / sqrtR(selectR(none, R(1.0), sum));
-  real a = selectR(none, R(1.0), R(0.0) - ny * inverse);
-  real b = selectR(none, R(0.0), nx * inverse);
-  return x * a + y * b;
-}
+FN real3 surfaceS(real3 d, real3 n) { return sDirection(d, n); }
 
 // Stokes vector, in the canonical frame, of powers along a unit direction s across the ray and across s.
 // s = 0 stands for light without a direction, whose powers are equal.

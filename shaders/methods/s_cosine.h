@@ -1,10 +1,9 @@
 // The s direction as one cosine (methods `sp-cosine` and `sp-ratio`).
 
-FN real cosineFromS(real3 d, real3 n) {
+FN real cosineFromS(real3 d, real3 s) {
   real3 x;
   real3 y;
   canonicalFrame(d * R(-1.0), x, y);
-  real3 s = sDirection(d, n);
   real c = dot3(s, x);
   return selectR(lessR(dot3(s, y), R(0.0)), R(0.0) - c, c);
 }
@@ -19,8 +18,7 @@ FN real3 sFromCosine(real cosine, real3 d) {
   return select3(none, splat3(R(0.0)), x * c + y * s);
 }
 // The paper's absolute-cosine rule.
-FN Light receivePowers(real3 inS, real3 inP, real cosine, real3 d, real3 n) {
-  real3 s = sDirection(d, n);
+FN Light receivePowers(real3 inS, real3 inP, real cosine, real3 d, real3 s) {
   real3 sIn = sFromCosine(cosine, d);
   mask none = lessR(R(1.5), cosine);
   real a = selectR(none, R(1.0), absR(dot3(s, sIn)));

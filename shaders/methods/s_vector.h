@@ -21,10 +21,10 @@ FN Payload payloadSource(real3 radiance) {
 }
 FN Stokes payloadStokes(Payload p, real3 d) { return stokesOfPowers(p.s, p.p, p.sDir, d); }
 
-FN Payload payloadSend(Light l, real3 d, real3 n) {
+FN Payload payloadSend(Light l, real3 d, real3 s) {
   Payload p;
   p.s = l.s;
   p.p = l.p;
-  p.sDir = sDirection(d, n);
+  p.sDir = s;
   return p;
 }

@@ -6,8 +6,7 @@
 #include "shaders/methods/powers.h"
 #include "shaders/methods/s_vector.h"
 
-FN Light lightReceive(Payload p, real3 d, real3 n) {
-  real3 s = sDirection(d, n);
+FN Light lightReceive(Payload p, real3 d, real3 s) {
   real along = absR(dot3(s, p.sDir));
   real across = absR(dot3(s, cross3(d, p.sDir)));
   mask none = equalR(dot3(p.sDir, p.sDir), R(0.0));

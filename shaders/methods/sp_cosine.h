@@ -28,12 +28,12 @@ FN Payload payloadSource(real3 radiance) {
 }
 FN Stokes payloadStokes(Payload p, real3 d) { return stokesOfPowers(p.s, p.p, sFromCosine(p.cosine, d), d); }
 
-FN Light lightReceive(Payload p, real3 d, real3 n) { return receivePowers(p.s, p.p, p.cosine, d, n); }
+FN Light lightReceive(Payload p, real3 d, real3 s) { return receivePowers(p.s, p.p, p.cosine, d, s); }
 
-FN Payload payloadSend(Light l, real3 d, real3 n) {
+FN Payload payloadSend(Light l, real3 d, real3 s) {
   Payload p;
   p.s = l.s;
   p.p = l.p;
-  p.cosine = cosineFromS(d, n);
+  p.cosine = cosineFromS(d, s);
   return p;
 }

@@ -29,14 +29,14 @@ FN Payload payloadSource(real3 radiance) {
 }
 FN Stokes payloadStokes(Payload p, real3 d) { return stokesOfPowers(p.s, p.s * p.ratio, sFromCosine(p.cosine, d), d); }
 
-FN Light lightReceive(Payload p, real3 d, real3 n) { return receivePowers(p.s, p.s * p.ratio, p.cosine, d, n); }
+FN Light lightReceive(Payload p, real3 d, real3 s) { return receivePowers(p.s, p.s * p.ratio, p.cosine, d, s); }
 
-FN Payload payloadSend(Light l, real3 d, real3 n) {
+FN Payload payloadSend(Light l, real3 d, real3 s) {
   real sumS = l.s.x + l.s.y + l.s.z;
   real sumP = l.p.x + l.p.y + l.p.z;
   mask dark = lessEqualR(sumS, sumP * R(1e-20));
   // A direction at 90 degrees to (c, +sqrt(1 - c^2)), its y not negative: (-sign(c) sqrt(1 - c^2), |c|).
-  real c = cosineFromS(d, n);
+  real c = cosineFromS(d, s);
   real across = R(0.0) - signNotZero(c) * sqrtR(maxR((R(1.0) - c) * (R(1.0) + c), R(0.0)));
   Payload p;
   p.s = select3(dark, l.p, l.s);

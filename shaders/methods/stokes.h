@@ -19,13 +19,13 @@ FN Payload payloadSource(real3 radiance) {
 }
 FN Stokes payloadStokes(Payload p, real3 d) { return p.stokes; }
 
-FN Light lightReceive(Payload p, real3 d, real3 n) {
+FN Light lightReceive(Payload p, real3 d, real3 s) {
   Light l;
-  l.stokes = stokesToSurface(p.stokes, d, n);
+  l.stokes = stokesToSurface(p.stokes, d, s);
   return l;
 }
-FN Payload payloadSend(Light l, real3 d, real3 n) {
+FN Payload payloadSend(Light l, real3 d, real3 s) {
   Payload p;
-  p.stokes = stokesFromSurface(l.stokes, d, n);
+  p.stokes = stokesFromSurface(l.stokes, d, s);
   return p;
 }

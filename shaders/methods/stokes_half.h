@@ -59,9 +59,9 @@ FN Stokes unpackStokes(Payload p) {
 FN Payload payloadSource(real3 radiance) { return packStokes(stokesUnpolarized(radiance)); }
 FN Stokes payloadStokes(Payload p, real3 d) { return unpackStokes(p); }
 
-FN Light lightReceive(Payload p, real3 d, real3 n) {
+FN Light lightReceive(Payload p, real3 d, real3 s) {
   Light l;
-  l.stokes = stokesToSurface(unpackStokes(p), d, n);
+  l.stokes = stokesToSurface(unpackStokes(p), d, s);
   return l;
 }
-FN Payload payloadSend(Light l, real3 d, real3 n) { return packStokes(stokesFromSurface(l.stokes, d, n)); }
+FN Payload payloadSend(Light l, real3 d, real3 s) { return packStokes(stokesFromSurface(l.stokes, d, s)); }

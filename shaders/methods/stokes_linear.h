@@ -31,16 +31,16 @@ FN Stokes payloadStokes(Payload p, real3 d) {
   return s;
 }
 
-FN Light lightReceive(Payload p, real3 d, real3 n) {
+FN Light lightReceive(Payload p, real3 d, real3 s) {
   Light l;
-  l.stokes = stokesToSurface(payloadStokes(p, d), d, n);
+  l.stokes = stokesToSurface(payloadStokes(p, d), d, s);
   return l;
 }
-FN Payload payloadSend(Light l, real3 d, real3 n) {
-  Stokes s = stokesFromSurface(l.stokes, d, n);
+FN Payload payloadSend(Light l, real3 d, real3 s) {
+  Stokes sent = stokesFromSurface(l.stokes, d, s);
   Payload p;
-  p.s0 = s.s0;
-  p.s1 = s.s1;
-  p.s2 = s.s2;
+  p.s0 = sent.s0;
+  p.s1 = sent.s1;
+  p.s2 = sent.s2;
   return p;
 }

@@ -9,8 +9,8 @@ FN void cameraFrameTurn(real3 d, real3 up, OUT(real) cos2, OUT(real) sin2) {
   real3 x;
   real3 y;
   canonicalFrame(d * R(-1.0), x, y);
-  // Components of up across the ray take the part of a normal: x of the camera is perpendicular to both.
-  sDirectionTurn(up, x, y, cos2, sin2);
+  // Up takes the part of a normal: the camera's x is perpendicular to it and to the ray.
+  turnTo(sDirection(d, up), x, y, cos2, sin2);
 }
 
 // Intensity behind an analyser with row (a0, a1, a2, a3) of its Mueller matrix.

@@ -12,12 +12,13 @@ FN Payload shadeGlass(Hit h, Material m) {
   }
   Factors f = dielectricFactors(h.c, n1, n2);
   real3 mirror = mirrorDirection(h.d, h.normal, h.c);
-  Light arriving = lightReceive(traceRay(originAbove(h), mirror, h.depth - R(1.0)), mirror, h.normal);
+  real3 s = surfaceS(h.d, h.normal);
+  Light arriving = lightReceive(traceRay(originAbove(h), mirror, h.depth - R(1.0)), mirror, s);
   arriving = lightAdd(arriving, lightUnpolarized(directLight(h, m, mirror).highlight));
   Light toEye = lightReflect(f, arriving);
   if (!refractionTerms(h.c, n1, n2).total) {
-    Light below = lightReceive(traceRay(originBelow(h), through, h.depth - R(1.0)), through, h.normal);
+    Light below = lightReceive(traceRay(originBelow(h), through, h.depth - R(1.0)), through, s);
     toEye = lightAdd(toEye, lightTransmit(f, below));
   }
-  return payloadSend(toEye, h.d, h.normal);
+  return payloadSend(toEye, h.d, s);
 }

@@ -4,10 +4,11 @@ FN Payload shadeOpaque(Hit h, Material m, Factors f) {
   real3 mirror = mirrorDirection(h.d, h.normal, h.c);
   DirectLight direct = directLight(h, m, mirror);
   Light toEye = lightLeave(f, direct.diffuse);
+  real3 s = surfaceS(h.d, h.normal);
   if (h.depth > R(0.5)) {
-    Light arriving = lightReceive(traceRay(originAbove(h), mirror, h.depth - R(1.0)), mirror, h.normal);
+    Light arriving = lightReceive(traceRay(originAbove(h), mirror, h.depth - R(1.0)), mirror, s);
     arriving = lightAdd(arriving, lightUnpolarized(direct.highlight));
     toEye = lightAdd(toEye, lightReflect(f, arriving));
   }
-  return payloadSend(toEye, h.d, h.normal);
+  return payloadSend(toEye, h.d, s);
 }

@@ -57,21 +57,49 @@ TYPED_TEST(FramesTest, BothZerosGiveTheSameFrame) {
   }
 }
 
+TYPED_TEST(FramesTest, SIsAcrossTheRayAndTheNormal) {
+  MALUS_TYPES;
+  Draw draw(4);
+  Worst worst("s", double(kEps));
+  for (int i = 0; i < 5000; ++i) {
+    const real3 d = toReal3<O>(draw.direction());
+    // From grazing down to normal incidence and past the last bit.
+    const real3 n =
+        toReal3<O>(oracle::unit(oracle::along(toVec(d), -1, draw.direction(), std::pow(10.0L, -draw.between(-1, 20)))));
+    const real3 s = O::sDirection(d, n);
+    const real3 mirror = O::mirrorDirection(d, n, O::clampUnit(-O::dot3(d, n)));
+    worst.add(oracle::dot(toVec(s), toVec(s)) - 1);
+    for (const real3& across : {d, n, mirror}) worst.add(oracle::dot(toVec(s), toVec(across)));
+  }
+  // Each component across carries four roundings; the mirror ray has twice the normal's error and its own.
+  EXPECT_LT(worst.value(), 12);
+}
+
+TYPED_TEST(FramesTest, SIsPerpendicularToThePlaneOfIncidence) {
+  MALUS_TYPES;
+  Draw draw(5);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec d = draw.direction(), n = draw.direction(), across = oracle::cross(d, n);
+    const Real sine = std::sqrt(oracle::dot(across, across));
+    if (sine < 1e-3L) continue;
+    const Vec s = toVec(O::sDirection(toReal3<O>(d), toReal3<O>(n)));
+    // The rounding of d and n turns the plane by eps over the sine. The sign of s means nothing.
+    EXPECT_CLOSE(std::abs(oracle::dot(s, across)) / sine, 1, 8 * kEps) << i;
+    const Vec off = oracle::cross(s, across);
+    EXPECT_CLOSE(std::sqrt(oracle::dot(off, off)) / sine, 0, 8 * kEps / sine) << i;
+  }
+}
+
 TYPED_TEST(FramesTest, TurnEqualsTheExplicitAngle) {
   MALUS_TYPES;
-  // A normal at angle a to the frame's x, tilted to the ray: s is perpendicular to it, at a + 90 degrees.
   const real3 x = O::make3(1, 0, 0), y = O::make3(0, 1, 0);
-  for (int degree = 0; degree < 360; degree += 5)
-    for (const double sine : {1.0, 0.5, 1e-3, 1e-10}) {
-      const Real a = degree * std::acos(Real(-1)) / 180, f = a + std::acos(Real(-1)) / 2;
-      const real3 n =
-          O::make3(R(sine * std::cos(a)), R(sine * std::sin(a)), R(std::sqrt((1 - sine) * (1 + Real(sine)))));
-      real cos2, sin2;
-      O::sDirectionTurn(n, x, y, cos2, sin2);
-      // The components of n carry the rounding of their own: absolute.
-      EXPECT_CLOSE(cos2, std::cos(2 * f), 4 * kEps) << degree;
-      EXPECT_CLOSE(sin2, std::sin(2 * f), 4 * kEps) << degree;
-    }
+  for (int degree = 0; degree < 360; degree += 5) {
+    const Real f = degree * std::acos(Real(-1)) / 180;
+    real cos2, sin2;
+    O::turnTo(O::make3(R(std::cos(f)), R(std::sin(f)), 0), x, y, cos2, sin2);
+    EXPECT_CLOSE(cos2, std::cos(2 * f), 4 * kEps) << degree;
+    EXPECT_CLOSE(sin2, std::sin(2 * f), 4 * kEps) << degree;
+  }
 }
 
 TYPED_TEST(FramesTest, TurnIsUnitAndNeverNan) {
@@ -79,41 +107,31 @@ TYPED_TEST(FramesTest, TurnIsUnitAndNeverNan) {
   Draw draw(4);
   for (int i = 0; i < 5000; ++i) {
     real3 x, y;
-    const Vec z = draw.direction();
-    O::canonicalFrame(toReal3<O>(z), x, y);
-    // From grazing down to normal incidence.
-    const Vec n = oracle::unit(oracle::along(z, 1, draw.direction(), std::pow(10.0L, -draw.between(-1, 20))));
+    const real3 d = toReal3<O>(draw.direction());
+    O::canonicalFrame(d * real(-1), x, y);
+    // Whether s lies across the ray or not.
+    const real3 s = i % 2 == 0 ? toReal3<O>(draw.direction()) : d;
     real cos2, sin2;
-    O::sDirectionTurn(toReal3<O>(n), x, y, cos2, sin2);
+    O::turnTo(s, x, y, cos2, sin2);
     EXPECT_CLOSE(Real(cos2) * cos2 + Real(sin2) * sin2, 1, 6 * kEps);
   }
 }
 
-TYPED_TEST(FramesTest, NoTurnWherePlaneOfIncidenceDoesNotExist) {
+TYPED_TEST(FramesTest, XIsTakenWhereThePlaneOfIncidenceDoesNotExist) {
   MALUS_TYPES;
-  real cos2 = 5, sin2 = 5;
-  O::sDirectionTurn(O::make3(0, 0, 1), O::make3(1, 0, 0), O::make3(0, 1, 0), cos2, sin2);
-  EXPECT_EQ(cos2, 1);
-  EXPECT_EQ(sin2, 0);
-  // So little that its square vanishes counts as none.
-  const real tiny = std::numeric_limits<real>::min();
-  O::sDirectionTurn(O::make3(tiny, tiny, 1), O::make3(1, 0, 0), O::make3(0, 1, 0), cos2, sin2);
-  EXPECT_EQ(cos2, 1);
-  EXPECT_EQ(sin2, 0);
+  const real3 d = O::make3(0, 0, -1), x = O::make3(1, 0, 0);
+  EXPECT_EQ(O::sDirection(d, O::make3(0, 0, 1)), x);
+  // So little that its square has lost its bits counts as none.
+  for (const real tiny : {std::numeric_limits<real>::min(), std::numeric_limits<real>::denorm_min(), R(1e-16L)})
+    EXPECT_EQ(O::sDirection(d, O::make3(tiny, tiny, 1)), x);
 }
 
 TYPED_TEST(FramesTest, SignOfTheNormalDoesNotMatter) {
   MALUS_TYPES;
   Draw draw(5);
   for (int i = 0; i < 100; ++i) {
-    real3 x, y;
-    O::canonicalFrame(toReal3<O>(draw.direction()), x, y);
-    const real3 n = toReal3<O>(draw.direction());
-    real c0, s0, c1, s1;
-    O::sDirectionTurn(n, x, y, c0, s0);
-    O::sDirectionTurn(n * real(-1), x, y, c1, s1);
-    EXPECT_EQ(c0, c1);
-    EXPECT_EQ(s0, s1);
+    const real3 d = toReal3<O>(draw.direction()), n = toReal3<O>(draw.direction());
+    EXPECT_EQ(O::sDirection(d, n), O::sDirection(d, n * real(-1)) * real(-1));
   }
 }
 

@@ -152,11 +152,12 @@ void compareOptics() {
     expectSame<S>(y, y0, y1, "canonicalFrame y");
     real u0, v0, u1, v1;
     Lane u, v;
-    F::sDirectionTurn(n0, x0, y0, u0, v0);
-    F::sDirectionTurn(n1, x1, y1, u1, v1);
-    L::sDirectionTurn(n, x, y, u, v);
-    expectSame<S>(u, u0, u1, "sDirectionTurn cos");
-    expectSame<S>(v, v0, v1, "sDirectionTurn sin");
+    F::turnTo(n0, x0, y0, u0, v0);
+    F::turnTo(n1, x1, y1, u1, v1);
+    L::turnTo(n, x, y, u, v);
+    expectSame<S>(u, u0, u1, "turnTo cos");
+    expectSame<S>(v, v0, v1, "turnTo sin");
+    expectSame<S>(L::sDirection(a, n), F::sDirection(a0, n0), F::sDirection(a1, n1), "sDirection");
     F::octahedralFromDirection(a0, u0, v0);
     F::octahedralFromDirection(a1, u1, v1);
     L::octahedralFromDirection(a, u, v);
@@ -186,6 +187,7 @@ void compareMethod() {
   MALUS_SAME(payloadSource)
   MALUS_SAME(payloadStokes)
   MALUS_SAME(payloadSend)
+  MALUS_SAME(surfaceS)
   MALUS_SAME(lightUnpolarized)
   MALUS_SAME(lightAdd)
   MALUS_SAME(lightReceive)

@@ -47,8 +47,9 @@ typename M::Payload trace(const Path& path, real3 radiance = splat3(1)) {
     }
     const real c = clampUnit(-dot3(d, n)), n1 = static_cast<float>(b.n1);
     const auto f = b.metal ? M::conductorFactors(c, n1, n2, k2) : M::dielectricFactors(c, n1, n2.y);
-    const auto arriving = M::lightReceive(p, next, n);
-    p = M::payloadSend(b.transmits ? M::lightTransmit(f, arriving) : M::lightReflect(f, arriving), d, n);
+    const real3 s = M::surfaceS(d, n);
+    const auto arriving = M::lightReceive(p, next, s);
+    p = M::payloadSend(b.transmits ? M::lightTransmit(f, arriving) : M::lightReflect(f, arriving), d, s);
   }
   return p;
 }
@@ -116,7 +117,8 @@ TYPED_TEST(MethodTest, SourcesAreUnpolarizedAndKeepTheirRadiance) {
     const auto p = TypeParam::payloadSource(radiance);
     EXPECT_LE(difference(TypeParam::payloadStokes(p, d), stokesUnpolarized(radiance)), 3 * packingLoss<TypeParam>());
     // Received by a surface and sent on unchanged it is still all there.
-    const auto sent = TypeParam::payloadSend(TypeParam::lightReceive(p, d, n), d, n);
+    const real3 s = TypeParam::surfaceS(d, n);
+    const auto sent = TypeParam::payloadSend(TypeParam::lightReceive(p, d, s), d, s);
     EXPECT_LT(difference(TypeParam::payloadStokes(sent, d), stokesUnpolarized(radiance)),
               3 * (4 * kEps + 2 * packingLoss<TypeParam>()));
   }
@@ -127,11 +129,12 @@ TYPED_TEST(MethodTest, LightSumsAndLeaves) {
   const real3 d = toReal3<F32>(draw.direction()), n = toReal3<F32>(draw.direction());
   const auto sum = TypeParam::lightAdd(TypeParam::lightUnpolarized(make3(1, 2, 3)),
                                        TypeParam::lightUnpolarized(make3(0.5f, 0.25f, 1)));
-  const Stokes s = TypeParam::payloadStokes(TypeParam::payloadSend(sum, d, n), d);
+  const Stokes s = TypeParam::payloadStokes(TypeParam::payloadSend(sum, d, TypeParam::surfaceS(d, n)), d);
   EXPECT_LT(difference(s, stokesUnpolarized(make3(1.5f, 2.25f, 4))), 4 * (4 * kEps + packingLoss<TypeParam>()));
   // Light from below an interface has its mean transmittance.
   const auto f = TypeParam::dielectricFactors(0.3f, 1, 1.5f);
-  const Stokes left = TypeParam::payloadStokes(TypeParam::payloadSend(TypeParam::lightLeave(f, splat3(1)), d, n), d);
+  const Stokes left = TypeParam::payloadStokes(
+      TypeParam::payloadSend(TypeParam::lightLeave(f, splat3(1)), d, TypeParam::surfaceS(d, n)), d);
   EXPECT_NEAR(left.s0.y, TypeParam::meanTransmittance(f).y, 2 * kEps + packingLoss<TypeParam>());
 }
 
@@ -188,7 +191,7 @@ TYPED_TEST(MethodTest, NothingIsEverNanOrNegative) {
         draw.below(2) == 0 ? M::dielectricFactors(c, 1, 1.5f) : M::conductorFactors(c, 1, splat3(0.2f), splat3(3));
     auto p = M::payloadSource(draw.below(8) == 0 ? splat3(0) : make3(1, 0, 1e30f));
     for (int bounce = 0; bounce < 3; ++bounce)
-      p = M::payloadSend(M::lightReflect(f, M::lightReceive(p, next, n)), d, n);
+      p = M::payloadSend(M::lightReflect(f, M::lightReceive(p, next, M::surfaceS(d, n))), d, M::surfaceS(d, n));
     const Stokes s = M::payloadStokes(p, d);
     for (int colour = 0; colour < 3; ++colour) {
       for (const oracle::Real v : stokes4(s, colour)) ASSERT_TRUE(std::isfinite(static_cast<float>(v)));
@@ -321,8 +324,8 @@ TEST(MethodsTest, CosineKeepsTheDirectionButForItsRounding) {
   for (int i = 0; i < 20000; ++i) {
     const Vec d = draw.direction();
     const real3 along = toReal3<F32>(d), n = toReal3<F32>(normalAt(draw, d, 0.5L));
-    const real3 s = Method_sp::sDirection(along, n);
-    const real3 kept = Method_sp_cosine::sFromCosine(Method_sp_cosine::cosineFromS(along, n), along);
+    const real3 s = sDirection(along, n);
+    const real3 kept = Method_sp_cosine::sFromCosine(Method_sp_cosine::cosineFromS(along, s), along);
     worst.add(oracle::dot(oracle::cross(toVec(s), toVec(kept)), d));
   }
   EXPECT_LT(worst.value(), 7e-4);  // one step of a cosine at 1 is 3.5e-4 rad; s is off by another
@@ -349,19 +352,19 @@ TEST(MethodsTest, RatioKeepsLightWithoutS) {
   using M = Method_sp_ratio;
   for (int i = 0; i < 500; ++i) {
     const Vec d = draw.direction();
-    const real3 along = toReal3<F32>(d), n = toReal3<F32>(normalAt(draw, d, 0.5L));
+    const real3 along = toReal3<F32>(d), s = sDirection(along, toReal3<F32>(normalAt(draw, d, 0.5L)));
     M::Light light = M::lightUnpolarized(splat3(0));
     light.p = make3(0.1f, 0.2f, 0.3f);
-    const auto p = M::payloadSend(light, along, n);
+    const auto p = M::payloadSend(light, along, s);
     EXPECT_EQ(p.ratio, 0);
     // Fully polarized along p, in its own colours; as `sp` says without loss.
     Method_sp::Light same{light.s, light.p};
     const Stokes got = M::payloadStokes(p, along);
-    const Stokes want = Method_sp::payloadStokes(Method_sp::payloadSend(same, along, n), along);
+    const Stokes want = Method_sp::payloadStokes(Method_sp::payloadSend(same, along, s), along);
     EXPECT_LT(difference(got, want), 0.3 * 2 * 7e-4);
     EXPECT_EQ(got.s0, light.p);
     // And none of it is lost at the next surface with the same s.
-    const auto received = M::lightReceive(p, along, n);
+    const auto received = M::lightReceive(p, along, s);
     EXPECT_NEAR(received.p.y, 0.2f, 1e-5);
     EXPECT_NEAR(received.s.y, 0, 2e-4);
   }
@@ -370,15 +373,15 @@ TEST(MethodsTest, RatioKeepsLightWithoutS) {
 }
 
 TEST(MethodsTest, MissesCountAsHalfEach) {
-  const real3 d = make3(0, 0.6f, 0.8f), n = make3(0, 0, -1);
+  const real3 d = make3(0, 0.6f, 0.8f), s = make3(1, 0, 0);
   const auto expectHalves = [&](const auto& light) {
     EXPECT_EQ(light.s, splat3(0.5f));
     EXPECT_EQ(light.p, splat3(0.5f));
   };
-  expectHalves(Method_sp::lightReceive(Method_sp::payloadSource(splat3(1)), d, n));
-  expectHalves(Method_sp_malus::lightReceive(Method_sp_malus::payloadSource(splat3(1)), d, n));
-  expectHalves(Method_sp_cosine::lightReceive(Method_sp_cosine::payloadSource(splat3(1)), d, n));
-  expectHalves(Method_sp_ratio::lightReceive(Method_sp_ratio::payloadSource(splat3(1)), d, n));
+  expectHalves(Method_sp::lightReceive(Method_sp::payloadSource(splat3(1)), d, s));
+  expectHalves(Method_sp_malus::lightReceive(Method_sp_malus::payloadSource(splat3(1)), d, s));
+  expectHalves(Method_sp_cosine::lightReceive(Method_sp_cosine::payloadSource(splat3(1)), d, s));
+  expectHalves(Method_sp_ratio::lightReceive(Method_sp_ratio::payloadSource(splat3(1)), d, s));
 }
 
 }  // namespace

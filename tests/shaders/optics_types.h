@@ -47,7 +47,8 @@ namespace malus::test {
     MALUS_FORWARD(space, mirrorDirection)              \
     MALUS_FORWARD(space, refractedDirection)           \
     MALUS_FORWARD(space, canonicalFrame)               \
-    MALUS_FORWARD(space, sDirectionTurn)               \
+    MALUS_FORWARD(space, sDirection)                   \
+    MALUS_FORWARD(space, turnTo)                       \
     MALUS_FORWARD(space, stokesUnpolarized)            \
     MALUS_FORWARD(space, stokesAdd)                    \
     MALUS_FORWARD(space, stokesTurn)                   \

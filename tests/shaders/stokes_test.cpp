@@ -26,14 +26,15 @@ Stokes4 randomStokes(Draw& draw, Real degree) {
   return {1, degree * p[0], degree * p[1], degree * p[2]};
 }
 
-// Light of the ray with direction d, between its canonical frame and the frame of a surface with normal n.
+// Light of the ray with direction d, between its canonical frame and the frame of a surface with s direction
+// `across`.
 template <class O, class S, class V>
-S turned(const S& s, const V& d, const V& n, bool toSurface) {
+S turned(const S& s, const V& d, const V& across, bool toSurface) {
   using real = typename O::real;
   V x, y;
   real cos2, sin2;
   O::canonicalFrame(d * real(-1), x, y);
-  O::sDirectionTurn(n, x, y, cos2, sin2);
+  O::turnTo(across, x, y, cos2, sin2);
   return O::stokesTurn(s, cos2, toSurface ? sin2 : -sin2);
 }
 // The optics along a path, back to the eye, in the canonical frame of its first ray.
@@ -45,7 +46,8 @@ typename O::Stokes along(const Path& path, typename O::Stokes s) {
     const Bounce& b = path.bounces[i];
     const auto n = toReal3<O>(b.n), d = toReal3<O>(path.d[i]);
     const real c = O::clampUnit(-O::dot3(d, n)), n1 = static_cast<real>(b.n1);
-    s = turned<O>(s, toReal3<O>(path.d[i + 1]), n, true);
+    const auto across = O::sDirection(d, n);
+    s = turned<O>(s, toReal3<O>(path.d[i + 1]), across, true);
     if (b.transmits) {
       const auto t = O::dielectricTransmittance(c, n1, static_cast<real>(b.n2[0].real()));
       s = O::stokesInterface(s, one * t.ts, one * t.tp, one * t.x, zero);
@@ -62,7 +64,7 @@ typename O::Stokes along(const Path& path, typename O::Stokes s) {
       }
       s = O::stokesInterface(s, rs, rp, xRe, xIm);
     }
-    s = turned<O>(s, d, n, false);
+    s = turned<O>(s, d, across, false);
   }
   return s;
 }
@@ -216,9 +218,10 @@ TYPED_TEST(StokesTest, LoopOfMirrorsIsTheProductOfHalfTurns) {
       for (std::size_t j = 0; j < 3; ++j) e[j] = Real(2) * n[j] * en - e[j];
       // Here the light itself is followed: its direction is the axis, that of an eye ray the opposite.
       const auto eyeIn = toReal3<O>(axes[i]) * real(-1), eyeOut = toReal3<O>(axes[i + 1]) * real(-1);
-      s = turned<O>(s, eyeIn, toReal3<O>(n), true);
+      const auto across = O::sDirection(eyeIn, toReal3<O>(n));
+      s = turned<O>(s, eyeIn, across, true);
       s = O::stokesInterface(s, O::splat3(1), O::splat3(1), O::splat3(-1), O::splat3(0));
-      s = turned<O>(s, eyeOut, toReal3<O>(n), false);
+      s = turned<O>(s, eyeOut, across, false);
     }
     const Stokes4 want = oracle::stokesOf(e[0], e[1]), got = toStokes4(s, 0);
     EXPECT_LT(std::abs(e[2]), 1e-15L);

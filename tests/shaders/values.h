@@ -27,6 +27,7 @@ struct Values {
   real3 refracted;
   real3 x;
   real3 y;
+  real3 s;
   real turnCos;
   real turnSin;
   real cameraCos;
@@ -65,7 +66,8 @@ FN Values valuesOf(Given g) {
   r.mirror = mirrorDirection(g.d, g.n, c);
   r.refracted = refractedDirection(g.d, g.n, c, g.n1, g.n2);
   canonicalFrame(g.d, r.x, r.y);
-  sDirectionTurn(g.n, r.x, r.y, r.turnCos, r.turnSin);
+  r.s = sDirection(g.d, g.n);
+  turnTo(r.s, r.x, r.y, r.turnCos, r.turnSin);
   cameraFrameTurn(g.d, g.n, r.cameraCos, r.cameraSin);
   Stokes light;
   light.s0 = g.radiance;

@@ -1,1 +1,1 @@
-"""Generators of the three scenes under scenes/. Python's standard library only."""
+"""Generators of the scenes under scenes/. Python's standard library only."""

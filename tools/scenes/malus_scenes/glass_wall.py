@@ -9,6 +9,7 @@ import math
 from . import studio
 from .scene import Part, total, write_scene
 from .shapes import box, quad, strip
+from .vectors import rounded
 
 EXPECTED = (36, 28)
 CAMERA = {"position": [0.15, 1.16, 4.6], "target": [0.12, 0.76, 0.0], "up": [0.0, 1.0, 0.0], "verticalFovDegrees": 32.0}
@@ -29,17 +30,13 @@ def slab(width, height):
     return soup.add(quad((x, -y, -z), (-x, -y, -z), (-x, y, -z), (x, y, -z)))
 
 
-def rounded(values):
-    return [round(v, 4) + 0.0 for v in values]
-
-
 def leaning_instance():
     turn, slope = math.radians(LEANING["turn"]), math.radians(LEANING["slope"])
     # From the lower edge to the middle of the slab: up the slope, away from the side it faces.
     run = 0.5 * LEANING["length"] * math.cos(slope)
     x, z = LEANING["foot"]
     middle = (x - run * math.sin(turn), 0.5 * LEANING["length"] * math.sin(slope) + THICKNESS, z - run * math.cos(turn))
-    return {"rotateDegrees": [LEANING["slope"] - 90.0, LEANING["turn"], 0.0], "translate": rounded(middle)}
+    return {"rotateDegrees": [LEANING["slope"] - 90.0, LEANING["turn"], 0.0], "translate": rounded(middle, 4)}
 
 
 def box_instance():
@@ -49,7 +46,7 @@ def box_instance():
     run = height / math.tan(slope) + 0.5 * depth + 0.002
     x, z = LEANING["foot"]
     return {"rotateDegrees": [0.0, LEANING["turn"], 0.0],
-            "translate": rounded((x - run * math.sin(turn), 0.5 * height, z - run * math.cos(turn)))}
+            "translate": rounded((x - run * math.sin(turn), 0.5 * height, z - run * math.cos(turn)), 4)}
 
 
 def room():
@@ -109,7 +106,7 @@ def write(folder):
     parts = [
         Part("slab-upright", "glass", slab(UPRIGHT["width"], UPRIGHT["height"]), "obj", sheet=True,
              instances=[{"rotateDegrees": [0.0, UPRIGHT["turn"], 0.0],
-                         "translate": rounded((x, UPRIGHT["height"] / 2 + 0.002, z))}]),
+                         "translate": rounded((x, UPRIGHT["height"] / 2 + 0.002, z), 4)}]),
         Part("slab-leaning", "glass", slab(LEANING["width"], LEANING["length"]), "obj", sheet=True,
              instances=[leaning_instance()]),
         Part("box", "chromium", box(BOX["size"]).flipped(), "stl", flat=True, blemishes=(1, 1),

@@ -8,6 +8,8 @@ so that a generator can reach exact counts and fail loudly when it does not.
 import math
 from collections import defaultdict
 
+from .vectors import cross, dot, minus
+
 UNITS_PER_METRE = 1000000
 # No edge may come this close to the crease angle: counts must not hang on rounding.
 CREASE_MARGIN_DEGREES = 2.0
@@ -47,6 +49,11 @@ class Soup:
             self.face([transform(tuple(c / UNITS_PER_METRE for c in corner)) for corner in polygon])
         return self
 
+    def moved(self, offset):
+        """The same polygons elsewhere; offset in metres."""
+        by = grid(offset)
+        return Soup([[tuple(a + b for a, b in zip(corner, by)) for corner in p] for p in self.polygons])
+
     def flipped(self):
         """The same polygons seen from the other side."""
         return Soup([list(reversed(p)) for p in self.polygons])
@@ -74,17 +81,9 @@ class Prepared:
         return self.vertices, len(self.triangles)
 
 
-def _cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def _sub(a, b):
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
 def face_normal(a, b, c):
     """Twice the area times the normal, exact in whole numbers."""
-    return _cross(_sub(b, a), _sub(c, a))
+    return cross(minus(b, a), minus(c, a))
 
 
 def prepare(soup, flat=False, crease_degrees=40.0, name="mesh"):
@@ -150,9 +149,8 @@ def prepare(soup, flat=False, crease_degrees=40.0, name="mesh"):
 
 def angle_degrees(n0, n1):
     """Angle between two normals of any length."""
-    cross = _cross(n0, n1)
-    sine = math.sqrt(sum(c * c for c in cross))
-    return math.degrees(math.atan2(sine, sum(a * b for a, b in zip(n0, n1))))
+    sine = math.sqrt(sum(c * c for c in cross(n0, n1)))
+    return math.degrees(math.atan2(sine, dot(n0, n1)))
 
 
 def _orient(positions, triangles, faces_of_edge, name):
@@ -195,5 +193,4 @@ def _orient(positions, triangles, faces_of_edge, name):
 
 def _volume(a, b, c):
     """Six times the signed volume of the tetrahedron to the origin."""
-    n = _cross(b, c)
-    return a[0] * n[0] + a[1] * n[1] + a[2] * n[2]
+    return dot(a, cross(b, c))

@@ -1,16 +1,24 @@
 """Writers of OBJ, PLY (ascii), STL (ascii) and OFF files, with the blemishes that modellers leave."""
-from .mesh import Soup, decimals, face_normal
+from .mesh import Soup, decimals, face_normal, grid
 
 
 def write_mesh(path, soup, welded, comment):
     """Writes soup in the format of the path's ending. welded: corners at equal positions share one
     vertex in the file (an STL file has no shared vertices)."""
-    writer = {".obj": _obj, ".ply": _ply, ".stl": _stl, ".off": _off}[path.suffix]
+    writer = {".obj": _obj, ".ply": _ply_of_points, ".stl": _stl, ".off": _off}[path.suffix]
     if path.suffix == ".stl":
         text = _stl(soup, comment)
     else:
         text = writer(*_indexed(soup, welded), comment)
     path.write_text(text, encoding="ascii", newline="\n")
+
+
+def write_ply_with_normals(path, vertices, faces, comment):
+    """vertices: (position, normal) pairs, six decimals each; faces: lists of their numbers. Nothing is
+    merged and nothing is left out."""
+    properties = [f"property float {c}" for c in ("x", "y", "z", "nx", "ny", "nz")]
+    rows = [f"{_row(grid(p))} {_row(grid(n))}" for p, n in vertices]
+    path.write_text(_ply(rows, faces, comment, properties), encoding="ascii", newline="\n")
 
 
 def with_blemishes(soup, duplicates=2, degenerates=2):
@@ -42,6 +50,10 @@ def _row(values):
     return " ".join(decimals(v) for v in values)
 
 
+def _ply_of_points(points, faces, comment):
+    return _ply([_row(p) for p in points], faces, comment, [f"property float {c}" for c in "xyz"])
+
+
 def _obj(points, faces, comment):
     lines = [f"# {comment}"]
     lines += [f"v {_row(p)}" for p in points]
@@ -49,11 +61,9 @@ def _obj(points, faces, comment):
     return "\n".join(lines) + "\n"
 
 
-def _ply(points, faces, comment):
-    lines = ["ply", "format ascii 1.0", f"comment {comment}", f"element vertex {len(points)}"]
-    lines += [f"property float {c}" for c in "xyz"]
-    lines += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header"]
-    lines += [_row(p) for p in points]
+def _ply(rows, faces, comment, properties):
+    lines = ["ply", "format ascii 1.0", f"comment {comment}", f"element vertex {len(rows)}", *properties]
+    lines += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header", *rows]
     lines += [f"{len(f)} " + " ".join(map(str, f)) for f in faces]
     return "\n".join(lines) + "\n"
 

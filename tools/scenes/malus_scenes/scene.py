@@ -2,7 +2,7 @@
 import json
 
 from .mesh import Soup, prepare
-from .mesh_files import with_blemishes, write_mesh
+from .mesh_files import with_blemishes, write_mesh, write_ply_with_normals
 from .studio import write_hdr
 
 
@@ -35,6 +35,34 @@ class Part:
             entry["instances"] = self.instances
         return entry
 
+    @property
+    def open_edges(self):
+        return 0 if self.sheet else self.prepared.open_edges
+
+    def write(self, folder, comment):
+        """Writes the mesh file, blemishes included. Raises ValueError where they change the counts."""
+        soup = with_blemishes(self.soup, *self.blemishes) if any(self.blemishes) else Soup(self.soup.polygons)
+        if prepare(soup, self.flat, self.crease if self.crease is not None else 40.0).counts != self.prepared.counts:
+            raise ValueError(f"{self.name}: the blemishes change the counts")
+        write_mesh(folder / f"{self.name}.{self.format}", soup, self.welded, comment)
+
+
+class PartAsIs:
+    """A mesh that no preparation touches: vertices are (position, normal) in metres, faces lists of their
+    numbers. A PLY file."""
+
+    def __init__(self, name, material, vertices, faces):
+        self.name, self.material, self.vertices, self.faces = name, material, vertices, faces
+        self.counts = len(vertices), sum(len(f) - 2 for f in faces)
+        self.open_edges = 0
+
+    def description(self):
+        return {"name": self.name, "file": f"meshes/{self.name}.ply", "material": self.material, "sheet": True,
+                "asIs": True}
+
+    def write(self, folder, comment):
+        write_ply_with_normals(folder / f"{self.name}.ply", self.vertices, self.faces, comment)
+
 
 def total(parts):
     return tuple(sum(values) for values in zip((0, 0), *(part.counts for part in parts)))
@@ -47,19 +75,15 @@ def write_scene(folder, settings, materials, parts, expected, sky=None, readme="
         raise ValueError(f"{settings['name']}: {total(parts)} vertices and triangles instead of {expected}")
     glass = {name for name, m in materials.items() if m["type"] == "glass"}
     for part in parts:
-        if part.material in glass and not part.sheet and part.prepared.open_edges:
-            raise ValueError(f"{part.name}: a glass body with {part.prepared.open_edges} open edges")
+        if part.material in glass and part.open_edges:
+            raise ValueError(f"{part.name}: a glass body with {part.open_edges} open edges")
 
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
     for old in (folder / "meshes").iterdir():
         if old.suffix in (".obj", ".ply", ".stl", ".off"):
             old.unlink()
     for part in parts:
-        soup = with_blemishes(part.soup, *part.blemishes) if any(part.blemishes) else Soup(part.soup.polygons)
-        if prepare(soup, part.flat, part.crease if part.crease is not None else 40.0).counts != part.prepared.counts:
-            raise ValueError(f"{part.name}: the blemishes change the counts")
-        write_mesh(folder / "meshes" / f"{part.name}.{part.format}", soup, part.welded,
-                   f"{part.name}: part of the scene {settings['name']}, metres")
+        part.write(folder / "meshes", f"{part.name}: part of the scene {settings['name']}, metres")
     if sky:
         write_hdr(folder / settings["environment"]["image"], sky)
     document = {"malus": 1, **settings, "materials": materials, "meshes": [p.description() for p in parts]}

@@ -5,6 +5,7 @@ Sections of prisms and lofts are closed outlines in a plane; `n` is always a num
 import math
 
 from .mesh import Soup
+from .vectors import cross, unit
 
 
 def quad(a, b, c, d):
@@ -103,14 +104,14 @@ def tube(path, radius, n, cap_first=True, cap_last=True):
     tangents = []
     for i in range(len(path)):
         a, b = path[max(0, i - 1)], path[min(len(path) - 1, i + 1)]
-        tangents.append(_unit(tuple(y - x for x, y in zip(a, b))))
+        tangents.append(unit(tuple(y - x for x, y in zip(a, b))))
     helper = (0.0, 1.0, 0.0) if abs(tangents[0][1]) < 0.9 else (1.0, 0.0, 0.0)
-    side = _unit(_cross(tangents[0], helper))
+    side = unit(cross(tangents[0], helper))
     sections = []
     for point, tangent, r in zip(path, tangents, radii):
         along = sum(a * b for a, b in zip(side, tangent))
-        side = _unit(tuple(a - along * b for a, b in zip(side, tangent)))
-        up = _cross(tangent, side)
+        side = unit(tuple(a - along * b for a, b in zip(side, tangent)))
+        up = cross(tangent, side)
         sections.append([tuple(p + r * (math.cos(t) * s + math.sin(t) * u) for p, s, u in zip(point, side, up))
                          for t in (2 * math.pi * i / n for i in range(n))])
     return loft(sections, cap_first, cap_last)
@@ -160,16 +161,7 @@ def placed(translate=(0.0, 0.0, 0.0), rotate_degrees=(0.0, 0.0, 0.0), scale=(1.0
 
 def aimed(origin, axis):
     """A transform that carries +y to the direction `axis` and the origin to `origin`."""
-    y = _unit(axis)
-    x = _unit(_cross((0.0, 0.0, 1.0) if abs(y[2]) < 0.9 else (1.0, 0.0, 0.0), y))
-    z = _cross(x, y)
+    y = unit(axis)
+    x = unit(cross((0.0, 0.0, 1.0) if abs(y[2]) < 0.9 else (1.0, 0.0, 0.0), y))
+    z = cross(x, y)
     return lambda p: tuple(o + p[0] * a + p[1] * b + p[2] * c for o, a, b, c in zip(origin, x, y, z))
-
-
-def _cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def _unit(a):
-    length = math.sqrt(sum(c * c for c in a))
-    return tuple(c / length for c in a)

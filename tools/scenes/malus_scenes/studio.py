@@ -5,6 +5,8 @@ azimuth 0. Radiance is linear RGB.
 """
 import math
 
+from .vectors import dot
+
 
 class Box:
     """A light of width x height degrees about a direction, its edges soft over `edge` degrees. panes
@@ -23,12 +25,12 @@ class Box:
 
     def weight(self, d):
         """0 outside to 1 inside, for a unit direction."""
-        z = _dot(d, self.forward)
+        z = dot(d, self.forward)
         if z <= 0.02:
             return 0.0
         weight = 1.0
         for axis, size, panes in zip((self.right, self.up), self.size, self.panes):
-            x = math.degrees(math.atan2(_dot(d, axis), z))
+            x = math.degrees(math.atan2(dot(d, axis), z))
             weight *= _ramp((size / 2 - abs(x)) / self.edge + 0.5)
             if weight == 0.0:
                 return 0.0
@@ -80,10 +82,6 @@ def smooth_steps(stops):
                 return tuple(a + t * (b - a) for a, b in zip(v0, v1))
         return stops[-1][1]
     return at
-
-
-def _dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def _ramp(t):

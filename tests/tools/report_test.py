@@ -171,7 +171,7 @@ class Report(unittest.TestCase):
     def test_it_says_where_polarization_matters(self):
         page = self.page()
         self.assertIn("polarization matters in 11 % of the pixels, mostly in the lower left", page)
-        self.assertIn("by 20 % at most; a person would see it in 5.6 % of all pixels", page)
+        self.assertIn("by 20 % at most; to the eye (mean FLIP, 0 to 1) the picture is 0.0556 away", page)
         self.assertIn("take <code>stokes</code>, which takes 1.500 times as long as <code>schlick</code> "
                       "(1.450 to 1.550)", page)
 

@@ -1,0 +1,52 @@
+"""The results of tools/mitsuba/compare as Markdown, and what is outside the tolerances."""
+
+RENDERERS = ("reference", "embree")
+
+
+def markdown(results: dict) -> str:
+    lines = ["| scene | malus | RMS S0 | S1 | S2 | S3 | outliers | not explained |", "|---|---|---|---|---|---|---|---|"]
+    for name, scene in results.items():
+        for renderer in RENDERERS:
+            r = scene[renderer]
+            cells = [f"{value:.1e}" for value in r["rmsOrdinary"]]
+            lines.append(f"| {name} | {renderer} | {' | '.join(cells)} | {r['outliers']} ({r['outlierShare']:.2%}) | "
+                         f"{r['unexplained']} |")
+    lines += ["", "RMS of the difference over the mean S0, without the outliers (a component off by more than 1e-3 of",
+              "S0 + mean S0). Explained: the pixel changes as much when its centre moves by 1/1000 of a pixel.", "",
+              "| scene | Mitsuba's own integrator | values | outside the bound | RMS z | largest z |",
+              "|---|---|---|---|---|---|"]
+    for name, scene in results.items():
+        for part in ("smooth", "diffuse"):
+            if part in scene["stock"]:
+                s = scene["stock"][part]
+                z = [f"{s[k]:.2f}" if s[k] is not None else "-" for k in ("rmsZ", "maxZ")]
+                lines.append(f"| {name} | path, {part} | {s['values']} | {s['violations']} | {z[0]} | {z[1]} |")
+        if "stokesMax" in scene["stock"]:
+            lines.append(f"| {name} | stokes | largest difference {scene['stock']['stokesMax']:.1e} | | | |")
+    return "\n".join(lines + [""])
+
+
+def failures(results: dict, tolerances: dict) -> list[str]:
+    """A sentence for each number over its tolerance; scenes without their own have the default's."""
+    said = []
+
+    def check(what: str, value: float, most: float):
+        if not value <= most:
+            said.append(f"{what} is {value:.3g}, expected at most {most:.3g}")
+
+    for name, scene in results.items():
+        most = tolerances["default"] | tolerances["scenes"].get(name, {})
+        for renderer in RENDERERS:
+            r = scene[renderer]
+            for k in range(4):
+                check(f"{name}, {renderer}: RMS of S{k}", r["rmsOrdinary"][k], most["rms"])
+            check(f"{name}, {renderer}: share of outliers", r["outlierShare"], most["outlierShare"])
+            check(f"{name}, {renderer}: share of outliers not explained",
+                  r["unexplained"] / (scene["width"] * scene["height"]), most["unexplainedShare"])
+        for part in ("smooth", "diffuse"):
+            if part in scene["stock"]:
+                stock = scene["stock"][part]
+                check(f"{name}, path, {part}: share of values outside the bound",
+                      stock["violations"] / stock["values"], most["pathShare"])
+        check(f"{name}: difference from Mitsuba's stokes integrator", scene["stock"].get("stokesMax", 0), most["stokes"])
+    return said

@@ -48,7 +48,7 @@ struct RenderArguments : RenderSettings {
   std::optional<double> polarizer, exposure;
   std::string analyser, wavePlate, mosaicChannel = "luminance";
   unsigned mosaicBits = 8;
-  bool json = false, countRays = false;
+  bool json = false, countRays = false, checkNumerics = false;
 };
 
 // "AXIS" or "AXIS,RETARDANCE" in degrees.
@@ -225,7 +225,9 @@ void runRender(RenderArguments a) {
   warnOfMissingLight(a, view.analyser);
   console::progress(
       fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, a.backend == "reference" ? "" : a.method));
+  view.checkNumerics = a.checkNumerics;
   const Picture picture = renderScene(a, pack.scene, view, a.countRays);
+  if (picture.faults.count > 0) throw Error(a.input, describe(picture.faults, pack.scene));
   const std::string method = a.backend == "reference" ? "reference" : a.method;
   const image::Image image = toImage(picture, pack, view, a.backend, method);
   const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
@@ -258,12 +260,13 @@ void runRender(RenderArguments a) {
                                    {"buildMs", cost.buildMs},
                                    {"traceMs", cost.traceMs},
                                    {"wallMs", cost.wallMs},
+                                   {"numericsChecked", a.checkNumerics},
                                    {"outputs", written}};
     fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{}: {} {}, {} x {}, depth {}, {}{:.1f} ms on {}\n", pack.scene.name, a.backend, method, picture.width,
+    fmt::print("{}: {} {}, {} x {}, depth {}, {}{:.1f} ms on {}{}\n", pack.scene.name, a.backend, method, picture.width,
                picture.height, view.depth, cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs,
-               picture.device);
+               picture.device, a.checkNumerics ? "; every value is finite and physical" : "");
   }
 }
 
@@ -365,6 +368,9 @@ void addRenderCommand(CLI::App& app) {
       ->needs(mosaicFile);
   addExposure(*command, a->exposure, "exposure of PNG files and mosaics");
   command->add_flag("--count-rays", a->countRays, "vulkan: trace once more, untimed, to count the rays");
+  command->add_flag("--check-numerics", a->checkNumerics,
+                    "find the first value that no light can have (NaN, infinity, negative, more than fully polarized): "
+                    "names it and writes nothing");
   command->add_flag("--json", a->json, "print the result as JSON");
   command
       ->add_option("--max-error", a->maxError,

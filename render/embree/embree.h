@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <limits>
 #include <string>
 
 #include <glm/vec3.hpp>
@@ -23,6 +24,9 @@ struct Intersection {
   unsigned triangle = 0;  // within the mesh
   float b1 = 0, b2 = 0;   // barycentric coordinates of its second and third corner
 };
+
+// As in Vulkan a triangle at distance 0 is no hit: an eye that stands exactly on a face looks from it.
+inline constexpr float kNearest = std::numeric_limits<float>::min();
 
 class Bvh {
  public:
@@ -47,7 +51,7 @@ inline Intersection Bvh::nearest(const glm::vec3& o, const glm::vec3& d) const {
   RTCRayHit query;
   query.ray.org_x = o.x, query.ray.org_y = o.y, query.ray.org_z = o.z;
   query.ray.dir_x = d.x, query.ray.dir_y = d.y, query.ray.dir_z = d.z;
-  query.ray.tnear = 0, query.ray.tfar = 1e30f;
+  query.ray.tnear = kNearest, query.ray.tfar = 1e30f;
   query.ray.time = 0, query.ray.mask = ~0u, query.ray.id = 0, query.ray.flags = 0;
   query.hit.geomID = query.hit.primID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
@@ -64,7 +68,7 @@ inline bool Bvh::visible(const glm::vec3& o, const glm::vec3& d, float distance)
   RTCRay ray;
   ray.org_x = o.x, ray.org_y = o.y, ray.org_z = o.z;
   ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
-  ray.tnear = 0, ray.tfar = distance;
+  ray.tnear = kNearest, ray.tfar = distance;
   ray.time = 0, ray.mask = ~0u, ray.id = 0, ray.flags = 0;
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded1(scene_, &ray, nullptr);

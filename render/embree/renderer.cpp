@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <thread>
 
 #include <fmt/format.h>
@@ -61,13 +62,19 @@ render::Picture Renderer::render(std::string_view name, const render::View& view
 
   const auto start = Clock::now();
   std::atomic<std::uint64_t> rays{0};
+  std::mutex merging;
   tbb::task_arena arena(impl_->threads);
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range2d<std::uint32_t>(0, view.region.height, kTileSide, 0, view.region.width, kTileSide),
         [&](const tbb::blocked_range2d<std::uint32_t>& r) {
-          rays += method->renderTile({impl_->bvh.get(), &impl_->scene, &frame, r.cols().begin(), r.rows().begin(),
-                                      r.cols().end(), r.rows().end(), picture.pixels.data()});
+          const auto renderTile = view.checkNumerics ? method->renderTileChecked : method->renderTile;
+          const TileOutput tile = renderTile({impl_->bvh.get(), &impl_->scene, &frame, r.cols().begin(),
+                                              r.rows().begin(), r.cols().end(), r.rows().end(), picture.pixels.data()});
+          rays += tile.rays;
+          if (tile.faults.count == 0) return;
+          const std::scoped_lock lock(merging);
+          picture.faults.add(tile.faults, frame.width);
         });
   });
   picture.cost.traceMs = picture.cost.wallMs = sinceMs(start);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "render/embree/embree.h"
+#include "render/scene/fault.h"
 #include "shaders/gpu/scene.h"
 
 namespace malus::embree {
@@ -17,9 +18,15 @@ struct TileInput {
   float* pixels;                             // the region's
 };
 
+struct TileOutput {
+  std::uint64_t rays = 0;
+  render::Faults faults;  // of the checking variant
+};
+
 struct Method {
   const char* name;
-  std::uint64_t (*renderTile)(const TileInput&);  // returns the number of rays
+  TileOutput (*renderTile)(const TileInput&);
+  TileOutput (*renderTileChecked)(const TileInput&);  // with --check-numerics
 };
 
 }  // namespace malus::embree

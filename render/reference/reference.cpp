@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -88,15 +89,18 @@ struct Tracer {
   const pack::Scene& scene;
   const embree::Bvh& bvh;
   std::vector<dvec3> fillTransmittance;  // per material
+  const render::View& view;
   std::uint64_t rays = 0;
+  std::uint32_t pixelX = 0, pixelY = 0;  // the pixel at hand
+  render::Faults faults{};
 
   // A hit whose point was found again in double on the triangle that Embree names.
   struct Hit {
-    dvec3 d, position, error, face, normal;
+    dvec3 d, position, start, error, face, normal;
     double c;
     bool outside;
     const pack::Material* material;
-    std::size_t materialIndex;
+    std::uint32_t materialIndex;
   };
 
   bool intersect(const dvec3& origin, const dvec3& queryOrigin, const dvec3& d, Hit& hit) {
@@ -128,6 +132,7 @@ struct Tracer {
     // The next query is made in float.
     hit.error =
         f64::hitPointError(p0, p1, p2, b0, b1, b2, 0x1p-24) + f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
+    hit.start = f64::insideTriangle(hit.position, p0, p1, p2, b0, b1, b2, across, hit.error);
     hit.outside = glm::dot(d, hit.face) < 0;
     const dvec3 interpolated = mesh.normals.empty() ? hit.face
                                                     : dvec3(mesh.normals[t.x]) * b0 + dvec3(mesh.normals[t.y]) * b1 +
@@ -138,8 +143,8 @@ struct Tracer {
     return true;
   }
 
-  dvec3 queryAbove(const Hit& h) const { return f64::rayOrigin(h.position, h.error, h.face, 0x1p-24); }
-  dvec3 queryBelow(const Hit& h) const { return f64::rayOrigin(h.position, h.error, -h.face, 0x1p-24); }
+  dvec3 queryAbove(const Hit& h) const { return f64::rayOrigin(h.start, h.error, h.face, 0x1p-24); }
+  dvec3 queryBelow(const Hit& h) const { return f64::rayOrigin(h.start, h.error, -h.face, 0x1p-24); }
 
   dvec3 environment(const dvec3& d) const {
     const pack::Environment& e = scene.environment;
@@ -198,19 +203,46 @@ struct Tracer {
     highlight *= basic;
   }
 
+  // |(S1, S2, S3)| - S0.
+  static double excess(const dvec4& s) { return glm::length(dvec3(s[1], s[2], s[3])) - s[0]; }
+
+  // The check of --check-numerics, where it is asked for. arriving: the light that met the surface, each part in a
+  // frame of its own; rounding adds up to 4 eps of it.
+  Light checked(const Hit& h, std::uint32_t depth, const Light& sent, const std::vector<Light>& arriving) {
+    if (!view.checkNumerics) return sent;
+    constexpr double kBounce = 4 * std::numeric_limits<double>::epsilon();
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const dvec4& s = sent[c];
+      double slack = kBounce * std::abs(s[0]);
+      for (const Light& l : arriving) slack += std::max(excess(l[c]), 0.0) + kBounce * std::abs(l[c][0]);
+      const bool finite = std::isfinite(s[0]) && std::isfinite(s[1]) && std::isfinite(s[2]) && std::isfinite(s[3]);
+      const gpu::FaultKind kind = !finite             ? gpu::kNotFinite
+                                  : s[0] < -slack     ? gpu::kNegative
+                                  : excess(s) > slack ? gpu::kOverPolarized
+                                                      : gpu::kNoFault;
+      if (kind == gpu::kNoFault) continue;
+      faults.note({kind, pixelX, pixelY, static_cast<int>(view.depth - depth), h.materialIndex, c,
+                   static_cast<float>(h.c), static_cast<float>(slack), h.position, h.d, h.normal, s},
+                  view.width);
+    }
+    return sent;
+  }
+
   // Light that comes back along a ray, in the ray's canonical frame, as basic radiance.
   Light trace(const dvec3& origin, const dvec3& queryOrigin, const dvec3& d, std::uint32_t depth) {
-    Hit h;
-    if (!intersect(origin, queryOrigin, d, h)) return unpolarized(environment(d));
+    Hit h{};
+    h.d = d;
+    h.materialIndex = gpu::kEnvironment;
+    if (!intersect(origin, queryOrigin, d, h)) return checked(h, depth, unpolarized(environment(d)), {});
     const pack::Material& m = *h.material;
 
     // Surfaces without an interface.
     if (m.kind == MaterialKind::emitter)
-      return unpolarized(h.outside ? m.radiance / (m.outsideEta * m.outsideEta) : dvec3(0));
+      return checked(h, depth, unpolarized(h.outside ? m.radiance / (m.outsideEta * m.outsideEta) : dvec3(0)), {});
     dvec3 diffuse, highlight;
     if (m.kind == MaterialKind::lambert) {
       directLight(h, depth, h.normal, diffuse, highlight);
-      return unpolarized(diffuse);
+      return checked(h, depth, unpolarized(diffuse), {});
     }
 
     // Interfaces: from the index on this side to the one beyond.
@@ -218,12 +250,15 @@ struct Tracer {
     if (glass && depth == 0) return unpolarized(dvec3(0));
     const double n1 = !glass || h.outside ? m.outsideEta : m.eta.y, n2 = !glass || h.outside ? m.eta.y : m.outsideEta;
     dvec3 through(0);
+    bool total = false;
     if (glass) {
       through = f64::refractedDirection(d, h.normal, h.c, n1, n2);
-      if (glm::dot(through, h.face) >= 0) {
+      total = f64::refractionTerms(h.c, n1, n2).total;
+      if (!total && glm::dot(through, h.face) >= 0) {
         h.normal = h.face;
         h.c = f64::clampUnit(-glm::dot(d, h.face));
         through = f64::refractedDirection(d, h.normal, h.c, n1, n2);
+        total = f64::refractionTerms(h.c, n1, n2).total;
       }
     }
     const Interface interface = interfaceOf(m, h.c, n1, n2);
@@ -234,15 +269,18 @@ struct Tracer {
     // What leaves in the surface's frame: diffuse light through the interface, the mirror ray reflected, the
     // refracted ray transmitted; then back to the ray's own frame.
     Light toEye = glass ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
+    std::vector<Light> parts = {unpolarized(diffuse), unpolarized(highlight)};
     if (depth > 0) {
       const Light arriving = turned(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1));
+      parts.push_back(arriving);
       toEye = toEye + interface.reflection * (arriving + unpolarized(highlight));
-      if (glass && !f64::refractionTerms(h.c, n1, n2).total) {
+      if (glass && !total) {
         const Light below = turned(toSurface(through, s), trace(h.position, queryBelow(h), through, depth - 1));
         toEye = toEye + interface.transmission * below;
+        parts.push_back(below);
       }
     }
-    return turned(glm::transpose(toSurface(d, s)), toEye);
+    return checked(h, depth, turned(glm::transpose(toSurface(d, s)), toEye), parts);
   }
 };
 
@@ -267,10 +305,13 @@ render::Picture render(const pack::Scene& scene, const render::View& view, unsig
                tanX = tanY * view.width / view.height;
   const double toRadiance = camera.mediumEta * camera.mediumEta;
   std::atomic<std::uint64_t> rays{0};
+  std::mutex merging;
 
   const auto row = [&](std::uint32_t y) {
-    Tracer tracer{scene, bvh, fill};
+    Tracer tracer{scene, bvh, fill, view};
     for (std::uint32_t x = 0; x < view.region.width; ++x) {
+      tracer.pixelX = view.region.x + x;
+      tracer.pixelY = view.region.y + y;
       Light sum = unpolarized(dvec3(0));
       for (std::uint32_t j = 0; j < view.samples; ++j)
         for (std::uint32_t i = 0; i < view.samples; ++i) {
@@ -291,6 +332,8 @@ render::Picture render(const pack::Scene& scene, const render::View& view, unsig
       }
     }
     rays += tracer.rays;
+    const std::scoped_lock lock(merging);
+    picture.faults.add(tracer.faults, view.width);
   };
   const auto traceAll = [&] { tbb::parallel_for(std::uint32_t{0}, view.region.height, row); };
   if (threads == 0)

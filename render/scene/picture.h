@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "render/scene/fault.h"
+
 namespace malus::render {
 
 // Per pixel 3 floats (the colour behind the filter), or 15: the colour, then S0, S1, S2, S3, each r g b, of
@@ -27,6 +29,7 @@ struct Picture {
   std::size_t channels = kColourChannels;
   std::vector<float> pixels;
   Cost cost;
+  Faults faults;  // where the view asked for it
   std::string device;
 };
 

@@ -52,6 +52,7 @@ struct View {
   std::uint32_t samples = 1;  // rays per pixel along each axis
   std::uint32_t depth = 0;    // most specular interactions along a path
   Analyser analyser = kNoFilter;
+  bool checkNumerics = false;  // look for values that no light can have (fault.h); slow
 };
 
 // The pack's own view.

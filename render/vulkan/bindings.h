@@ -19,6 +19,7 @@ enum Binding : std::uint32_t {
   kNormals,
   kTexels,
   kCounter,
+  kFaults,
   kBindings
 };
 

@@ -150,6 +150,7 @@ struct Renderer::Impl {
         texels(uploaded(device, bytesOf(floats.environmentTexels), kStorage)),
         frame(device, sizeof(gpu::Frame), kStorage, kHost),
         counter(device, sizeof(std::uint32_t), kStorage, kHost),
+        faults(device, sizeof(gpu::Faults), kStorage, kHost),
         building(Clock::now()),
         acceleration(device, floats, positions, triangles),
         built(Clock::now()),
@@ -165,17 +166,19 @@ struct Renderer::Impl {
     bindings.bind(kNormals, normals);
     bindings.bind(kTexels, texels);
     bindings.bind(kCounter, counter);
+    bindings.bind(kFaults, faults);
   }
 
   const Pipeline& pipelineFor(const Variant& variant, std::uint32_t recursion);
   render::Picture trace(const Variant& variant, const render::View& view);
+  gpu::Faults faultsOf(const Variant& variant, const render::View& view);
 
   Instance instance;
   Device device;
   const pack::Scene& scene;
   render::FloatScene floats;
   Clock::time_point uploading;
-  Buffer materials, lights, meshes, triangles, positions, normals, texels, frame, counter, pixels, readBack;
+  Buffer materials, lights, meshes, triangles, positions, normals, texels, frame, counter, faults, pixels, readBack;
   Clock::time_point building;
   Acceleration acceleration;
   Clock::time_point built;
@@ -242,7 +245,7 @@ render::Picture Renderer::Impl::trace(const Variant& variant, const render::View
   };
 
   // Drivers finish compiling at the first trace: one pixel warms them up, outside of the time.
-  if (fresh && !variant.countRays) {
+  if (fresh && !variant.countRays && !variant.checkNumerics) {
     gpu::Frame one = constants;
     one.regionWidth = one.regionHeight = 1;
     dispatch(one);
@@ -266,12 +269,34 @@ render::Picture Renderer::Impl::trace(const Variant& variant, const render::View
   return picture;
 }
 
+// A picture by a variant that checks, for what it finds alone.
+gpu::Faults Renderer::Impl::faultsOf(const Variant& variant, const render::View& view) {
+  gpu::Faults found{};
+  found.firstPixel = ~0u;
+  faults.write(std::as_bytes(std::span(&found, 1)));
+  trace(variant, view);
+  faults.read(std::as_writable_bytes(std::span(&found, 1)));
+  return found;
+}
+
 render::Picture Renderer::render(std::string_view method, const render::View& view) {
   if (view.depth > maxDepth())
     throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name),
                 fmt::format("at most {}", maxDepth()), fmt::format("{}", view.depth));
-  render::Picture picture = impl_->trace(variantFor(impl_->scene, method), view);
+  Variant variant = variantFor(impl_->scene, method);
+  render::Picture picture = impl_->trace(variant, view);
   picture.device = device();
+  if (view.checkNumerics) {
+    variant.checkNumerics = true;
+    const gpu::Faults found = impl_->faultsOf(variant, view);
+    picture.faults.count = found.count;
+    if (found.count > 0) {
+      // The first pixel once more, alone.
+      render::View one = view;
+      one.region = {found.firstPixel % view.width, found.firstPixel / view.width, 1, 1};
+      picture.faults.first = impl_->faultsOf(variant, one).fault;
+    }
+  }
   return picture;
 }
 

@@ -25,6 +25,7 @@ std::string preamble(const Variant& variant) {
   if (!variant.pointLights) text += "#define MALUS_NO_POINT_LIGHTS\n";
   if (!variant.fill) text += "#define MALUS_NO_FILL\n";
   if (variant.countRays) text += "#define MALUS_COUNT_RAYS\n";
+  if (variant.checkNumerics) text += "#define MALUS_CHECK_NUMERICS\n";
   return text;
 }
 
@@ -48,7 +49,7 @@ std::string_view includedSource(const Variant& variant, std::string_view path) {
 std::string stageText(const StageSource& source) {
   std::string text = "#version 460\n";
   for (const char* file : {"shaders/gpu/language.glsl", "shaders/optics/math.h", "shaders/optics/all.h",
-                           "shaders/gpu/scene.h", "shaders/methods/selected.h"})
+                           "shaders/gpu/scene.h", "shaders/gpu/fault.h", "shaders/methods/selected.h"})
     text += fmt::format("#include \"{}\"\n", file);
   return text + fmt::format("#include \"{}\"\n", source.path);
 }

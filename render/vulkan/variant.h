@@ -15,6 +15,7 @@ struct Variant {
   bool pointLights = true;
   bool fill = true;
   bool countRays = false;
+  bool checkNumerics = false;
   auto operator<=>(const Variant&) const = default;
 };
 

@@ -2,9 +2,10 @@
 // ray that is followed from the eye in direction d that is -d. No angle is ever formed.
 
 // Frame that both ends of a ray agree on without sending it. Source: Duff et al., Building an Orthonormal
-// Basis, Revisited, JCGT 6(1), 2017. It jumps at z = 0; +0 and -0 give the same frame.
+// Basis, Revisited, JCGT 6(1), 2017. It jumps where z passes -1e-30 and not at 0: there a zero may change its
+// sign and a denormal be flushed between the two ends.
 FN void canonicalFrame(real3 z, OUT(real3) x, OUT(real3) y) {
-  real sign = signNotZero(z.z);
+  real sign = selectR(lessR(z.z, R(-1e-30)), R(-1.0), R(1.0));
   real a = R(-1.0) / (sign + z.z);
   real b = z.x * z.y * a;
   x = make3(R(1.0) + sign * z.x * z.x * a, sign * b, R(0.0) - sign * z.x);

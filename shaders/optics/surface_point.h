@@ -23,18 +23,40 @@ FN real3 hitPointError(real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, 
                (absR(b0 * p0.z) + absR(b1 * p1.z) + absR(b2 * p2.z)) * gamma7);
 }
 
+FN real largestPart(real3 v) { return maxR(absR(v.x), maxR(absR(v.y), absR(v.z))); }
+
 // Distance at which an intersector may still find the triangle that a ray leaves: it subtracts the origin
 // from the corners and multiplies the differences, so its error grows with the triangle and not with the
 // point: 8 roundings of the largest difference. Measured on lavapipe, whose floors show their own triangle
 // at 1 and at 2 no more; Embree needs none.
 FN real intersectionError(real3 p0, real3 p1, real3 p2, real3 p, real unitRoundoff) {
-  real3 a = p0 - p;
-  real3 b = p1 - p;
-  real3 c = p2 - p;
-  real x = maxR(absR(a.x), maxR(absR(b.x), absR(c.x)));
-  real y = maxR(absR(a.y), maxR(absR(b.y), absR(c.y)));
-  real z = maxR(absR(a.z), maxR(absR(b.z), absR(c.z)));
-  return R(8.0) * unitRoundoff * maxR(x, maxR(y, z));
+  return R(8.0) * unitRoundoff * maxR(largestPart(p0 - p), maxR(largestPart(p1 - p), largestPart(p2 - p)));
+}
+
+// p, moved away from the nearest edge, within the face, until it is four times its error off or half way across. A
+// ray from an edge would start on the neighbour's plane, where rounding lets it start behind and leak. across: cross
+// product of p1 - p0 and p2 - p0.
+FN real3 insideTriangle(real3 p, real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, real3 across, real3 error) {
+  real3 e0 = p2 - p1;
+  real3 e1 = p0 - p2;
+  real3 e2 = p1 - p0;
+  // Distance from the edge opposite a corner: its barycentric coordinate times 2 A/|edge|.
+  real c0 = maxR(b0, R(0.0));
+  real c1 = maxR(b1, R(0.0));
+  real c2 = maxR(b2, R(0.0));
+  real q0 = c0 * c0 / maxR(dot3(e0, e0), R(1e-37));
+  real q1 = c1 * c1 / maxR(dot3(e1, e1), R(1e-37));
+  real q2 = c2 * c2 / maxR(dot3(e2, e2), R(1e-37));
+  mask first = andM(lessEqualR(q0, q1), lessEqualR(q0, q2));
+  mask second = lessEqualR(q1, q2);
+  real3 edge = select3(first, e0, select3(second, e1, e2));
+  real c = selectR(first, c0, selectR(second, c1, c2));
+  real length = sqrtR(dot3(edge, edge));
+  real area = sqrtR(dot3(across, across));
+  mask none = orM(lessEqualR(length, R(0.0)), lessEqualR(area, R(0.0)));
+  real height = area / selectR(none, R(1.0), length);
+  real off = maxR(minR(R(4.0) * largestPart(error), R(0.5) * height) - c * height, R(0.0));
+  return p + cross3(across, edge) * (selectR(none, R(0.0), off) / selectR(none, R(1.0), length * area));
 }
 
 // Origin of a ray that leaves p on the side that n points to, off the box of size error about p, and one

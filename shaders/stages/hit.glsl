@@ -2,6 +2,8 @@
 #include "shaders/stages/bindings.glsl"
 #include "shaders/stages/trace.glsl"
 #include "shaders/surfaces/hit.h"
+#include "shaders/stages/faults.glsl"
+#include "shaders/surfaces/check.h"
 #include "shaders/surfaces/direct_light.h"
 
 layout(location = 0) rayPayloadInEXT Payload result;
@@ -17,5 +19,5 @@ Hit loadHit() {
   if (mesh.hasNormals != 0u)
     interpolated = normals[corner.x] * b0 + normals[corner.y] * barycentric.x + normals[corner.z] * barycentric.y;
   return makeHit(gl_WorldRayDirectionEXT, positions[corner.x], positions[corner.y], positions[corner.z], barycentric.x,
-                 barycentric.y, interpolated, payloadDepth(result));
+                 barycentric.y, interpolated, payloadDepth(result), mesh.material);
 }

@@ -1,23 +1,25 @@
 // Where a ray met a surface. The files of this folder are shared by both renderers; beside the optics and
 // one method they call what the renderer supplies: `frame`, `lights[]`, `environmentTexels[]`,
-// traceRay(origin, direction, depth) and visible(origin, direction, distance).
+// traceRay(origin, direction, depth), visible(origin, direction, distance), kCheckNumerics and noteFault (check.h).
 
 struct Hit {
   real3 d;         // unit direction of the ray, away from the eye
   real3 position;  // of the hit
-  real3 error;     // bound on its rounding error
+  real3 start;     // where further rays leave: the position, off the triangle's edges
+  real3 error;     // bound on the position's rounding error
   real3 face;      // unit normal of the face, against the ray
   real3 normal;    // unit normal to shade with, against the ray
   real c;          // cosine of the angle of incidence, in [0, 1]
   mask outside;    // the side that the mesh's normals point to was hit
   real depth;      // specular interactions left
+  uint material;   // index of its material
 };
 
 CONST real kUnitRoundoff = R(5.9604644775390625e-8);  // 2^-24, of float
 
 // d: ray; p0..p2: corners, counter-clockwise seen from outside; b1, b2: barycentric coordinates of p1, p2;
-// interpolated: normal of the vertices there, or 0 for a flat mesh.
-FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 interpolated, real depth) {
+// interpolated: normal of the vertices there, or 0 for a flat mesh; material: its index.
+FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 interpolated, real depth, uint material) {
   real b0 = R(1.0) - b1 - b2;
   real3 across = cross3(p1 - p0, p2 - p0);
   real areaSq = dot3(across, across);
@@ -28,15 +30,34 @@ FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 in
   h.position = p0 * b0 + p1 * b1 + p2 * b2;
   h.error = hitPointError(p0, p1, p2, b0, b1, b2, kUnitRoundoff) +
             splat3(intersectionError(p0, p1, p2, h.position, kUnitRoundoff));
+  h.start = insideTriangle(h.position, p0, p1, p2, b0, b1, b2, across, h.error);
   h.outside = lessR(dot3(d, face), R(0.0));
   mask flatMesh = equalR(dot3(interpolated, interpolated), R(0.0));
   h.normal = shadingNormal(d, face, select3(flatMesh, face, interpolated));
   h.face = face * selectR(h.outside, R(1.0), R(-1.0));
   h.c = clampUnit(R(0.0) - dot3(d, h.normal));
   h.depth = depth;
+  h.material = material;
+  return h;
+}
+
+// What the check of numbers names where a ray leaves the scene.
+FN Hit missedHit(real3 d, real depth) {
+  real3 none = splat3(R(0.0));
+  Hit h;
+  h.d = d;
+  h.position = none;
+  h.start = none;
+  h.error = none;
+  h.face = none;
+  h.normal = none;
+  h.c = R(0.0);
+  h.outside = true;
+  h.depth = depth;
+  h.material = kEnvironment;
   return h;
 }
 
 // Origin of a ray that leaves on the side of the eye.
-FN real3 originAbove(Hit h) { return rayOrigin(h.position, h.error, h.face, kUnitRoundoff); }
-FN real3 originBelow(Hit h) { return rayOrigin(h.position, h.error, h.face * R(-1.0), kUnitRoundoff); }
+FN real3 originAbove(Hit h) { return rayOrigin(h.start, h.error, h.face, kUnitRoundoff); }
+FN real3 originBelow(Hit h) { return rayOrigin(h.start, h.error, h.face * R(-1.0), kUnitRoundoff); }

@@ -20,4 +20,8 @@ FN real3 environmentRadiance(real3 d) {
   real3 bottom = environmentTexels[at + row] * (R(1.0) - fx) + environmentTexels[at + row + 1] * fx;
   return top * (R(1.0) - fy) + bottom * fy;
 }
-FN Payload shadeMiss(real3 d) { return payloadSource(environmentRadiance(d)); }
+FN Payload shadeMiss(real3 d, real depth) {
+  Payload sent = payloadSource(environmentRadiance(d));
+  if (kCheckNumerics) checkSent(missedHit(d, depth), sent, splat3(R(0.0)));
+  return sent;
+}

@@ -175,9 +175,10 @@ inline Stokes4 measured(const Beam& beam, const Vec& x) {
 }
 
 // The frame of a ray that both its ends agree on: x of space, carried by the shortest turn that takes the
-// z axis onto the direction or its opposite, whichever is above the horizon.
+// z axis onto the direction or its opposite, whichever is above the horizon (or so little
+// below that a float may have lost it).
 inline Vec canonicalX(const Vec& k) {
-  const Vec m = k[2] < 0 ? along(k, -1, k, 0) : k;
+  const Vec m = k[2] < -1e-30L ? along(k, -1, k, 0) : k;
   const Vec axis = cross(Vec{0, 0, 1}, m);  // sin of the turn in its length
   const Vec e{1, 0, 0};
   // Rodrigues: e cos + (axis x e) + axis (axis . e) / (1 + cos)

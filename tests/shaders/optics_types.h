@@ -61,6 +61,7 @@ namespace malus::test {
     MALUS_FORWARD(space, shadingNormal)                \
     MALUS_FORWARD(space, hitPointError)                \
     MALUS_FORWARD(space, intersectionError)            \
+    MALUS_FORWARD(space, insideTriangle)               \
     MALUS_FORWARD(space, rayOrigin)                    \
     MALUS_FORWARD(space, cameraDirection)              \
     MALUS_FORWARD(space, cameraFrameTurn)              \

@@ -103,5 +103,46 @@ TYPED_TEST(SurfacePointTest, OriginsLieBeyondTheErrorBox) {
   EXPECT_EQ(O::rayOrigin(O::splat3(0), O::splat3(0), O::make3(0, 0, 1), kEps), O::splat3(0));
 }
 
+TYPED_TEST(SurfacePointTest, StartsKeepAwayFromEdges) {
+  MALUS_TYPES;
+  Draw draw(16);
+  for (int i = 0; i < 5000; ++i) {
+    // Any triangle, slivers among them; a point on an edge, at a corner, close to one, or anywhere.
+    const real3 p0 = toReal3<O>(draw.direction()), p1 = toReal3<O>(draw.direction());
+    real3 p2 = toReal3<O>(draw.direction());
+    if (i % 4 == 0) p2 = p0 + (p1 - p0) * R(0.5L) + (p2 - p0) * R(1e-3L);
+    const Real near = i % 3 == 0 ? 0 : i % 3 == 1 ? std::pow(10.0L, -draw.between(2, 9)) : draw.unit() / 2;
+    const real b0 = R(near), b1 = R(i % 7 == 0 ? 0 : (1 - near) * draw.unit()), b2 = 1 - b0 - b1;
+    const real3 p = p0 * b0 + p1 * b1 + p2 * b2, across = O::cross3(p1 - p0, p2 - p0);
+    const real margin = R(1e3L) * kEps;
+    const real3 start = O::insideTriangle(p, p0, p1, p2, b0, b1, b2, across, O::splat3(margin / 4));
+    const Real area = std::sqrt(oracle::dot(toVec(across), toVec(across)));
+    if (area < 1e-2L * (i % 4 == 0 ? 1e-3L : 1)) continue;
+    // In the plane, and at least the margin, or half the height, from the edge that was nearest.
+    const auto distance = [&](const real3& a, const real3& b, const real3& at) {
+      const Vec edge = toVec(b - a), n = oracle::unit(toVec(across)), inward = oracle::unit(oracle::cross(n, edge));
+      return oracle::dot(inward, toVec(at - a));
+    };
+    EXPECT_CLOSE(oracle::dot(oracle::unit(toVec(across)), toVec(start - p)), 0, 40 * kEps);
+    const std::array<std::pair<real3, real3>, 3> edges = {std::pair(p1, p2), {p2, p0}, {p0, p1}};
+    std::size_t nearest = 0;
+    for (std::size_t e = 1; e < 3; ++e)
+      if (distance(edges[e].first, edges[e].second, p) < distance(edges[nearest].first, edges[nearest].second, p))
+        nearest = e;
+    const Real before = distance(edges[nearest].first, edges[nearest].second, p);
+    const Vec side = toVec(edges[nearest].second - edges[nearest].first);
+    const Real height = area / std::sqrt(oracle::dot(side, side));
+    const Real after = distance(edges[nearest].first, edges[nearest].second, start);
+    if (before > 1.01L * margin) {
+      EXPECT_EQ(start, p) << "far from edges nothing moves";
+    } else if (i % 7 != 0) {
+      EXPECT_GT(after, 0.9L * std::min(Real(margin), height / 2)) << i;
+    }
+  }
+  // Without area nothing is divided by 0.
+  const real3 a = O::make3(1, 2, 3);
+  EXPECT_EQ(O::insideTriangle(a, a, a, a, 1, 0, 0, O::splat3(0), O::splat3(kEps)), a);
+}
+
 }  // namespace
 }  // namespace malus::test

@@ -322,7 +322,7 @@ TEST(CorruptPack, PictureOutOfBounds) {
   const std::size_t end = test::section(sections, "META").bytes.size();
   EXPECT_TRUE(contains(errorWith("META", end - 8, kNan), "not finite"));
   EXPECT_TRUE(contains(errorWith("META", end - 8, 101.0), "exposure"));
-  EXPECT_TRUE(contains(errorWith("META", end - 12, 31u), "depth"));
+  EXPECT_TRUE(contains(errorWith("META", end - 12, 65u), "depth"));
   EXPECT_TRUE(contains(errorWith("META", end - 16, 16385u), "picture height"));
   EXPECT_TRUE(contains(errorWith("META", end - 16, 0u), "picture without pixels"));
   EXPECT_TRUE(contains(errorWith("META", end - 20, 0u), "picture without pixels"));

@@ -215,7 +215,7 @@ TEST(SceneFile, Ranges) {
       {"/resolution", "[64]"},
       {"/resolution", "[64.5, 48]"},
       {"/resolution", "[-64, 48]"},
-      {"/depth", "31"},
+      {"/depth", "65"},
       {"/depth", "-1"},
       {"/depth", "4.0"},
       {"/exposureEv", "101"},

@@ -1,0 +1,57 @@
+// The debug check of what surfaces send toward the eye (--check-numerics): finite, not negative, at most fully
+// polarized. Where kCheckNumerics is false none of it is compiled. The renderer supplies
+// noteFault(hit, stokes, kind, colour, slack).
+
+// A device's own isnan may be optimized away.
+FN bool isFinite(real x) {
+#ifdef __cplusplus
+  return std::isfinite(x);
+#else
+  return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
+#endif
+}
+
+// |(s1, s2, s3)| - s0, without squares that overflow.
+FN real polarizationExcess(real s0, real s1, real s2, real s3) {
+  real m = maxR(absR(s1), maxR(absR(s2), absR(s3)));
+  if (m <= R(0.0)) return R(0.0) - s0;
+  real a = s1 / m;
+  real b = s2 / m;
+  real c = s3 / m;
+  return m * sqrtR(a * a + b * b + c * c) - s0;
+}
+
+// By how much light that arrives may be beyond full polarization once the next surface has sent it on: what it is
+// already, and 4 eps of its power (optics.md: rounding adds up to 2.7 eps a bounce).
+FN real3 slackOf(Stokes s) {
+  real eps = R(8.0) * kUnitRoundoff;
+  return make3(maxR(polarizationExcess(s.s0.x, s.s1.x, s.s2.x, s.s3.x), R(0.0)) + eps * absR(s.s0.x),
+               maxR(polarizationExcess(s.s0.y, s.s1.y, s.s2.y, s.s3.y), R(0.0)) + eps * absR(s.s0.y),
+               maxR(polarizationExcess(s.s0.z, s.s1.z, s.s2.z, s.s3.z), R(0.0)) + eps * absR(s.s0.z));
+}
+
+FN void checkColour(Hit h, real s0, real s1, real s2, real s3, real slack, uint colour) {
+  uint kind = kNoFault;
+  if (!isFinite(s0) || !isFinite(s1) || !isFinite(s2) || !isFinite(s3))
+    kind = kNotFinite;
+  else if (s0 < R(0.0) - slack)
+    kind = kNegative;
+  else if (polarizationExcess(s0, s1, s2, s3) > slack)
+    kind = kOverPolarized;
+  if (kind == kNoFault) return;
+  vec4 s;
+  s.x = float(s0);
+  s.y = float(s1);
+  s.z = float(s2);
+  s.w = float(s3);
+  noteFault(h, s, kind, colour, float(slack));
+}
+
+// arriving: slack of the light that met the surface.
+FN void checkSent(Hit h, Payload sent, real3 arriving) {
+  Stokes s = payloadStokes(sent, h.d);
+  real eps = R(8.0) * kUnitRoundoff;
+  checkColour(h, s.s0.x, s.s1.x, s.s2.x, s.s3.x, arriving.x + eps * absR(s.s0.x), 0u);
+  checkColour(h, s.s0.y, s.s1.y, s.s2.y, s.s3.y, arriving.y + eps * absR(s.s0.y), 1u);
+  checkColour(h, s.s0.z, s.s1.z, s.s2.z, s.s3.z, arriving.z + eps * absR(s.s0.z), 2u);
+}

@@ -1,0 +1,298 @@
+// The scenes of scenes/hard: every renderer renders them without a value that no light can have, they agree, and where
+// there is a closed form they have it. Each scene's README says which failure it provokes and where the numbers are
+// from.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "bake/bake.h"
+#include "bake/pack/reader.h"
+#include "meshprep/base/error.h"
+#include "render/embree/renderer.h"
+#include "render/reference/reference.h"
+#include "render/scene/methods.h"
+#include "render/vulkan/renderer.h"
+
+namespace malus {
+namespace {
+
+namespace fs = std::filesystem;
+using Colours = std::array<double, 3>;
+using render::Picture;
+
+// What a scene is held to beside being sound. Pixels count as off where a component of a Stokes vector differs by more
+// than `threshold`; edges and magnified roundings explain `outliers` of them.
+struct Expected {
+  double threshold = 1e-4;
+  std::size_t outliers = 0;
+  bool renderersAgree = true;  // Vulkan with the others
+  bool vulkanCanDoIt = true;
+};
+const std::map<std::string, Expected>& scenes() {
+  static const std::map<std::string, Expected> kScenes = {
+      {"bad-triangles", {}},
+      {"brewster-pair", {}},
+      {"camera-along-edge", {1e-4, 2}},
+      {"camera-on-surface", {1e-4, 4}},
+      {"facing-mirrors", {1e-4, 0, true, false}},  // 64 bounces: deeper than pipelines recurse
+      {"far-away", {1e-4, 4}},
+      {"fresnel-rhomb", {}},
+      {"glass-gold-gold-glass", {1e-6}},  // it is nearly dark
+      {"glass-slab", {}},
+      {"glass-sphere", {1e-4, 4}},
+      {"gold-periscope", {}},
+      {"inside-glass", {1e-4, 2}},
+      {"into-the-edge", {1e-4, 2}},
+      {"mirror-loop", {}},
+      {"nested-media", {1e-4, 6}},
+      {"paint-under-glass-in-brewster-mirror", {}},
+      {"room", {1e-4, 4}},
+      {"slivers", {}},
+      {"thin-slab", {}},
+      {"tiny", {1e-4, 6}},
+      {"touching-bodies", {1e-4, 4, false}},  // a tie: which of two faces in one place is met
+  };
+  return kScenes;
+}
+
+// A scene as a renderer gets it: baked, written, read back.
+const pack::Pack& packOf(const std::string& name) {
+  static std::map<std::string, pack::Pack> packs;
+  const auto at = packs.find(name);
+  if (at != packs.end()) return at->second;
+  const pack::WriteSettings settings;
+  const fs::path file = fs::path(MALUS_SCENES) / "hard" / name / "scene.json";
+  const bake::Baked baked = bake::bake(bake::readSceneFile(file), settings, [](std::string_view) {});
+  return packs.emplace(name, pack::parse(pack::serialize(baked.scene, settings).bytes, name)).first->second;
+}
+render::View checkedView(const pack::Scene& scene) {
+  render::View view = render::viewOf(scene);
+  view.checkNumerics = true;
+  return view;
+}
+
+void expectSound(const Picture& picture, const pack::Scene& scene, const std::string& what) {
+  EXPECT_EQ(picture.faults.count, 0u) << what << ": " << describe(picture.faults, scene);
+  for (const float v : picture.pixels) ASSERT_TRUE(std::isfinite(v)) << what;
+}
+
+// Reference and both renderers' stokes pictures, each rendered and checked once.
+struct Pictures {
+  Picture reference, embree, vulkan;
+};
+const Pictures& picturesOf(const std::string& name) {
+  static std::map<std::string, Pictures> all;
+  const auto at = all.find(name);
+  if (at != all.end()) return at->second;
+  const pack::Scene& scene = packOf(name).scene;
+  const render::View view = checkedView(scene);
+  Pictures p;
+  p.reference = reference::render(scene, view, 0);
+  expectSound(p.reference, scene, name + ", reference");
+  p.embree = embree::Renderer(scene, 0).render("stokes", view);
+  expectSound(p.embree, scene, name + ", embree stokes");
+  if (scenes().at(name).vulkanCanDoIt) {
+    p.vulkan = vulkan::Renderer(scene, {}).render("stokes", view);
+    expectSound(p.vulkan, scene, name + ", vulkan stokes");
+  }
+  return all.emplace(name, std::move(p)).first->second;
+}
+
+// S0..S3 of a pixel, per colour.
+std::array<Colours, 4> stokesAt(const Picture& p, std::size_t x, std::size_t y) {
+  std::array<Colours, 4> s{};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t c = 0; c < 3; ++c) s[k][c] = p.pixels[(y * p.width + x) * p.channels + 3 + 3 * k + c];
+  return s;
+}
+std::array<Colours, 4> centreOf(const Picture& p) { return stokesAt(p, p.width / 2, p.height / 2); }
+
+std::size_t pixelsOff(const Picture& a, const Picture& b, double threshold, double& largest) {
+  std::size_t off = 0;
+  largest = 0;
+  for (std::size_t y = 0; y < a.height; ++y)
+    for (std::size_t x = 0; x < a.width; ++x) {
+      const auto s = stokesAt(a, x, y), t = stokesAt(b, x, y);
+      double d = 0;
+      for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t c = 0; c < 3; ++c) d = std::max(d, std::abs(s[k][c] - t[k][c]));
+      largest = std::max(largest, d);
+      if (d > threshold) ++off;
+    }
+  return off;
+}
+
+class HardScenes : public testing::TestWithParam<std::string> {};
+
+TEST_P(HardScenes, RenderersAgreeWithTheReference) {
+  const Pictures& p = picturesOf(GetParam());
+  const Expected& expected = scenes().at(GetParam());
+  const auto expectClose = [&](const Picture& a, const char* what) {
+    ASSERT_EQ(a.pixels.size(), p.reference.pixels.size()) << what;
+    double largest = 0;
+    EXPECT_LE(pixelsOff(a, p.reference, expected.threshold, largest), expected.outliers)
+        << what << ", largest difference " << largest;
+  };
+  expectClose(p.embree, "embree");
+  if (expected.vulkanCanDoIt && expected.renderersAgree) expectClose(p.vulkan, "vulkan");
+  // Something is seen.
+  EXPECT_GT(*std::max_element(p.reference.pixels.begin(), p.reference.pixels.end()), 0.01f);
+}
+
+TEST_P(HardScenes, EveryMethodIsSound) {
+  const pack::Scene& scene = packOf(GetParam()).scene;
+  const embree::Renderer renderer(scene, 0);
+  for (const std::string& method : render::methodNames())
+    expectSound(renderer.render(method, checkedView(scene)), scene, "embree " + method);
+}
+
+std::string testName(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, expected] : scenes()) names.push_back(name);
+  return names;
+}
+INSTANTIATE_TEST_SUITE_P(All, HardScenes, testing::ValuesIn(sceneNames()), testName);
+
+TEST(HardScene, EveryFolderIsListed) {
+  std::set<std::string> folders;
+  for (const auto& entry : fs::directory_iterator(fs::path(MALUS_SCENES) / "hard"))
+    folders.insert(entry.path().filename());
+  const std::vector<std::string> names = sceneNames();
+  EXPECT_EQ(folders, (std::set<std::string>(names.begin(), names.end())));
+}
+
+// Closed forms at the centre pixel, six digits as the READMEs have them.
+void expectCentre(const std::string& name, const std::vector<Colours>& stokes, double tolerance = 2e-6) {
+  const Pictures& p = picturesOf(name);
+  const Expected& expected = scenes().at(name);
+  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan}) {
+    if (picture == &p.vulkan && !expected.vulkanCanDoIt) continue;
+    const char* what = picture == &p.reference ? "reference" : picture == &p.embree ? "embree" : "vulkan";
+    const auto centre = centreOf(*picture);
+    for (std::size_t k = 0; k < stokes.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(centre[k][c], stokes[k][c], tolerance) << name << ", " << what << ", S" << k << ", colour " << c;
+  }
+}
+Colours grey(double v) { return {v, v, v}; }
+
+TEST(HardScene, CrossedBrewsterMirrorsAreDark) {
+  const Pictures& p = picturesOf("brewster-pair");
+  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan}) {
+    const double parallel = stokesAt(*picture, 8, 33)[0][1];
+    EXPECT_NEAR(parallel, 0.010941, 5e-6);
+    const Colours dark = centreOf(*picture)[0];
+    for (const double v : dark) EXPECT_LT(std::abs(v), 1e-6 * parallel);
+  }
+}
+
+TEST(HardScene, CircularLightDecides) {
+  expectCentre("gold-periscope", {{.761783, .292732, .046903},
+                                  {.014892, -.000063, .006338},
+                                  {.052014, .053637, .017169},
+                                  {-.010621, -.066356, -.029755}});
+  expectCentre("glass-gold-gold-glass", {grey(0), grey(0), grey(0), grey(0)}, 1e-8);
+  // Without it the periscope is too bright in blue, and the dark is lit.
+  const auto linear = [](const std::string& name) {
+    const pack::Scene& scene = packOf(name).scene;
+    return centreOf(embree::Renderer(scene, 0).render("stokes-linear", render::viewOf(scene)))[0];
+  };
+  EXPECT_NEAR(linear("gold-periscope")[2], .058156, 2e-6);
+  EXPECT_NEAR(linear("glass-gold-gold-glass")[0], .004326, 2e-6);
+  expectCentre("fresnel-rhomb", {grey(.068166), grey(0), grey(0), grey(-.068166)});
+}
+
+TEST(HardScene, ChainsOfMirrors) {
+  expectCentre("mirror-loop", {grey(.073964), grey(-.073964), grey(0), grey(0)});
+  // In float 64 directions drift apart by 1e-5.
+  expectCentre("facing-mirrors", {{.466385, .272120, .156730}, {.052601, .044035, .032180}}, 2e-5);
+  const pack::Scene& scene = packOf("facing-mirrors").scene;
+  const auto centre = centreOf(picturesOf("facing-mirrors").reference);
+  EXPECT_NEAR(centre[0][0], .466385, 2e-6);
+  vulkan::Renderer renderer(scene, {});
+  if (renderer.maxDepth() < scene.depth) {
+    try {
+      renderer.render("stokes", render::viewOf(scene));
+      ADD_FAILURE() << "a depth past the device's recursion limit was accepted";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(fmt::format("at most {}", renderer.maxDepth())), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("found 64"), std::string::npos) << error.what();
+    }
+    // To its limit it goes, and agrees.
+    render::View view = checkedView(scene);
+    view.depth = renderer.maxDepth();
+    const Picture a = renderer.render("stokes", view), b = reference::render(scene, view, 0);
+    expectSound(a, scene, "vulkan at its limit");
+    double largest = 0;
+    EXPECT_EQ(pixelsOff(a, b, 1e-4, largest), 0u) << largest;
+  }
+}
+
+TEST(HardScene, GlassAndMedia) {
+  expectCentre("paint-under-glass-in-brewster-mirror", {grey(.007915), grey(.007915), grey(0), grey(0)});
+  expectCentre("glass-slab", {grey(.848128), grey(-.148274), grey(0), grey(0)});
+  expectCentre("thin-slab", {{.863316, .611914, .362032}});
+  expectCentre("inside-glass", {grey(2.25)});
+  expectCentre("nested-media", {grey(.916946)});
+  expectCentre("camera-on-surface", {grey(2.163462)});
+}
+
+TEST(HardScene, NoRayLeaksThroughAnEdgeMetFromInside) {
+  // The middle column, whose rays meet the edge itself, reads the panel or nothing, never the sky.
+  const Pictures& p = picturesOf("into-the-edge");
+  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan})
+    for (std::size_t y = 0; y < picture->height; ++y) {
+      const auto s = stokesAt(*picture, picture->width / 2, y), beside = stokesAt(*picture, picture->width / 2 + 2, y);
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(s[0][c], beside[0][c], 1e-3) << "row " << y;
+    }
+}
+
+TEST(HardScene, SizeAndPlaceDoNotShow) {
+  // One description at 1, moved by 1e5 metres, and 1e-5 metres large: the grid rounds anew, edges may move a pixel.
+  const Pictures& room = picturesOf("room");
+  for (const std::string name : {"far-away", "tiny"}) {
+    const Pictures& other = picturesOf(name);
+    double largest = 0;
+    EXPECT_LE(pixelsOff(room.reference, other.reference, 1e-3, largest), 4u) << name << ' ' << largest;
+    EXPECT_LE(pixelsOff(room.embree, other.embree, 1e-3, largest), 4u) << name << ' ' << largest;
+    EXPECT_LE(pixelsOff(room.vulkan, other.vulkan, 1e-3, largest), 4u) << name << ' ' << largest;
+  }
+}
+
+TEST(HardScene, SliversDoNotShow) {
+  const Pictures& p = picturesOf("slivers");
+  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan}) {
+    const std::size_t y = picture->height / 2;
+    for (std::size_t x = 8; x + 8 < picture->width; ++x) {
+      const double above = stokesAt(*picture, x, y - 1)[0][1], below = stokesAt(*picture, x, y + 1)[0][1];
+      const double here = stokesAt(*picture, x, y)[0][1];
+      EXPECT_GE(here, std::min(above, below) - 1e-4) << x;
+      EXPECT_LE(here, std::max(above, below) + 1e-4) << x;
+    }
+  }
+}
+
+TEST(HardScene, CoincidentFacesStayWithinBounds) {
+  const Pictures& p = picturesOf("touching-bodies");
+  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan})
+    for (std::size_t y = 0; y < picture->height; ++y)
+      for (std::size_t x = 0; x < picture->width; ++x) {
+        const Colours s0 = stokesAt(*picture, x, y)[0];
+        for (const double v : s0) {
+          EXPECT_GE(v, 0);
+          EXPECT_LE(v, 1 + 1e-6);
+        }
+      }
+}
+
+}  // namespace
+}  // namespace malus

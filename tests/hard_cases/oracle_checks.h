@@ -1,0 +1,105 @@
+// One interface against the Jones oracle that is fed with the same rounded inputs.
+#pragma once
+
+#include "tests/hard_cases/backends.h"
+
+namespace malus::test {
+
+// How far each number of the oracle moves when the cosine and the index move by `steps` of eps: where the problem
+// itself is ill conditioned (critical angle, grazing), no arithmetic does better.
+struct Conditioned {
+  oracle::Powers value;
+  oracle::Powers spread{};
+};
+using PowersOf = oracle::Powers (*)(oracle::Real c, oracle::Real n1, oracle::Complex n2);
+inline Conditioned conditioned(oracle::Real c, oracle::Real n1, oracle::Complex n2, oracle::Real step,
+                               PowersOf powersOf = oracle::powers) {
+  using oracle::Real;
+  Conditioned r{powersOf(c, n1, n2), {}};
+  for (const Real dc : {-1.0L, 0.0L, 1.0L})
+    for (const Real dn : {-1.0L, 1.0L}) {
+      const Real near = std::min(Real(1), std::max(Real(0), c * (1 + dc * step)));
+      const oracle::Complex move = (std::abs(n2 - n1) < std::abs(n2) ? n2 - n1 : n2) * (dn * step);
+      const oracle::Powers p = powersOf(near, n1, n2 + move);
+      const auto grow = [](Real& spread, Real a, Real b) { spread = std::max(spread, std::abs(a - b)); };
+      grow(r.spread.rs, p.rs, r.value.rs);
+      grow(r.spread.rp, p.rp, r.value.rp);
+      grow(r.spread.ts, p.ts, r.value.ts);
+      grow(r.spread.tp, p.tp, r.value.tp);
+      grow(r.spread.txGeo, p.txGeo, r.value.txGeo);
+      r.spread.x = std::max(std::abs(r.spread.x), std::abs(p.x - r.value.x));
+    }
+  return r;
+}
+
+// Expects every number of an interface within `roundings` of eps (times what the backend's arithmetic may be worse)
+// of the oracle: relative to R_s where it is small, absolute to 1 for transmittances.
+template <class B>
+void expectSurface(const typename B::SurfaceIn& in, const typename B::SurfaceOut& out, double roundings,
+                   PowersOf powersOf = oracle::powers) {
+  using oracle::Complex;
+  using oracle::Real;
+  constexpr Real kEps = std::numeric_limits<typename B::real>::epsilon();
+  const Real unit = roundings * B::kRoundings * kEps;
+  const Real c = std::min(Real(1), std::max(Real(0), Real(in.c)));
+  const auto where = [&] {
+    return ::testing::Message() << B::kBackend << ": cosine " << in.c << ", " << in.n1 << " to " << in.n2 << " - i "
+                                << in.k2;
+  };
+  const auto expectNear = [&](Real got, Real want, Real spread, Real size, const char* what) {
+    ASSERT_TRUE(std::isfinite(got)) << where() << ": " << what;
+    EXPECT_LE(std::abs(got - want), unit * size + spread) << where() << ": " << what << " " << got << ", not " << want;
+  };
+  const auto expectMirror = [&](const auto& r, const Conditioned& o, const char* what) {
+    expectNear(r.rs, o.value.rs, o.spread.rs, o.value.rs, what);
+    expectNear(r.rp, o.value.rp, o.spread.rp, std::max(o.value.rs, o.value.rp), what);
+    expectNear(std::abs(Complex(r.xRe, r.xIm) - o.value.x), 0, std::abs(o.spread.x), o.value.rs, what);
+    EXPECT_TRUE(r.rs >= 0 && r.rs <= 1 && r.rp >= 0 && r.rp <= 1) << where() << ": " << what;
+  };
+  const Conditioned d = conditioned(c, in.n1, Real(in.n2), 3 * B::kRoundings * kEps, powersOf);
+  expectMirror(out.dielectric, d, "dielectric");
+  expectMirror(out.conductor, conditioned(c, in.n1, Complex(in.n2, -Real(in.k2)), 3 * B::kRoundings * kEps, powersOf),
+               "conductor");
+  const Real tiny = 16 * std::numeric_limits<typename B::real>::min();  // what a device may flush
+  expectNear(out.transmittance.ts, d.value.ts, d.spread.ts + tiny, std::max(d.value.ts, d.value.tp), "T_s");
+  expectNear(out.transmittance.tp, d.value.tp, d.spread.tp + tiny, std::max(d.value.ts, d.value.tp), "T_p");
+  expectNear(out.transmittance.x, d.value.txGeo, d.spread.txGeo + tiny, std::max(d.value.ts, d.value.tp),
+             "sqrt(T_s T_p)");
+  EXPECT_TRUE(out.schlick >= 0 && out.schlick <= 1 + static_cast<typename B::real>(unit))
+      << where() << " schlick " << out.schlick;
+}
+
+template <class B>
+void expectSurfaces(const std::vector<typename B::SurfaceIn>& in, double roundings,
+                    PowersOf powersOf = oracle::powers) {
+  const auto out = B::surfaces(in);
+  for (std::size_t i = 0; i < in.size() && !::testing::Test::HasFatalFailure(); ++i)
+    expectSurface<B>(in[i], out[i], roundings, powersOf);
+}
+
+// The Stokes vector that a chain shows, as the oracle has it from the same rounded numbers.
+template <class Chain>
+oracle::Stokes4 oracleStokes(const Chain& chain) {
+  oracle::Stokes4 s = expectedStokes(pathOf(chain), 1);
+  for (oracle::Real& v : s) v *= chain.radiance;
+  return s;
+}
+template <class Out>
+oracle::Stokes4 stokesOf(const Out& o) {
+  return {o.s0, o.s1, o.s2, o.s3};
+}
+template <class A>
+oracle::Real largestDifference(const A& a, const A& b, std::size_t components = 4) {
+  oracle::Real worst = 0;
+  for (std::size_t i = 0; i < components; ++i) {
+    const oracle::Real d = std::abs(a[i] - b[i]);
+    worst = d <= worst ? worst : d;  // NaN stays
+  }
+  return worst;
+}
+
+inline bool carriesStokes(const std::string& method) { return method.starts_with("stokes"); }
+// What packing to 16 bits may cost a Stokes vector per bounce, relative to its S0 (stokes_half.h).
+inline double packingLoss(const std::string& method) { return method == "stokes-half" ? 1.5e-3 : 0; }
+
+}  // namespace malus::test

@@ -14,6 +14,7 @@
 #include "meshprep/cli.h"
 #include "render/cli.h"
 #include "render/compare/cli.h"
+#include "render/material_cli.h"
 #include "render/sweep_cli.h"
 #include "render/vulkan/gpu_model.h"
 
@@ -58,6 +59,7 @@ int run(int argc, char** argv) {
   malus::render::addCompareCommand(app);
   malus::render::addCompareImagesCommand(app);
   malus::render::addSweepCommand(app);
+  malus::render::addMaterialCommand(app);
   try {
     app.parse(argc, argv);  // runs the subcommand
     if (listMethods) malus::render::listMethods();

@@ -1,9 +1,5 @@
 #include "render/compare/cli.h"
 
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -16,10 +12,9 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/compare/results.h"
+#include "render/report_script.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/gpu_model.h"
-
-extern char** environ;
 
 namespace malus::render {
 namespace fs = std::filesystem;
@@ -32,26 +27,6 @@ struct Arguments {
   ComparisonSettings settings;
   bool noReport = false, json = false;
 };
-
-// The report's pages are made by Debian's Python, which has matplotlib and Jinja2.
-constexpr const char* kPython = "/usr/bin/python3";
-
-void writeReport(const fs::path& folder) {
-  std::error_code failed;
-  const fs::path script =
-      fs::read_symlink("/proc/self/exe", failed).parent_path() / MALUS_DATA_PATH / "report" / "compare_report.py";
-  if (!fs::exists(script, failed)) throw Error(script.string(), "the report's script is missing", "malus's own file");
-  const std::string scriptText = script.string(), folderText = folder.string();
-  const char* const command[] = {kPython, scriptText.c_str(), folderText.c_str(), nullptr};
-  pid_t child = 0;
-  int status = 0;
-  if (::posix_spawn(&child, kPython, nullptr, nullptr, const_cast<char* const*>(command), environ) != 0 ||
-      ::waitpid(child, &status, 0) < 0)
-    throw Error(kPython, "cannot be started",
-                "packages python3, python3-matplotlib, python3-jinja2, python3-openimageio");
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Error(folderText, "the report's pages could not be made; results.json and results.csv are there");
-}
 
 void runCompare(const Arguments& a) {
   const fs::path folder = a.output;
@@ -99,7 +74,8 @@ void runCompare(const Arguments& a) {
   }
   if (!a.noReport) {
     console::progress("writing the report");
-    writeReport(folder);
+    runReportScript("compare_report.py", {folder.string()}, "",
+                    "the report's pages could not be made; results.json and results.csv are there");
     console::progressDone();
     if (!a.json) fmt::print("report: {}\n", (folder / "index.html").string());
   }

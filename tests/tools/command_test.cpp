@@ -28,7 +28,8 @@ TEST(Usage, HelpOfEveryCommand) {
   EXPECT_EQ(all.exitCode, 0);
   EXPECT_EQ(all.err, "");
   const std::vector<std::string> commands = listedCommands(all.out);
-  for (const char* command : {"prep", "bake", "info", "unpack", "render", "compare", "compare-images", "sweep"})
+  for (const char* command :
+       {"prep", "bake", "info", "unpack", "render", "compare", "compare-images", "sweep", "material"})
     EXPECT_NE(std::find(commands.begin(), commands.end(), command), commands.end()) << command << "\n" << all.out;
   for (const std::string& command : commands) {
     const Finished help = malus({command, "--help"});
@@ -38,8 +39,9 @@ TEST(Usage, HelpOfEveryCommand) {
     EXPECT_TRUE(contains(help.out, command)) << help.out;
   }
   const Finished render = malus({"render", "--help"});
-  for (const char* option : {"--width", "--height", "--depth", "--region", "--threads", "--method", "--backend",
-                             "--polarizer", "--device", "--samples", "--exposure", "--json"})
+  for (const char* option :
+       {"--width", "--height", "--depth", "--region", "--threads", "--method", "--backend", "--polarizer", "--device",
+        "--samples", "--exposure", "--check-numerics", "--max-error", "--json"})
     EXPECT_TRUE(contains(render.out, option)) << option;
 }
 
@@ -417,6 +419,20 @@ TEST_F(Command, WorksFromAnyFolder) {
   const Finished finished = malus({"bake", "scene.json", "-o", output_ / "relative.pack"}, start);
   EXPECT_EQ(finished.exitCode, 0) << finished.err;
   EXPECT_EQ(textOf(output_ / "relative.pack"), textOf(pack()));
+}
+
+// The schema's bounds keep every value that a pack can make within a float; what the check finds where they are broken
+// is tested on the renderers (tests/hard_cases/check_numerics_test.cpp).
+TEST(Render, ChecksItsNumbers) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  for (const char* backend : {"embree", "reference"}) {
+    const Finished checked = malus({"render", folder / "tiny.pack", "-o", folder / "a.exr", "--backend", backend,
+                                    "--method", "stokes", "--check-numerics"});
+    EXPECT_EQ(checked.exitCode, 0) << checked.err;
+    EXPECT_TRUE(contains(checked.out, "every value is finite and physical")) << checked.out;
+  }
 }
 
 }  // namespace

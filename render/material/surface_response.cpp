@@ -1,0 +1,81 @@
+#include "render/material/surface_response.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "shaders/optics/optics.h"
+
+namespace malus::render {
+
+namespace {
+
+// The two builds of the optics as types.
+struct Single {
+  using real = float;
+  using Stokes = f32::Stokes;
+  static auto dielectric(real c, real n1, real n2) { return f32::dielectricReflectance(c, n1, n2); }
+  static auto conductor(real c, real n1, real n2, real k2) { return f32::conductorReflectance(c, n1, n2, k2); }
+  static auto through(real c, real n1, real n2) { return f32::dielectricTransmittance(c, n1, n2); }
+  static Stokes applied(const Stokes& s, real rs, real rp, real xRe, real xIm) {
+    return f32::stokesInterface(s, f32::splat3(rs), f32::splat3(rp), f32::splat3(xRe), f32::splat3(xIm));
+  }
+};
+struct Twofold {
+  using real = double;
+  using Stokes = f64::Stokes;
+  static auto dielectric(real c, real n1, real n2) { return f64::dielectricReflectance(c, n1, n2); }
+  static auto conductor(real c, real n1, real n2, real k2) { return f64::conductorReflectance(c, n1, n2, k2); }
+  static auto through(real c, real n1, real n2) { return f64::dielectricTransmittance(c, n1, n2); }
+  static Stokes applied(const Stokes& s, real rs, real rp, real xRe, real xIm) {
+    return f64::stokesInterface(s, f64::splat3(rs), f64::splat3(rp), f64::splat3(xRe), f64::splat3(xIm));
+  }
+};
+
+// Columns are what the renderers make of the four unit vectors.
+template <class O, class Apply>
+std::array<double, 16> matrixOf(const Apply& apply) {
+  std::array<double, 16> m{};
+  for (std::size_t column = 0; column < 4; ++column) {
+    typename O::Stokes unit{};
+    (column == 0 ? unit.s0 : column == 1 ? unit.s1 : column == 2 ? unit.s2 : unit.s3).x = 1;
+    const typename O::Stokes s = apply(unit);
+    const double rows[4] = {s.s0.x, s.s1.x, s.s2.x, s.s3.x};
+    for (std::size_t row = 0; row < 4; ++row) m[4 * row + column] = rows[row] + 0.0;  // no negative zeros
+  }
+  return m;
+}
+
+template <class O>
+SurfaceResponse responseOf(const Interface& interface, double angleDegrees) {
+  using real = typename O::real;
+  SurfaceResponse response;
+  response.angleDegrees = angleDegrees;
+  // 90 degrees is grazing exactly.
+  const auto c = static_cast<real>(angleDegrees == 90 ? 0 : std::cos(angleDegrees * std::numbers::pi / 180));
+  const auto n1 = static_cast<real>(interface.n1), n2 = static_cast<real>(interface.n2),
+             k2 = static_cast<real>(interface.k2);
+  const bool metal = interface.k2 > 0;
+  const auto r = metal ? O::conductor(c, n1, n2, k2) : O::dielectric(c, n1, n2);
+  response.rs = r.rs;
+  response.rp = r.rp;
+  const double sum = response.rs + response.rp;
+  response.diattenuation = sum > 0 ? (response.rs - response.rp) / sum : 0;
+  response.phaseDegrees = std::atan2(double(r.xIm) + 0.0, double(r.xRe) + 0.0) * 180 / std::numbers::pi;
+  response.reflection =
+      matrixOf<O>([&](const typename O::Stokes& s) { return O::applied(s, r.rs, r.rp, r.xRe, r.xIm); });
+  if (metal) return response;
+  const auto t = O::through(c, n1, n2);
+  response.ts = t.ts;
+  response.tp = t.tp;
+  response.transmission = matrixOf<O>([&](const typename O::Stokes& s) { return O::applied(s, t.ts, t.tp, t.x, 0); });
+  return response;
+}
+
+}  // namespace
+
+SurfaceResponse surfaceResponse(const Interface& interface, double angleDegrees, Precision precision) {
+  return precision == Precision::single ? responseOf<Single>(interface, angleDegrees)
+                                        : responseOf<Twofold>(interface, angleDegrees);
+}
+
+}  // namespace malus::render

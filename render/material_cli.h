@@ -1,0 +1,17 @@
+// The command line that looks up what a surface does to polarization:
+//   malus material NAME | --eta N [--k K]  [--outside N] [--wavelength 630|532|465] [--angle DEG | FROM:TO:STEP]
+//                  [--precision double|float] [--csv | --json] [--plot FILE]
+//
+// --json: one object for one angle, a list of them for several, each whole in itself: material (null for --eta),
+// wavelengthNm (null for --eta), eta, k, outside, precision, angleDegrees, rs, rp, ts, tp, diattenuation,
+// phaseDegrees, reflection[16], transmission[16] (render/material/surface_response.h; ts, tp, transmission are null
+// for metals).
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace malus::render {
+
+void addMaterialCommand(CLI::App& app);
+
+}  // namespace malus::render

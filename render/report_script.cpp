@@ -1,0 +1,62 @@
+#include "render/report_script.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <filesystem>
+
+#include "meshprep/base/error.h"
+
+extern char** environ;
+
+namespace malus::render {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kPython = "/usr/bin/python3";
+
+}  // namespace
+
+void runReportScript(const std::string& script, const std::vector<std::string>& arguments, const std::string& input,
+                     const std::string& failure) {
+  std::error_code failed;
+  const fs::path path = fs::read_symlink("/proc/self/exe", failed).parent_path() / MALUS_DATA_PATH / "report" / script;
+  if (!fs::exists(path, failed)) throw Error(path.string(), "the report's script is missing", "malus's own file");
+  const std::string text = path.string();
+  std::vector<char*> command = {const_cast<char*>(kPython), const_cast<char*>(text.c_str())};
+  for (const std::string& argument : arguments) command.push_back(const_cast<char*>(argument.c_str()));
+  command.push_back(nullptr);
+
+  // Its standard input is a pipe.
+  std::array<int, 2> ends{};
+  if (::pipe(ends.data()) != 0) throw Error(kPython, "cannot be started", "a pipe");
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+  ::posix_spawn_file_actions_addclose(&actions, ends[1]);
+  pid_t child = 0;
+  const bool started = ::posix_spawn(&child, kPython, &actions, nullptr, command.data(), environ) == 0;
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[0]);
+  if (started) {
+    auto* const before = std::signal(SIGPIPE, SIG_IGN);  // a script that ends early says so itself
+    for (std::size_t at = 0; at < input.size();) {
+      const ssize_t wrote = ::write(ends[1], input.data() + at, input.size() - at);
+      if (wrote <= 0) break;
+      at += static_cast<std::size_t>(wrote);
+    }
+    std::signal(SIGPIPE, before);
+  }
+  ::close(ends[1]);
+  int status = 0;
+  if (!started || ::waitpid(child, &status, 0) < 0)
+    throw Error(kPython, "cannot be started",
+                "packages python3, python3-matplotlib, python3-jinja2, python3-openimageio");
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error(script, failure);
+}
+
+}  // namespace malus::render

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+"""Curves of `malus material --plot`: the command's JSON from standard input, the picture's path as the argument."""
+import json
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+
+def main() -> None:
+    rows = json.load(sys.stdin)
+    if len(rows) < 2:
+        sys.exit("material_plot: one angle makes no curve: take --angle FROM:TO:STEP")
+    angle = [r["angleDegrees"] for r in rows]
+    pyplot.rcParams.update({"svg.hashsalt": "malus", "svg.fonttype": "none"})
+    figure, (powers, phases) = pyplot.subplots(2, 1, sharex=True, figsize=(6.4, 6.4), height_ratios=(2, 1))
+    curves = [("rs", "$R_s$", "#c2541a", "-"), ("rp", "$R_p$", "#3f7fb5", "-"), ("ts", "$T_s$", "#c2541a", ":"),
+              ("tp", "$T_p$", "#3f7fb5", ":"), ("diattenuation", "$D$", "#555555", "--")]
+    for name, label, colour, style in curves:
+        if rows[0][name] is not None:
+            powers.plot(angle, [r[name] for r in rows], style, color=colour, label=label)
+    powers.set_ylabel("share of the power")
+    powers.legend(frameon=False, ncol=2)
+    phases.plot(angle, [r["phaseDegrees"] for r in rows], color="#555555")
+    phases.set_ylabel("arg($r_p r_s^*$), degrees")
+    phases.set_ylim(-190, 190)
+    phases.set_yticks([-180, -90, 0, 90, 180])
+    phases.set_xlabel("angle of incidence, degrees")
+    phases.set_xlim(min(angle), max(angle))
+    for axes in (powers, phases):
+        axes.grid(alpha=0.3)
+    first = rows[0]
+    name = first["material"] or "given constants"
+    at = f" at {first['wavelengthNm']} nm" if first["wavelengthNm"] else ""
+    powers.set_title(f"{name}{at}: {first['eta']:g} - i {first['k']:g} against {first['outside']:g}")
+    figure.align_ylabels()
+    figure.tight_layout()
+    path = sys.argv[1]
+    metadata = {"Date": None} if path.endswith("svg") else {"CreationDate": None} if path.endswith("pdf") else {}
+    figure.savefig(path, dpi=120, metadata=metadata)
+
+
+if __name__ == "__main__":
+    main()

@@ -8,8 +8,11 @@
 namespace malus::render {
 
 const std::vector<MethodInfo>& methods() {
-#define MALUS_ROW(M) {f32::M::kName, sizeof(f32::M::Payload), f32::M::kHasStokes != 0},
-  static const std::vector<MethodInfo> kMethods = {MALUS_FOR_EACH_METHOD(MALUS_ROW)};
+#define MALUS_ROW(M) {f32::M::kName, sizeof(f32::M::Payload), f32::M::kHasStokes != 0, false},
+#define MALUS_LOOP_ROW(M) {f32::M::kName, 0, false, true},
+  static const std::vector<MethodInfo> kMethods = {MALUS_FOR_EACH_METHOD(MALUS_ROW)
+                                                       MALUS_FOR_EACH_LOOP(MALUS_LOOP_ROW)};
+#undef MALUS_LOOP_ROW
 #undef MALUS_ROW
   return kMethods;
 }

@@ -12,6 +12,7 @@ struct MethodInfo {
   std::string name;
   std::size_t payloadBytes;  // of what a ray brings back
   bool hasStokes;            // pictures have Stokes channels
+  bool isLoop;               // follows the eye's path in a loop: no recursion
 };
 
 const std::vector<MethodInfo>& methods();

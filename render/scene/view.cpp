@@ -74,6 +74,7 @@ CarriedLight carriedBy(std::string_view method) {
   if (method == f32::M::kName) return probe<f32::M>();
   MALUS_FOR_EACH_METHOD(MALUS_PROBE)
 #undef MALUS_PROBE
+  if (method == "schlick-loop" || method == "fresnel-loop") return {false, false};
   return {};
 }
 

@@ -26,6 +26,7 @@ struct Features {
   VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
   VkPhysicalDeviceVulkan12Features core12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  VkPhysicalDeviceRayQueryFeaturesKHR queries{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
   VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR};
   VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
@@ -165,10 +166,20 @@ Device::Device(const Instance& instance, const std::string& wanted, bool statist
   features.core12.scalarBlockLayout = VK_TRUE;
   std::vector<const char*> extensions(kExtensions.begin(), kExtensions.end());
   statistics = statistics && contains(extensionsOf(physical), VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+  const auto add = [&](const char* extension, auto& feature) {
+    extensions.push_back(extension);
+    feature.pNext = features.pipeline.pNext;
+    features.pipeline.pNext = &feature;
+  };
   if (statistics) {
-    extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+    add(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME, features.executables);
     features.executables.pipelineExecutableInfo = VK_TRUE;
-    features.pipeline.pNext = &features.executables;
+  }
+  // The methods that loop.
+  rayQueries_ = contains(extensionsOf(physical), VK_KHR_RAY_QUERY_EXTENSION_NAME);
+  if (rayQueries_) {
+    add(VK_KHR_RAY_QUERY_EXTENSION_NAME, features.queries);
+    features.queries.rayQuery = VK_TRUE;
   }
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
   info.pNext = &features.all;

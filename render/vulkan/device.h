@@ -37,6 +37,7 @@ class Device {
   const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rayTracing() const { return rayTracing_; }
   std::uint32_t scratchAlignment() const { return scratchAlignment_; }
   double timestampPeriodNs() const { return timestampPeriodNs_; }  // 0: the queue has no timestamps
+  bool hasRayQueries() const { return rayQueries_; }
   bool hasStatistics() const { return getPipelineExecutableStatistics != nullptr; }
   std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const;
 
@@ -62,6 +63,7 @@ class Device {
   VkPhysicalDeviceRayTracingPipelinePropertiesKHR rayTracing_{};
   std::uint32_t scratchAlignment_ = 1;
   double timestampPeriodNs_ = 0;
+  bool rayQueries_ = false;
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool pool_ = VK_NULL_HANDLE;

@@ -44,7 +44,7 @@ VkDeviceSize alignedTo(VkDeviceSize value, VkDeviceSize alignment) {
 Pipeline::Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene,
                    VkDescriptorSetLayout bindings, std::uint32_t recursion)
     : Pipeline(device, variant, bindings, recursion, 0) {
-  createTable(scene);
+  createTable(scene, static_cast<std::uint32_t>(stageSources(variant).size()));
 }
 
 Pipeline::Pipeline(const Device& device, const Variant& variant, VkDescriptorSetLayout bindings,
@@ -53,7 +53,7 @@ Pipeline::Pipeline(const Device& device, const Variant& variant, VkDescriptorSet
   Modules modules{device, {}};
   std::vector<VkPipelineShaderStageCreateInfo> stages;
   std::vector<VkRayTracingShaderGroupCreateInfoKHR> groups;
-  for (const StageSource& source : stageSources()) {
+  for (const StageSource& source : stageSources(variant)) {
     const std::vector<std::uint32_t> spirv = cachedSpirv(variant, source);
     VkShaderModuleCreateInfo module{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     module.codeSize = spirv.size() * sizeof(std::uint32_t);
@@ -104,9 +104,8 @@ Pipeline::~Pipeline() {
   if (layout_) vkDestroyPipelineLayout(device_.get(), layout_, nullptr);
 }
 
-void Pipeline::createTable(const render::FloatScene& scene) {
+void Pipeline::createTable(const render::FloatScene& scene, std::uint32_t groupCount) {
   const auto& limits = device_.rayTracing();
-  const auto groupCount = static_cast<std::uint32_t>(stageSources().size());
   const std::size_t handleBytes = limits.shaderGroupHandleSize;
   std::vector<std::byte> handles(handleBytes * groupCount);
   check(
@@ -117,14 +116,17 @@ void Pipeline::createTable(const render::FloatScene& scene) {
   const VkDeviceSize stride = alignedTo(handleBytes, limits.shaderGroupHandleAlignment),
                      base = limits.shaderGroupBaseAlignment;
   const VkDeviceSize missAt = alignedTo(stride, base), hitAt = missAt + alignedTo(2 * stride, base);
-  std::vector<std::byte> records(hitAt + stride * scene.meshes.size());
+  const bool raygenAlone = groupCount == 1;
+  std::vector<std::byte> records(raygenAlone ? stride : hitAt + stride * scene.meshes.size());
   const auto put = [&](VkDeviceSize at, std::uint32_t group) {
     std::memcpy(records.data() + at, handles.data() + group * handleBytes, handleBytes);
   };
   put(0, 0);
-  put(missAt, 1);
-  put(missAt + stride, 2);
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+  if (!raygenAlone) {
+    put(missAt, 1);
+    put(missAt + stride, 2);
+  }
+  for (std::size_t i = 0; i < scene.meshes.size() && !raygenAlone; ++i)
     put(hitAt + stride * i, kFirstHitGroup + scene.materials[scene.meshes[i].material].kind);
 
   // The table's start must be aligned; a little room makes it so on every driver.
@@ -144,6 +146,7 @@ void Pipeline::createTable(const render::FloatScene& scene) {
   });
   table_ = std::move(probe);
   raygen_ = {start, stride, stride};
+  if (raygenAlone) return;
   miss_ = {start + missAt, stride, 2 * stride};
   hit_ = {start + hitAt, stride, stride * scene.meshes.size()};
 }

@@ -69,7 +69,7 @@ std::vector<bool> presentStages(const pack::Scene& scene, const Variant& variant
   for (const pack::Mesh& mesh : scene.meshes) kinds[render::surfaceKind(scene.materials[mesh.material].kind)] = true;
   std::vector<bool> result;
   std::size_t kind = 0;
-  for (const StageSource& source : stageSources())
+  for (const StageSource& source : stageSources(variant))
     if (source.stage == Stage::closestHit)
       result.push_back(kinds.at(kind++));
     else
@@ -113,7 +113,8 @@ std::map<std::string, std::uint64_t> valuesOf(const Device& device, VkPipeline p
 // Drivers name all closest-hit shaders alike, and list them in the order in which the pipeline was given
 // them. An executable that is none of the pipeline's shaders, such as the traversal that RADV adds as an
 // intersection shader, comes last.
-std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline, const std::vector<bool>& present) {
+std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline, const Variant& variant,
+                                      const std::vector<bool>& present) {
   VkPipelineInfoKHR info{VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR};
   info.pipeline = pipeline;
   std::uint32_t count = 0;
@@ -123,7 +124,7 @@ std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline,
   check(device.getPipelineExecutableProperties(device.get(), &info, &count, list.data()),
         "vkGetPipelineExecutablePropertiesKHR");
 
-  const std::vector<StageSource>& sources = stageSources();
+  const std::vector<StageSource>& sources = stageSources(variant);
   std::vector<StageStatistics> stages, others;
   std::size_t next = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -168,11 +169,12 @@ std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const p
     s.driver = device.physical().driver;
     s.method = method;
     s.payloadBytes = render::methodNamed(method).payloadBytes;
-    const Variant variant = variantFor(scene, method);
-    const Pipeline pipeline(device, variant, layout.handle, depth + 2, VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);
-    s.stages = stagesOf(device, pipeline.get(), presentStages(scene, variant));
-    for (std::uint32_t group = 0; group < stageSources().size(); ++group) {
-      const StageSource& source = stageSources()[group];
+    const Variant variant = variantFor(scene, method, depth);
+    const Pipeline pipeline(device, variant, layout.handle, variant.stackSize > 0 ? 1 : depth + 2,
+                            VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);
+    s.stages = stagesOf(device, pipeline.get(), variant, presentStages(scene, variant));
+    for (std::uint32_t group = 0; group < stageSources(variant).size(); ++group) {
+      const StageSource& source = stageSources(variant)[group];
       const VkDeviceSize bytes = device.getRayTracingShaderGroupStackSize(device.get(), pipeline.get(), group,
                                                                           source.stage == Stage::closestHit
                                                                               ? VK_SHADER_GROUP_SHADER_CLOSEST_HIT_KHR

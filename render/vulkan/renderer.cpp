@@ -208,8 +208,10 @@ const Pipeline& Renderer::Impl::pipelineFor(const Variant& variant, std::uint32_
 
 render::Picture Renderer::Impl::trace(const Variant& variant, const render::View& view) {
   const auto preparing = Clock::now();
-  const bool fresh = !pipelines.contains({variant, view.depth + 2});
-  const Pipeline& pipeline = pipelineFor(variant, view.depth + 2);
+  // Beside the interactions: the camera ray, and a shadow ray from the last hit. A loop does not recurse.
+  const std::uint32_t recursion = variant.stackSize > 0 ? 1 : view.depth + 2;
+  const bool fresh = !pipelines.contains({variant, recursion});
+  const Pipeline& pipeline = pipelineFor(variant, recursion);
   render::Picture picture;
   picture.width = view.region.width;
   picture.height = view.region.height;
@@ -280,10 +282,14 @@ gpu::Faults Renderer::Impl::faultsOf(const Variant& variant, const render::View&
 }
 
 render::Picture Renderer::render(std::string_view method, const render::View& view) {
-  if (view.depth > maxDepth())
+  const bool isLoop = render::methodNamed(method).isLoop;
+  if (isLoop && !impl_->device.hasRayQueries())
+    throw Error("--method", fmt::format("device '{}' has no ray queries", impl_->device.physical().name),
+                "a method that recurses", method);
+  if (!isLoop && view.depth > maxDepth())
     throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name),
                 fmt::format("at most {}", maxDepth()), fmt::format("{}", view.depth));
-  Variant variant = variantFor(impl_->scene, method);
+  Variant variant = variantFor(impl_->scene, method, view.depth);
   render::Picture picture = impl_->trace(variant, view);
   picture.device = device();
   if (view.checkNumerics) {
@@ -301,7 +307,7 @@ render::Picture Renderer::render(std::string_view method, const render::View& vi
 }
 
 std::uint64_t Renderer::countRays(std::string_view method, const render::View& view) {
-  Variant variant = variantFor(impl_->scene, method);
+  Variant variant = variantFor(impl_->scene, method, view.depth);
   variant.countRays = true;
   return impl_->trace(variant, view).cost.rays;
 }

@@ -40,7 +40,8 @@ class Renderer {
   std::uint64_t countRays(std::string_view method, const render::View& view);
 
   std::string device() const;
-  std::uint32_t maxDepth() const;  // most specular interactions that the device's recursion allows
+  // Most specular interactions that the device's recursion allows; methods that loop have no such limit.
+  std::uint32_t maxDepth() const;
 
  private:
   struct Impl;

@@ -4,12 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "render/scene/methods.h"
 #include "shaders/sources.h"
 
 namespace malus::vulkan {
 
-Variant variantFor(const pack::Scene& scene, std::string_view method) {
+Variant variantFor(const pack::Scene& scene, std::string_view method, std::uint32_t depth) {
   Variant variant;
+  const auto isGlass = [&](const pack::Mesh& mesh) {
+    return scene.materials[mesh.material].kind == pack::MaterialKind::glass;
+  };
+  if (render::methodNamed(method).isLoop)  // at least one, so that there is an array
+    variant.stackSize = std::any_of(scene.meshes.begin(), scene.meshes.end(), isGlass) ? std::max(depth, 1u) : 1;
   variant.method = method;
   variant.pointLights = !scene.lights.empty();
   variant.fill = scene.environment.diffuseFill > 0;
@@ -21,6 +27,8 @@ std::string preamble(const Variant& variant) {
       "#extension GL_EXT_ray_tracing : require\n"
       "#extension GL_EXT_scalar_block_layout : require\n"
       "#extension GL_GOOGLE_include_directive : require\n";
+  if (variant.stackSize > 0)
+    text += fmt::format("#extension GL_EXT_ray_query : require\n#define MALUS_STACK_SIZE {}\n", variant.stackSize);
   text += fmt::format("#define MALUS_METHOD \"{}\"\n", variant.method);
   if (!variant.pointLights) text += "#define MALUS_NO_POINT_LIGHTS\n";
   if (!variant.fill) text += "#define MALUS_NO_FILL\n";
@@ -29,7 +37,9 @@ std::string preamble(const Variant& variant) {
   return text;
 }
 
-const std::vector<StageSource>& stageSources() {
+const std::vector<StageSource>& stageSources(const Variant& variant) {
+  static const std::vector<StageSource> kLoop = {{"shaders/stages/eye_path.rgen", Stage::raygen}};
+  if (variant.stackSize > 0) return kLoop;
   static const std::vector<StageSource> kSources = {
       {"shaders/stages/raygen.rgen", Stage::raygen},     {"shaders/stages/environment.rmiss", Stage::miss},
       {"shaders/stages/shadow.rmiss", Stage::miss},      {"shaders/stages/lambert.rchit", Stage::closestHit},
@@ -43,7 +53,7 @@ std::string_view includedSource(const Variant& variant, std::string_view path) {
   if (path != "shaders/methods/selected.h") return shaders::source(path);
   std::string file = variant.method;
   std::replace(file.begin(), file.end(), '-', '_');
-  return shaders::source(fmt::format("shaders/methods/{}.h", file));
+  return shaders::source(fmt::format("shaders/{}/{}.h", variant.stackSize > 0 ? "loops" : "methods", file));
 }
 
 std::string stageText(const StageSource& source) {

@@ -2,6 +2,7 @@
 // that glslang gets as a preamble; what a macro leaves out costs nothing.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,11 +17,12 @@ struct Variant {
   bool fill = true;
   bool countRays = false;
   bool checkNumerics = false;
+  std::uint32_t stackSize = 0;  // of a loop: ways that may wait; 0 for a recursive method
   auto operator<=>(const Variant&) const = default;
 };
 
-// What the scene calls for.
-Variant variantFor(const pack::Scene& scene, std::string_view method);
+// What the scene calls for. depth: most specular interactions.
+Variant variantFor(const pack::Scene& scene, std::string_view method, std::uint32_t depth);
 
 // #version, extensions and macros of the variant.
 std::string preamble(const Variant& variant);
@@ -32,8 +34,9 @@ struct StageSource {
   std::string_view path;
   Stage stage;
 };
-// Ray generation, environment miss, shadow miss, then a closest hit for every gpu::SurfaceKind in order.
-const std::vector<StageSource>& stageSources();
+// Ray generation, environment miss, shadow miss, then a closest hit for every gpu::SurfaceKind in order; of a loop ray
+// generation alone.
+const std::vector<StageSource>& stageSources(const Variant& variant);
 
 // Text of a file by its path, "shaders/methods/selected.h" being the variant's method.
 std::string_view includedSource(const Variant& variant, std::string_view path);

@@ -46,4 +46,3 @@ FN Light lightTransmit(Factors f, Light l) {
 }
 // Diffuse light that leaves through the interface.
 FN Light lightLeave(Factors f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
-FN real3 meanTransmittance(Factors f) { return splat3(R(1.0)) - f.r; }

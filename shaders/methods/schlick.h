@@ -9,20 +9,7 @@ struct Payload {
 struct Light {
   real3 colour;
 };
-struct Factors {
-  real3 r;
-};
 
-FN Factors dielectricFactors(real c, real n1, real n2) {
-  Factors f;
-  f.r = splat3(schlickReflectance(c, n1, n2, R(0.0)));
-  return f;
-}
-FN Factors conductorFactors(real c, real n1, real3 n2, real3 k2) {
-  Factors f;
-  f.r = make3(schlickReflectance(c, n1, n2.x, k2.x), schlickReflectance(c, n1, n2.y, k2.y),
-              schlickReflectance(c, n1, n2.z, k2.z));
-  return f;
-}
+#include "shaders/methods/schlick_factors.h"
 
 #include "shaders/methods/colour.h"

@@ -6,6 +6,7 @@
 #include "shaders/optics/directions.h"
 #include "shaders/optics/frames.h"
 #include "shaders/optics/stokes.h"
+#include "shaders/optics/importance.h"
 #include "shaders/optics/sources.h"
 #include "shaders/optics/environment.h"
 #include "shaders/optics/surface_point.h"

@@ -14,4 +14,7 @@ layout(set = 0, binding = 11, scalar) buffer FaultBlock { Faults faults; };
 #endif
 #ifdef MALUS_COUNT_RAYS
 layout(set = 0, binding = 10, scalar) buffer Counter { uint rayCount; };
+void countRay() { atomicAdd(rayCount, 1u); }
+#else
+void countRay() {}
 #endif

@@ -3,6 +3,8 @@
 #include "shaders/surfaces/hit.h"
 #include "shaders/stages/faults.glsl"
 #include "shaders/surfaces/check.h"
+#include "shaders/surfaces/check_sent.h"
+#include "shaders/surfaces/surroundings.h"
 #include "shaders/surfaces/miss.h"
 
 layout(location = 0) rayPayloadInEXT Payload result;

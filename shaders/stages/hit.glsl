@@ -3,8 +3,11 @@
 #include "shaders/stages/trace.glsl"
 #include "shaders/surfaces/hit.h"
 #include "shaders/stages/faults.glsl"
+#include "shaders/stages/geometry.glsl"
 #include "shaders/surfaces/check.h"
+#include "shaders/surfaces/check_sent.h"
 #include "shaders/surfaces/direct_light.h"
+#include "shaders/surfaces/glass_way.h"
 
 layout(location = 0) rayPayloadInEXT Payload result;
 hitAttributeEXT vec2 barycentric;
@@ -12,12 +15,5 @@ hitAttributeEXT vec2 barycentric;
 Material hitMaterial() { return materials[meshes[gl_GeometryIndexEXT].material]; }
 
 Hit loadHit() {
-  Mesh mesh = meshes[gl_GeometryIndexEXT];
-  uvec3 corner = triangles[mesh.firstTriangle + gl_PrimitiveID] + mesh.firstVertex;
-  float b0 = 1.0 - barycentric.x - barycentric.y;
-  vec3 interpolated = vec3(0.0);
-  if (mesh.hasNormals != 0u)
-    interpolated = normals[corner.x] * b0 + normals[corner.y] * barycentric.x + normals[corner.z] * barycentric.y;
-  return makeHit(gl_WorldRayDirectionEXT, positions[corner.x], positions[corner.y], positions[corner.z], barycentric.x,
-                 barycentric.y, interpolated, payloadDepth(result), mesh.material);
+  return hitOf(gl_GeometryIndexEXT, gl_PrimitiveID, barycentric, gl_WorldRayDirectionEXT, payloadDepth(result));
 }

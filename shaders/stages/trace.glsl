@@ -2,12 +2,6 @@
 layout(location = 1) rayPayloadEXT Payload childPayload;
 layout(location = 2) rayPayloadEXT uint shadowPayload;
 
-void countRay() {
-#ifdef MALUS_COUNT_RAYS
-  atomicAdd(rayCount, 1u);
-#endif
-}
-
 Payload traceRay(vec3 origin, vec3 direction, float depth) {
   countRay();
   payloadSetDepth(childPayload, depth);

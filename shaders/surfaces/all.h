@@ -1,8 +1,7 @@
 // The surfaces in the order of their dependence; included after a method.
 // clang-format off
-#include "shaders/surfaces/hit.h"
-#include "shaders/surfaces/check.h"
-#include "shaders/surfaces/direct_light.h"
+#include "shaders/surfaces/common.h"
+#include "shaders/surfaces/check_sent.h"
 #include "shaders/surfaces/opaque.h"
 #include "shaders/surfaces/lambert.h"
 #include "shaders/surfaces/paint.h"

@@ -46,12 +46,3 @@ FN void checkColour(Hit h, real s0, real s1, real s2, real s3, real slack, uint 
   s.w = float(s3);
   noteFault(h, s, kind, colour, float(slack));
 }
-
-// arriving: slack of the light that met the surface.
-FN void checkSent(Hit h, Payload sent, real3 arriving) {
-  Stokes s = payloadStokes(sent, h.d);
-  real eps = R(8.0) * kUnitRoundoff;
-  checkColour(h, s.s0.x, s.s1.x, s.s2.x, s.s3.x, arriving.x + eps * absR(s.s0.x), 0u);
-  checkColour(h, s.s0.y, s.s1.y, s.s2.y, s.s3.y, arriving.y + eps * absR(s.s0.y), 1u);
-  checkColour(h, s.s0.z, s.s1.z, s.s2.z, s.s3.z, arriving.z + eps * absR(s.s0.z), 2u);
-}

@@ -1,25 +1,4 @@
-// What a ray sees that leaves the scene. The octahedral map has a border of one texel that repeats what
-// lies across its edges, so bilinear interpolation needs no special case.
-FN real3 environmentRadiance(real3 d) {
-  if (frame.environmentSize == 0) return frame.environment;
-  real u;
-  real v;
-  octahedralFromDirection(d, u, v);
-  real size = real(frame.environmentSize);
-  real x = u * size + R(0.5);
-  real y = v * size + R(0.5);
-  int ix = int(x);
-  int iy = int(y);
-  if (ix > frame.environmentSize) ix = frame.environmentSize;
-  if (iy > frame.environmentSize) iy = frame.environmentSize;
-  real fx = x - real(ix);
-  real fy = y - real(iy);
-  int row = frame.environmentSize + 2;
-  int at = iy * row + ix;
-  real3 top = environmentTexels[at] * (R(1.0) - fx) + environmentTexels[at + 1] * fx;
-  real3 bottom = environmentTexels[at + row] * (R(1.0) - fx) + environmentTexels[at + row + 1] * fx;
-  return top * (R(1.0) - fy) + bottom * fy;
-}
+// A ray that leaves the scene.
 FN Payload shadeMiss(real3 d, real depth) {
   Payload sent = payloadSource(environmentRadiance(d));
   if (kCheckNumerics) checkSent(missedHit(d, depth), sent, splat3(R(0.0)));

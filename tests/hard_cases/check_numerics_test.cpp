@@ -24,6 +24,7 @@ struct Checker {
 #include "shaders/surfaces/hit.h"
 
 #include "shaders/surfaces/check.h"
+#include "shaders/surfaces/check_sent.h"
   void noteFault(const Hit&, const vec4&, uint fault, uint, float) { found = fault; }
 };
 }  // namespace malus::f32
@@ -72,7 +73,7 @@ TEST(CheckNumerics, NamesTheSourceOfANan) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const pack::Scene scene = lampOverGold(bad);
     std::uint32_t x = 0, y = 0;
-    for (const std::string method : {"stokes", "fresnel", "sp"})
+    for (const std::string method : {"stokes", "fresnel", "sp", "importance"})
       for (const Found& found : everyRenderer(scene, method)) {
         SCOPED_TRACE(found.renderer + " " + method);
         ASSERT_GT(found.faults.count, 0u);

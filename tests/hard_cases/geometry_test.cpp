@@ -150,6 +150,33 @@ TEST_P(HardScenes, EveryMethodIsSound) {
     expectSound(renderer.render(method, checkedView(scene)), scene, "embree " + method);
 }
 
+TEST_P(HardScenes, ImportanceIsTheIntensityOfTheReference) {
+  // Behind filters too, and on Vulkan at any depth: the loop does not recurse.
+  const pack::Scene& scene = packOf(GetParam()).scene;
+  const Expected& expected = scenes().at(GetParam());
+  render::View view = checkedView(scene);
+  const embree::Renderer embree(scene, 0);
+  vulkan::Renderer vulkan(scene, {});
+  for (const render::Analyser& analyser : {render::kNoFilter, render::linearPolarizer(30),
+                                           render::behindWavePlate(render::linearPolarizer(75), {20, 90})}) {
+    view.analyser = analyser;
+    const Picture truth = reference::render(scene, view, 0);
+    const auto expectClose = [&](const Picture& p, const char* what) {
+      expectSound(p, scene, what);
+      std::size_t off = 0;
+      for (std::size_t i = 0; i < std::size_t{p.width} * p.height; ++i) {
+        double d = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+          d = std::max(d, std::abs(static_cast<double>(p.pixels[3 * i + c] - truth.pixels[i * truth.channels + c])));
+        if (d > expected.threshold) ++off;
+      }
+      EXPECT_LE(off, expected.outliers) << what;
+    };
+    expectClose(embree.render("importance", view), "embree importance");
+    if (expected.renderersAgree) expectClose(vulkan.render("importance", view), "vulkan importance");
+  }
+}
+
 std::string testName(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');

@@ -48,6 +48,8 @@ struct Values {
   real3 origin;
   real3 camera;
   real3 clamped;
+  Row turnedRow;
+  Row metRow;
   real halved;    // back from 16 bits
   real fraction;  // as above
 };
@@ -93,6 +95,13 @@ FN Values valuesOf(Given g) {
   r.origin = rayOrigin(g.radiance, r.error, g.n, R(0.001));
   r.camera = cameraDirection(g.d, g.n, g.interpolated, R(0.5), R(0.25), g.c, g.cos2);
   r.clamped = max3(select3(lessR(g.c, R(0.5)), cross3(g.d, g.n), g.n), square(g.c) * kPi);
+  Row row;
+  row.w = g.c;
+  row.q = g.d.x;
+  row.u = g.d.y;
+  row.v = g.d.z;
+  r.turnedRow = rowTurn(row, g.cos2, g.sin2);
+  r.metRow = rowInterface(row, r.conductor.rs, r.conductor.rp, r.conductor.xRe, r.conductor.xIm);
   word bits = joinWord(halfBits(g.k2), fractionBits(g.cos2));
   r.halved = halfValue(lowHalf(bits));
   r.fraction = fractionValue(highHalf(bits));

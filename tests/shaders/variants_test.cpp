@@ -85,7 +85,7 @@ TEST_P(VariantsTest, CompilesWithThePayloadOfItsMethod) {
     variant.pointLights = (flags & 1) != 0;
     variant.fill = (flags & 2) != 0;
     variant.countRays = (flags & 4) != 0;
-    for (const vulkan::StageSource& source : vulkan::stageSources()) {
+    for (const vulkan::StageSource& source : vulkan::stageSources(variant)) {
       SCOPED_TRACE(std::string(source.path) + " flags " + std::to_string(flags));
       const Module module(compiled(variant, source));
       if (source.stage == Stage::raygen) {
@@ -111,7 +111,26 @@ INSTANTIATE_TEST_SUITE_P(Methods, VariantsTest, ::testing::ValuesIn(kMethods), [
 
 TEST(VariantsTest, EveryStageIsThere) {
   // Ray generation, two misses, a closest hit for each of five kinds of surface.
-  EXPECT_EQ(vulkan::stageSources().size(), 8u);
+  EXPECT_EQ(vulkan::stageSources({}).size(), 8u);
+}
+
+TEST(VariantsTest, LoopsHaveOneStageAndNoPayload) {
+#define MALUS_NAME(M) f32::M::kName,
+  for (const char* loop : {MALUS_FOR_EACH_LOOP(MALUS_NAME)})
+    for (int flags = 0; flags < 16; ++flags) {
+      Variant variant;
+      variant.method = loop;
+      variant.stackSize = 6;
+      variant.pointLights = (flags & 1) != 0;
+      variant.fill = (flags & 2) != 0;
+      variant.countRays = (flags & 4) != 0;
+      variant.checkNumerics = (flags & 8) != 0;
+      SCOPED_TRACE(std::string(loop) + " flags " + std::to_string(flags));
+      ASSERT_EQ(vulkan::stageSources(variant).size(), 1u);
+      const Module module(compiled(variant, vulkan::stageSources(variant).front()));
+      EXPECT_TRUE(module.incoming.empty());
+      EXPECT_TRUE(module.outgoing.empty());
+    }
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST_F(Compare, EveryMethodOnBothRenderers) {
   ASSERT_EQ(finished.exitCode, 0) << finished.err;
   const json document = results();
   EXPECT_EQ(document.at("settings").at("rounds"), 2);
-  ASSERT_EQ(document.at("rows").size(), 18u);
+  ASSERT_EQ(document.at("rows").size(), 24u);
   std::map<std::string, std::set<std::uint64_t>> rays;
   for (const json& row : document.at("rows")) {
     EXPECT_EQ(row.at("status"), "ok");
@@ -123,7 +123,7 @@ TEST_F(Compare, InterruptingKeepsTheFinishedRounds) {
   EXPECT_GE(rounds, 2u);
   EXPECT_LT(rounds, 100000u);
   EXPECT_EQ(document.at("settings").at("interrupted"), true);
-  ASSERT_EQ(document.at("rows").size(), 9u);
+  ASSERT_EQ(document.at("rows").size(), 12u);
   for (const json& row : document.at("rows")) EXPECT_EQ(row.at("samplesMs").size(), rounds);
   EXPECT_TRUE(contains(finished.err, "interrupted: ")) << finished.err;
 }

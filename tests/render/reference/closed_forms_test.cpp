@@ -208,6 +208,43 @@ TEST(ClosedForms, EveryMethodTracesTheSameRays) {
     EXPECT_EQ(renderer.render(method, render::viewOf(scene)).cost.rays, rays) << method;
 }
 
+TEST(ClosedForms, LoopsEqualTheirRecursions) {
+  pack::Scene scene = test::emptyScene(5);
+  scene.width = scene.height = 24;
+  scene.camera.verticalFovDegrees = 60;
+  scene.environment.radiance = {0.5, 0.7, 1};
+  pack::Material paint = test::dielectric(MaterialKind::paint, kN, 0.5);
+  paint.highlightStrength = 1;
+  paint.highlightExponent = 60;
+  const auto floor = test::addMaterial(scene, paint),
+             glass = test::addMaterial(scene, test::dielectric(MaterialKind::glass, kN)),
+             gold = test::addMaterial(scene, test::metal({0.2, 0.5, 1.3}, {3, 2, 2}));
+  test::addSquare(scene, floor, {0, -1, 0}, {0, 1, 0}, 4);
+  test::addSquare(scene, glass, {0, 0, 0}, {0, 0.3, 1}, 1);
+  test::addSquare(scene, glass, {0, 0, -0.1}, {0, -0.3, -1}, 1);
+  test::addSquare(scene, gold, {-2, 0, 0}, {1, 0, 0.2}, 2);
+  test::addSquare(scene, gold, {2, 0, 0}, {-1, 0, 0.2}, 2);
+  scene.lights.push_back({{1, 3, 2}, {5, 5, 5}});
+  test::look(scene, {0.5, 0.3, 4}, {0, 0, 0});
+  const embree::Renderer renderer(scene, 1);
+  render::View view = render::viewOf(scene);
+  for (const render::Analyser& analyser :
+       {render::kNoFilter, render::linearPolarizer(40), render::circularAnalyser(render::Handedness::left)}) {
+    view.analyser = analyser;
+    for (const auto& [loop, recursive] :
+         {std::pair("schlick-loop", "schlick"), {"fresnel-loop", "fresnel"}, {"importance", "stokes"}}) {
+      const render::Picture a = renderer.render(loop, view), b = renderer.render(recursive, view);
+      double sum = 0;
+      for (std::size_t i = 0; i < 24u * 24u; ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+          EXPECT_NEAR(a.pixels[3 * i + c], b.pixels[i * b.channels + c], 4e-6) << loop;
+          sum += b.pixels[i * b.channels + c];
+        }
+      EXPECT_GT(sum, 100);
+    }
+  }
+}
+
 TEST(ClosedForms, EmittersShineOnTheirFrontOnly) {
   for (const double z : {1.0, -1.0}) {
     pack::Scene scene = test::emptyScene(1);

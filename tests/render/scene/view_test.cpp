@@ -85,6 +85,7 @@ TEST(View, MethodsTellWhatTheyCarry) {
   for (const auto& [method, linear, circular] :
        {std::tuple("schlick", false, false), std::tuple("fresnel", false, false), std::tuple("sp", true, false),
         std::tuple("sp-cosine", true, false), std::tuple("sp-ratio", true, false), std::tuple("sp-malus", true, false),
+        std::tuple("schlick-loop", false, false), std::tuple("importance", true, true),
         std::tuple("stokes-linear", true, false), std::tuple("stokes", true, true),
         std::tuple("reference", true, true)}) {
     const CarriedLight carried = carriedBy(method);

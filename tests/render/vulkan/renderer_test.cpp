@@ -91,7 +91,9 @@ TEST(VulkanRenderer, DepthPastTheRecursionLimitIsRefused) {
   render::View view = render::viewOf(scene);
   view.depth = renderer.maxDepth() + 1;
   EXPECT_THROW(renderer.render("fresnel", view), Error);
+  // A loop does not recurse.
   view.region = {0, 0, 2, 2};
+  EXPECT_NO_THROW(renderer.render("fresnel-loop", view));
   view.depth = 12;
   EXPECT_NO_THROW(renderer.render("fresnel", view));
 }

@@ -1,0 +1,23 @@
+// Members that both kinds of tracer share beside the surfaces: the nearest hit, and what the check of numbers reports
+// to. Included inside a tracer.
+
+bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) {
+  ++rays;
+  const embree::Intersection at = bvh.nearest(origin, direction);
+  if (at.mesh == embree::Intersection::kMiss) return false;
+  const Mesh& mesh = scene.meshes[at.mesh];
+  const glm::uvec3 corner = scene.triangles[mesh.firstTriangle + at.triangle];
+  const real3* p = scene.positions.data() + mesh.firstVertex;
+  const real3* n = scene.normals.data() + mesh.firstVertex;
+  const real b0 = 1 - at.b1 - at.b2;
+  const real3 interpolated =
+      mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * at.b1 + n[corner.z] * at.b2 : real3(0);
+  hit = makeHit(direction, p[corner.x], p[corner.y], p[corner.z], at.b1, at.b2, interpolated, depth, mesh.material);
+  return true;
+}
+
+void noteFault(const Hit& h, const vec4& stokes, uint kind, uint colour, float slack) {
+  faults.note({kind, pixelX, pixelY, frame.depth - static_cast<int>(h.depth), h.material, colour, h.c, slack,
+               h.position, h.d, h.normal, stokes},
+              frame.width);
+}

@@ -1,0 +1,49 @@
+// What every tracer of a method sees and does: the scene, its rays, what is counted. The shared surfaces become members
+// of the tracers, so that they see the method, the scene and these by their own names.
+#pragma once
+
+#include "render/embree/tile.h"
+#include "shaders/methods/methods.h"
+
+namespace malus::embree {
+
+struct SceneAccess {
+  explicit SceneAccess(const TileInput& tile)
+      : bvh(*tile.bvh),
+        scene(*tile.scene),
+        frame(*tile.frame),
+        materials(scene.materials.data()),
+        lights(scene.lights.data()),
+        environmentTexels(scene.environmentTexels.data()) {}
+
+  const Bvh& bvh;
+  const render::FloatScene& scene;
+  const gpu::Frame& frame;
+  const gpu::Material* materials;
+  const gpu::PointLight* lights;
+  const glm::vec3* environmentTexels;
+  std::uint64_t rays = 0;
+  std::uint32_t pixelX = 0, pixelY = 0;  // the pixel at hand, of the whole picture
+  render::Faults faults;
+
+  bool visible(const glm::vec3& origin, const glm::vec3& direction, float distance) {
+    ++rays;
+    return bvh.visible(origin, direction, distance);
+  }
+};
+
+// Every pixel of a tile. pixel(tracer, out): renders the tracer's pixel into `channels` floats.
+template <class Tracer, class Pixel>
+TileOutput renderPixels(const TileInput& tile, std::size_t channels, Pixel pixel) {
+  Tracer tracer(tile);
+  const gpu::Frame& frame = *tile.frame;
+  for (std::uint32_t y = tile.beginY; y < tile.endY; ++y)
+    for (std::uint32_t x = tile.beginX; x < tile.endX; ++x) {
+      tracer.pixelX = x + frame.regionX;
+      tracer.pixelY = y + frame.regionY;
+      pixel(tracer, tile.pixels + (std::size_t{y} * frame.regionWidth + x) * channels);
+    }
+  return {tracer.rays, tracer.faults};
+}
+
+}  // namespace malus::embree

@@ -1,0 +1,110 @@
+// Method `importance`: the exact polarized intensity behind the camera's filter. The eye path carries importance rows
+// (optics/importance.h), one for three colours until a surface with coloured Fresnel factors is met. Nothing is
+// returned along rays.
+
+// Of an interface, per colour.
+struct Factors {
+  real3 rs;
+  real3 rp;
+  real3 xRe;
+  real3 xIm;
+};
+
+FN Factors dielectricFactors(real c, real n1, real n2) {
+  Reflectance r = dielectricReflectance(c, n1, n2);
+  Factors f;
+  f.rs = splat3(r.rs);
+  f.rp = splat3(r.rp);
+  f.xRe = splat3(r.xRe);
+  f.xIm = splat3(r.xIm);
+  return f;
+}
+FN Factors conductorFactors(real c, real n1, real3 n2, real3 k2) {
+  Reflectance x = conductorReflectance(c, n1, n2.x, k2.x);
+  Reflectance y = conductorReflectance(c, n1, n2.y, k2.y);
+  Reflectance z = conductorReflectance(c, n1, n2.z, k2.z);
+  Factors f;
+  f.rs = make3(x.rs, y.rs, z.rs);
+  f.rp = make3(x.rp, y.rp, z.rp);
+  f.xRe = make3(x.xRe, y.xRe, z.xRe);
+  f.xIm = make3(x.xIm, y.xIm, z.xIm);
+  return f;
+}
+FN real3 meanTransmittance(Factors f) { return splat3(R(1.0)) - (f.rs + f.rp) * R(0.5); }
+
+struct Carried {
+  real3 x;  // frame of the rows: unit, across the ray; their y is cross(-d, x)
+  Row r;    // of red, or of all three colours
+  Row g;
+  Row b;
+  mask split;  // the colours have rows of their own
+};
+
+FN Carried carriedStart(real3 d, real3 up, real behind0, real behind1, real behind2, real behind3) {
+  Carried c;
+  c.x = sDirection(d, up);
+  c.r.w = behind0;
+  c.r.q = behind1;
+  c.r.u = behind2;
+  c.r.v = behind3;
+  c.g = c.r;
+  c.b = c.r;
+  c.split = false;
+  return c;
+}
+
+FN real3 carriedWeights(Carried c) { return c.split ? make3(c.r.w, c.g.w, c.b.w) : splat3(c.r.w); }
+
+// Unpolarized light: the first number of each row.
+FN real3 carriedSource(Carried c, real3 radiance) { return carriedWeights(c) * radiance; }
+FN real carriedMost(Carried c) { return c.split ? maxR(c.r.w, maxR(c.g.w, c.b.w)) : c.r.w; }
+
+// Into the frame of a surface with normal n: from n's components across the ray, no angle. Where they are 0 every
+// frame is one of the surface's.
+FN void carriedMeet(INOUT(Carried) c, real3 d, real3 n) {
+  real3 y = cross3(c.x, d);
+  real nx = dot3(n, c.x);
+  real ny = dot3(n, y);
+  real sum = nx * nx + ny * ny;
+  if (sum < R(1e-30)) return;
+  real root = R(1.0) / sqrtR(sum);
+  real inverse = root * root;
+  real cos2 = (ny - nx) * (ny + nx) * inverse;
+  real sin2 = R(-2.0) * nx * ny * inverse;
+  c.x = c.x * (R(0.0) - ny * root) + y * (nx * root);
+  c.r = rowTurn(c.r, cos2, sin2);
+  if (!c.split) return;
+  c.g = rowTurn(c.g, cos2, sin2);
+  c.b = rowTurn(c.b, cos2, sin2);
+}
+
+// Diffuse light from below the interface: unpolarized, transmitted with 1 - R_s and 1 - R_p.
+FN real3 carriedLeave(Carried c, Factors f, real3 radiance) {
+  real3 mean = splat3(R(1.0)) - (f.rs + f.rp) * R(0.5);
+  real3 difference = (f.rp - f.rs) * R(0.5);
+  real3 q = c.split ? make3(c.r.q, c.g.q, c.b.q) : splat3(c.r.q);
+  return (mean * carriedWeights(c) + difference * q) * radiance;
+}
+
+FN void carriedReflect(INOUT(Carried) c, Factors f, mask coloured) {
+  if (coloured && !c.split) {
+    c.g = c.r;
+    c.b = c.r;
+    c.split = true;
+  }
+  c.r = rowInterface(c.r, f.rs.x, f.rp.x, f.xRe.x, f.xIm.x);
+  if (!c.split) return;
+  c.g = rowInterface(c.g, f.rs.y, f.rp.y, f.xRe.y, f.xIm.y);
+  c.b = rowInterface(c.b, f.rs.z, f.rp.z, f.xRe.z, f.xIm.z);
+}
+
+// Clear glass: T_s, T_p = 1 - R_s, 1 - R_p.
+FN void carriedTransmit(INOUT(Carried) c, Factors f) {
+  real ts = R(1.0) - f.rs.x;
+  real tp = R(1.0) - f.rp.x;
+  real x = sqrtR(ts * tp);
+  c.r = rowInterface(c.r, ts, tp, x, R(0.0));
+  if (!c.split) return;
+  c.g = rowInterface(c.g, ts, tp, x, R(0.0));
+  c.b = rowInterface(c.b, ts, tp, x, R(0.0));
+}

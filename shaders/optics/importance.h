@@ -1,0 +1,34 @@
+// Importance of polarized light: what a Stokes vector at one place of an eye path counts for at the eye is its
+// product with a row (w, q, u, v), followed from the eye on. Rows are never divided by w, which may vanish.
+// Frames as in stokes.h, of the light. Derivation: CONVENTIONS.md.
+
+struct Row {
+  real w;
+  real q;
+  real u;
+  real v;
+};
+
+// The same row in a frame turned by f about the propagation. row' S' = row S with S' = R(f) S makes row R(-f), which
+// is how a Stokes vector turns.
+FN Row rowTurn(Row r, real cos2, real sin2) {
+  Row t;
+  t.w = r.w;
+  t.q = r.q * cos2 + r.u * sin2;
+  t.u = r.u * cos2 - r.q * sin2;
+  t.v = r.v;
+  return t;
+}
+
+// From the light that leaves an interface to the light that meets it: the row times the Mueller matrix of stokes.h
+// (stokesInterface). Transmission has the same form with x real.
+FN Row rowInterface(Row r, real rs, real rp, real xRe, real xIm) {
+  real mean = (rs + rp) * R(0.5);
+  real difference = (rs - rp) * R(0.5);
+  Row t;
+  t.w = mean * r.w + difference * r.q;
+  t.q = mean * r.q + difference * r.w;
+  t.u = r.u * xRe + r.v * xIm;
+  t.v = r.v * xRe - r.u * xIm;
+  return t;
+}

@@ -1,0 +1,82 @@
+// Importance rows against the Stokes vectors that they weigh: at every step of a path their product is the same.
+#include "tests/shaders/chains.h"
+
+namespace malus::test {
+namespace {
+
+using oracle::Real;
+
+template <class O>
+struct Rows;
+template <>
+struct Rows<F32> {
+  using Row = f32::Row;
+  static Row turn(Row r, float c, float s) { return f32::rowTurn(r, c, s); }
+  static Row interface(Row r, float rs, float rp, float xRe, float xIm) {
+    return f32::rowInterface(r, rs, rp, xRe, xIm);
+  }
+};
+template <>
+struct Rows<F64> {
+  using Row = f64::Row;
+  static Row turn(Row r, double c, double s) { return f64::rowTurn(r, c, s); }
+  static Row interface(Row r, double rs, double rp, double xRe, double xIm) {
+    return f64::rowInterface(r, rs, rp, xRe, xIm);
+  }
+};
+
+MALUS_OPTICS_SUITE(ImportanceTest);
+
+template <class O, class Row>
+Real weighed(const Row& r, const typename O::Stokes& s) {
+  return Real(r.w) * s.s0.x + Real(r.q) * s.s1.x + Real(r.u) * s.s2.x + Real(r.v) * s.s3.x;
+}
+
+TYPED_TEST(ImportanceTest, EveryStepKeepsTheProduct) {
+  MALUS_TYPES;
+  using A = Rows<O>;
+  Draw draw(130);
+  Worst turned("turned", double(kEps)), met("met", double(kEps));
+  for (int i = 0; i < 5000; ++i) {
+    const oracle::Vec p = draw.direction(), q = draw.direction();
+    const typename A::Row row{1, R(p[0]), R(p[1]), R(p[2])};
+    typename O::Stokes light = O::stokesUnpolarized(O::splat3(1));
+    light.s1 = O::splat3(R(q[0]));
+    light.s2 = O::splat3(R(q[1]));
+    light.s3 = O::splat3(R(q[2]));
+    // A frame turned: both turn, the product stays.
+    const Real angle = draw.between(0, 6.3);
+    const real c = R(std::cos(angle)), s = R(std::sin(angle));
+    turned.add(weighed<O>(A::turn(row, c, s), O::stokesTurn(light, c, s)) - weighed<O>(row, light));
+    // An interface: the row that meets it, times what arrives, is the row that left it, times what it makes of that.
+    const Metal& m = kMetals[draw.below(5)];
+    const auto f = draw.below(2) == 0 ? O::conductorReflectance(R(draw.unit()), 1, R(m.n[0]), R(m.k[0]))
+                                      : O::dielectricReflectance(R(draw.unit()), R(1.5L), 1);
+    const auto reflected =
+        O::stokesInterface(light, O::splat3(f.rs), O::splat3(f.rp), O::splat3(f.xRe), O::splat3(f.xIm));
+    met.add(weighed<O>(A::interface(row, f.rs, f.rp, f.xRe, f.xIm), light) - weighed<O>(row, reflected));
+  }
+  EXPECT_LT(turned.value(), 8);
+  EXPECT_LT(met.value(), 8);
+}
+
+TYPED_TEST(ImportanceTest, CrossedMirrorsLeaveNothingAndNoNan) {
+  MALUS_TYPES;
+  using A = Rows<O>;
+  // Brewster, a quarter turn, Brewster: w vanishes. Whatever follows stays that small; nothing is divided by w.
+  const auto f = O::dielectricReflectance(R(1 / std::sqrt(3.25L)), 1, R(1.5L));
+  typename A::Row row{1, 0, 0, 0};
+  row = A::interface(row, f.rs, f.rp, f.xRe, f.xIm);
+  row = A::turn(row, -1, 0);
+  row = A::interface(row, f.rs, f.rp, f.xRe, f.xIm);
+  EXPECT_CLOSE(row.w, 0, kEps);
+  for (int i = 0; i < 5; ++i) {
+    row = A::turn(row, R(0.6L), R(0.8L));
+    const auto gold = O::conductorReflectance(R(0.7L), 1, R(0.1884L), R(3.4034L));
+    row = A::interface(row, gold.rs, gold.rp, gold.xRe, gold.xIm);
+    for (const real v : {row.w, row.q, row.u, row.v}) EXPECT_CLOSE(v, 0, kEps);
+  }
+}
+
+}  // namespace
+}  // namespace malus::test

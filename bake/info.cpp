@@ -2,11 +2,25 @@
 
 #include <fmt/format.h>
 
+#include "bake/effects/effects.h"
+#include "bake/effects/polarization_bound.h"
+
 namespace malus::bake {
 using nlohmann::json;
 
 namespace {
 std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+glm::dvec3 boundOf(const pack::Scene& scene) {
+  PictureRequest request;
+  request.depth = scene.depth;
+  return polarizationErrorBound(scene, request);
+}
+
+// The pack's effects, or those of today's rules where it has none.
+std::vector<pack::Effect> effectsOf(const pack::Scene& scene) {
+  return scene.effects.empty() ? findEffects(scene) : scene.effects;
+}
 }  // namespace
 
 json infoJson(const pack::Pack& pack) {
@@ -26,13 +40,15 @@ json infoJson(const pack::Pack& pack) {
                          {"type", pack::nameOf(m.kind)},
                          {"eta", {m.eta.x, m.eta.y, m.eta.z}},
                          {"k", {m.k.x, m.k.y, m.k.z}}});
-  for (const pack::Effect& e : scene.effects) effects.push_back({{"name", e.name}, {"on", e.on}, {"reason", e.reason}});
+  for (const pack::Effect& e : effectsOf(scene))
+    effects.push_back({{"name", e.name}, {"on", e.on}, {"reason", e.reason}});
   for (const pack::Section& s : pack.sections)
     sections.push_back({{"id", s.id},
                         {"version", s.version},
                         {"offset", s.offset},
                         {"sizeBytes", s.sizeBytes},
                         {"hash", hex(s.hash)}});
+  const glm::dvec3 bound = boundOf(scene);
   // Provenance is JSON that a baker wrote; a pack may come from anywhere. What is nested deep is left out:
   // printing it would overflow the stack.
   constexpr int kMaxNesting = 32;
@@ -52,6 +68,7 @@ json infoJson(const pack::Pack& pack) {
           {"materials", materials},
           {"lights", scene.lights.size()},
           {"effects", effects},
+          {"polarizationErrorBound", {bound.x, bound.y, bound.z}},
           {"sections", sections},
           {"provenance", provenance}};
 }
@@ -74,8 +91,15 @@ std::string infoText(const pack::Pack& pack) {
     text += fmt::format("  {:<24} {:<13} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}\n", m.name,
                         pack::nameOf(m.kind), m.eta.x, m.eta.y, m.eta.z, m.k.x, m.k.y, m.k.z);
   text += "\neffects\n";
-  for (const pack::Effect& e : scene.effects)
+  for (const pack::Effect& e : effectsOf(scene))
     text += fmt::format("  {:<3} {:<22} {}\n", e.on ? "on" : "off", e.name, e.reason);
+  const glm::dvec3 bound = boundOf(scene);
+  text +=
+      bound == glm::dvec3(0.0)
+          ? "  the unpolarized intensity without a filter is exact\n"
+          : fmt::format(
+                "  without polarization the intensity is off by at most {:.3g}, {:.3g}, {:.3g} of itself (r, g, b)\n",
+                bound.x, bound.y, bound.z);
   text += "\nsections\n";
   for (const pack::Section& s : pack.sections)
     text +=

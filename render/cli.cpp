@@ -24,6 +24,7 @@
 #include "render/image/output.h"
 #include "render/image/polarization.h"
 #include "render/reference/reference.h"
+#include "render/scene/effects_choice.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
 
@@ -43,12 +44,13 @@ CLI::Validator finite() {
 
 struct RenderArguments : RenderSettings {
   std::optional<double> maxError;
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs, effects = {"auto"};
   std::string dolp, aolp, mosaic;
+  std::string inPlaceOf;  // which method was asked for, and why another was taken; empty: none
   std::optional<double> polarizer, exposure;
   std::string analyser, wavePlate, mosaicChannel = "luminance";
   unsigned mosaicBits = 8;
-  bool json = false, countRays = false, checkNumerics = false;
+  bool json = false, countRays = false, checkNumerics = false, intensity = false;
 };
 
 // "AXIS" or "AXIS,RETARDANCE" in degrees.
@@ -130,6 +132,8 @@ void checkUsage(const RenderArguments& a) {
   if (!a.mosaic.empty() && (a.polarizer || !a.analyser.empty() || !a.wavePlate.empty()))
     fail("--mosaic", "has a polarizer in front of every pixel: no --polarizer, --analyser or --wave-plate");
   if (a.maxError && a.backend == "reference") fail("--max-error", "the reference has no error");
+  if (a.intensity && (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty()))
+    fail("--intensity", "excludes --output-dolp, --output-aolp and --mosaic");
   if (!a.maxError && (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty()))
     requireStokes(a, !a.mosaic.empty() ? "--mosaic" : a.dolp.empty() ? "--output-aolp" : "--output-dolp");
 }
@@ -186,6 +190,46 @@ Picture renderScene(const RenderSettings& a, const pack::Scene& scene, const Vie
 
 namespace {
 
+// The colour channels alone.
+Picture intensityOf(Picture picture) {
+  for (std::size_t i = 0; i < std::size_t{picture.width} * picture.height; ++i)
+    for (std::size_t c = 0; c < kColourChannels; ++c)
+      picture.pixels[i * kColourChannels + c] = picture.pixels[i * picture.channels + c];
+  picture.channels = kColourChannels;
+  picture.pixels.resize(kColourChannels * picture.width * picture.height);
+  return picture;
+}
+
+// What of the picture is asked for: its Stokes vectors where a file holds them.
+bake::PictureRequest requestOf(const RenderArguments& a, const View& view) {
+  const bool stokesFile =
+      !a.intensity && std::any_of(a.outputs.begin(), a.outputs.end(),
+                                  [](const std::string& output) { return endsWith(output, {".exr"}); });
+  bake::PictureRequest request{view.depth, view.analyser, false, false};
+  request.linearStokes = stokesFile || !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
+  request.circularStokes = stokesFile;
+  return request;
+}
+
+// Method, view and scene for the effects that are asked for; says what it took instead, and warns of what is missing.
+pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, View& view) {
+  view.everyEffect = a.effects == std::vector<std::string>{"all"};
+  // The reference carries everything, always.
+  const EffectsChoice choice =
+      chooseEffects(a.effects, a.backend == "reference" ? "stokes" : a.method, scene, requestOf(a, view));
+  for (const std::string& warning : choice.warnings) console::warn(warning);
+  if (a.backend != "reference" && choice.method != a.method) {
+    if (!choice.why.empty()) a.inPlaceOf = fmt::format("in place of {}: {}", a.method, choice.why);
+    a.method = choice.method;
+  }
+  const auto isOff = [&](const char* name) {
+    return std::find(choice.off.begin(), choice.off.end(), name) != choice.off.end();
+  };
+  if (isOff("shadows")) view.shadows = false;
+  if (isOff("filter")) view.analyser = kNoFilter;
+  return choice.off.empty() ? scene : bake::withoutEffects(scene, choice.off);
+}
+
 // The cheapest method that is good enough, and why, for a person.
 std::string chooseMethod(const RenderArguments& a, const pack::Pack& pack, const View& view) {
   const bool needsStokes = !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
@@ -223,13 +267,14 @@ void runRender(RenderArguments a) {
                                 view.region.height));
   if (a.maxError) a.method = chooseMethod(a, pack, view);
   warnOfMissingLight(a, view.analyser);
+  const pack::Scene scene = applyEffects(a, pack.scene, view);
   console::progress(
       fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, a.backend == "reference" ? "" : a.method));
   view.checkNumerics = a.checkNumerics;
-  const Picture picture = renderScene(a, pack.scene, view, a.countRays);
+  const Picture picture = renderScene(a, scene, view, a.countRays);
   if (picture.faults.count > 0) throw Error(a.input, describe(picture.faults, pack.scene));
   const std::string method = a.backend == "reference" ? "reference" : a.method;
-  const image::Image image = toImage(picture, pack, view, a.backend, method);
+  const image::Image image = toImage(a.intensity ? intensityOf(picture) : picture, pack, view, a.backend, method);
   const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
   std::vector<std::string> written;
   const auto write = [&](const std::string& output, const auto& writer) {
@@ -261,12 +306,15 @@ void runRender(RenderArguments a) {
                                    {"traceMs", cost.traceMs},
                                    {"wallMs", cost.wallMs},
                                    {"numericsChecked", a.checkNumerics},
+                                   {"effects", fmt::format("{}", fmt::join(a.effects, ","))},
+                                   {"inPlaceOf", a.inPlaceOf.empty() ? nlohmann::json() : nlohmann::json(a.inPlaceOf)},
                                    {"outputs", written}};
     fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{}: {} {}, {} x {}, depth {}, {}{:.1f} ms on {}{}\n", pack.scene.name, a.backend, method, picture.width,
-               picture.height, view.depth, cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs,
-               picture.device, a.checkNumerics ? "; every value is finite and physical" : "");
+    fmt::print("{}: {} {}{}, {} x {}, depth {}, {}{:.1f} ms on {}{}\n", pack.scene.name, a.backend, method,
+               a.inPlaceOf.empty() ? "" : fmt::format(" ({})", a.inPlaceOf), picture.width, picture.height, view.depth,
+               cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs, picture.device,
+               a.checkNumerics ? "; every value is finite and physical" : "");
   }
 }
 
@@ -368,6 +416,13 @@ void addRenderCommand(CLI::App& app) {
       ->needs(mosaicFile);
   addExposure(*command, a->exposure, "exposure of PNG files and mosaics");
   command->add_flag("--count-rays", a->countRays, "vulkan: trace once more, untimed, to count the rays");
+  command
+      ->add_option(
+          "--effects", a->effects,
+          "auto (what the picture calls for), all, or a list of the effects to keep, as 'malus info' names them")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_flag("--intensity", a->intensity, "only the intensity: no Stokes channels in .exr files");
   command->add_flag("--check-numerics", a->checkNumerics,
                     "find the first value that no light can have (NaN, infinity, negative, more than fully polarized): "
                     "names it and writes nothing");

@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "bake/effects/mutual_sight.h"
+#include "meshprep/base/error.h"
+
 namespace malus::bake {
 using pack::Effect;
 using pack::Material;
@@ -30,16 +33,27 @@ std::string namesWhere(const pack::Scene& scene, const std::function<bool(const 
 }  // namespace
 
 std::vector<Effect> findEffects(const pack::Scene& scene) {
+  PictureRequest request;
+  request.depth = scene.depth;
+  return findEffects(scene, request);
+}
+
+std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& request) {
+  const std::uint32_t depth = request.depth;
+  const auto& filter = request.analyser;
+  const bool linearFilter = filter[1] != 0 || filter[2] != 0, circularFilter = filter[3] != 0;
   std::vector<Effect> effects;
   const auto add = [&](const char* name, bool on, std::string reason) {
     effects.push_back({name, on, std::move(reason)});
   };
   const auto addFor = [&](const char* name, const std::string& materials, const char* noun) {
     add(name, !materials.empty(),
-        materials.empty() ? fmt::format("no {}", noun) : fmt::format("{}: {}", noun, materials));
+        materials.empty() ? fmt::format("no {}", noun)
+                          : fmt::format("{}: {}; gone without {}", noun, materials,
+                                        materials.find(',') == std::string::npos ? "it" : "them"));
     return !materials.empty();
   };
-  const bool deep = scene.depth >= 1;
+  const bool deep = depth >= 1;
 
   const bool diffuse = addFor("diffuse", namesWhere(scene, [](const Material& m) { return positive(m.albedo); }),
                               "material with an albedo");
@@ -60,24 +74,51 @@ std::vector<Effect> findEffects(const pack::Scene& scene) {
   });
   const bool tir = deep && !bent.empty();
   add("tir", tir,
-      tir ? fmt::format("light on the denser side can be totally reflected: {}", bent)
+      tir ? fmt::format("light on the denser side can be totally reflected: {}; gone at depth 0", bent)
           : "no surface that light meets from its denser side");
 
   const std::string interfaces = namesWhere(scene, isInterface);
   const bool leaving =
       diffuse && !namesWhere(scene, [](const Material& m) { return isInterface(m) && positive(m.albedo); }).empty();
-  const bool linear = !interfaces.empty() && (scene.depth >= 2 || (deep && leaving));
+  // Diattenuators on one path: the filter, interactions, light that leaves a painted surface. Interfaces that cannot
+  // see each other stand on no path together.
+  const bool several = !interfaces.empty() && interfacesSeeEachOther(scene);
+  const std::uint32_t interactions = interfaces.empty() ? 0 : several ? depth : std::min(depth, 1u);
+  const std::uint32_t chain = interactions + (leaving && (several || interactions == 0) ? 1u : 0u);
+  const bool any = interactions > 0 || leaving;
+  const auto twoOf = [&] { return chain >= 2 ? "two diattenuating surfaces can follow each other" : ""; };
+  bool linear = true;
+  std::string why;
+  if (request.linearStokes && any)
+    why = "S1 and S2 are asked for";
+  else if (chain >= 2)
+    why = fmt::format("{} within depth {}: {}; gone at depth {}", twoOf(), depth, interfaces, leaving ? 0 : 1);
+  else if (linearFilter && any)
+    why =
+        fmt::format("a linear polarizer stands before the camera and {} polarize; gone without the filter", interfaces);
+  else
+    linear = false;
   add("linear-polarization", linear,
-      linear
-          ? fmt::format("two diattenuating surfaces can follow each other within depth {}: {}", scene.depth, interfaces)
-          : "no path has two diattenuating surfaces");
-  // Two phase shifters strictly between two diattenuators take four interactions, the last of which may be
-  // light that leaves a painted surface.
-  const bool circular = (conductor || tir) && scene.depth + (leaving ? 1u : 0u) >= 4;
-  add("circular-polarization", circular,
-      circular ? fmt::format("two phase shifters ({}) can stand between two diattenuators within depth {}",
-                             conductor ? (tir ? "metal, total reflection" : "metal") : "total reflection", scene.depth)
-               : "no path has two phase shifters between two diattenuators");
+      linear ? why
+             : (interfaces.empty() || depth == 0 || several
+                    ? "no path has two diattenuating surfaces"
+                    : fmt::format("no path has two diattenuating surfaces: {} cannot see each other", interfaces)));
+  // Circular light: made by a phase shifter (metal, total reflection) behind a diattenuator. It counts where two
+  // shifters stand strictly between two diattenuators, the first of which may be the filter and the last light that
+  // leaves a painted surface; where the filter passes one handedness, or S3 is asked for, one shifter is enough.
+  const bool shifters = conductor || tir;
+  const char* shifterNames = conductor ? (tir ? "metal, total reflection" : "metal") : "total reflection";
+  const std::uint32_t between = chain + (linearFilter ? 1u : 0u);
+  bool circular = true;
+  if (shifters && (request.circularStokes || circularFilter) && chain >= 2)
+    why = request.circularStokes ? fmt::format("S3 is asked for, and {} makes it", shifterNames)
+                                 : fmt::format("the filter passes one handedness, which {} makes", shifterNames);
+  else if (shifters && between >= 4)
+    why = fmt::format("two phase shifters ({}) can stand between two diattenuators within depth {}; gone at depth {}",
+                      shifterNames, depth, depth - (between - 3));
+  else
+    circular = false;
+  add("circular-polarization", circular, circular ? why : "no path has two phase shifters between two diattenuators");
 
   const bool lights = !scene.lights.empty();
   const bool highlights =
@@ -97,8 +138,47 @@ std::vector<Effect> findEffects(const pack::Scene& scene) {
   add("environment", sky,
       sky ? (scene.environment.size > 0 ? "a picture surrounds the scene" : "a constant radiance surrounds the scene")
           : "the surroundings are black");
-  add("filter", false, "set when a filter is put in front of the camera");
+  add("filter", linearFilter || circularFilter,
+      linearFilter || circularFilter ? "a filter stands in front of the camera"
+                                     : "set when a filter is put in front of the camera");
   return effects;
+}
+
+bool isOn(const std::vector<Effect>& effects, std::string_view name) {
+  return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name && e.on; });
+}
+
+std::vector<std::string> effectNames() {
+  std::vector<std::string> names;
+  for (const Effect& e : findEffects(pack::Scene{})) names.push_back(e.name);
+  return names;
+}
+
+pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& off) {
+  const std::vector<std::string> known = effectNames();
+  for (const std::string& name : off) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw Error("--effects", fmt::format("unknown effect '{}'", name), fmt::format("{}", fmt::join(known, ", ")));
+    if (name == "tir") throw Error("--effects", "'tir' cannot be left out alone", "dielectric or transmission");
+  }
+  const auto isOff = [&](const char* name) { return std::find(off.begin(), off.end(), name) != off.end(); };
+  for (Material& m : scene.materials) {
+    if (isOff("diffuse")) m.albedo = glm::dvec3(0.0);
+    if (isOff("highlights")) m.highlightStrength = 0;
+    if (isOff("emitters")) m.radiance = glm::dvec3(0.0);
+    const bool dielectric =
+        m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass || m.kind == MaterialKind::glass;
+    if (m.kind == MaterialKind::glass && isOff("transmission")) m.kind = MaterialKind::mirrorGlass;
+    if ((dielectric && isOff("dielectric")) || (m.kind == MaterialKind::metal && isOff("conductor"))) {
+      m.kind = MaterialKind::lambert;
+      m.eta = glm::dvec3(1.0);
+      m.k = glm::dvec3(0.0);
+      m.highlightStrength = 0;
+    }
+  }
+  if (isOff("point-lights")) scene.lights.clear();
+  if (isOff("environment")) scene.environment = {};
+  return scene;
 }
 
 }  // namespace malus::bake

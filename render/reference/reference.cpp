@@ -186,8 +186,8 @@ struct Tracer {
       const double lobe =
           isGlossy ? m.highlightStrength * f64::phongLobe(mirror, l, static_cast<int>(m.highlightExponent)) : 0;
       if (!isDiffuse && lobe <= 0) continue;
-      ++rays;
-      if (!bvh.visible(glm::vec3(queryAbove(h)), glm::vec3(l), static_cast<float>(distance))) continue;
+      if (view.shadows) ++rays;
+      if (view.shadows && !bvh.visible(glm::vec3(queryAbove(h)), glm::vec3(l), static_cast<float>(distance))) continue;
       const dvec3 arriving = light.intensity / (distance * distance);
       const dvec3 entering = m.kind == MaterialKind::lambert
                                  ? dvec3(1)

@@ -100,6 +100,7 @@ gpu::Frame frameOf(const pack::Scene& scene, const View& view) {
   f.environmentSize = static_cast<int>(scene.environment.size);
   f.environment = glm::vec3(scene.environment.radiance);
   f.fill = static_cast<float>(scene.environment.diffuseFill);
+  f.shadows = view.shadows ? 1 : 0;
   for (int i = 0; i < 9; ++i) f.irradiance[i] = glm::vec3(scene.environment.irradiance[static_cast<std::size_t>(i)]);
   return f;
 }

@@ -52,6 +52,8 @@ struct View {
   std::uint32_t samples = 1;  // rays per pixel along each axis
   std::uint32_t depth = 0;    // most specular interactions along a path
   Analyser analyser = kNoFilter;
+  bool shadows = true;         // false: nothing blocks a point light
+  bool everyEffect = false;    // compile in every effect, whether the scene calls for it or not
   bool checkNumerics = false;  // look for values that no light can have (fault.h); slow
 };
 

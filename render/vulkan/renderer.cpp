@@ -289,7 +289,7 @@ render::Picture Renderer::render(std::string_view method, const render::View& vi
   if (!isLoop && view.depth > maxDepth())
     throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name),
                 fmt::format("at most {}", maxDepth()), fmt::format("{}", view.depth));
-  Variant variant = variantFor(impl_->scene, method, view.depth);
+  Variant variant = variantFor(impl_->scene, method, view.depth, view.everyEffect);
   render::Picture picture = impl_->trace(variant, view);
   picture.device = device();
   if (view.checkNumerics) {
@@ -307,7 +307,7 @@ render::Picture Renderer::render(std::string_view method, const render::View& vi
 }
 
 std::uint64_t Renderer::countRays(std::string_view method, const render::View& view) {
-  Variant variant = variantFor(impl_->scene, method, view.depth);
+  Variant variant = variantFor(impl_->scene, method, view.depth, view.everyEffect);
   variant.countRays = true;
   return impl_->trace(variant, view).cost.rays;
 }

@@ -9,16 +9,22 @@
 
 namespace malus::vulkan {
 
-Variant variantFor(const pack::Scene& scene, std::string_view method, std::uint32_t depth) {
+Variant variantFor(const pack::Scene& scene, std::string_view method, std::uint32_t depth, bool everyEffect) {
   Variant variant;
   const auto isGlass = [&](const pack::Mesh& mesh) {
     return scene.materials[mesh.material].kind == pack::MaterialKind::glass;
   };
-  if (render::methodNamed(method).isLoop)  // at least one, so that there is an array
-    variant.stackSize = std::any_of(scene.meshes.begin(), scene.meshes.end(), isGlass) ? std::max(depth, 1u) : 1;
+  // Without glass nothing waits; an array has one place at least.
+  if (render::methodNamed(method).isLoop)
+    variant.stackSize =
+        everyEffect || std::any_of(scene.meshes.begin(), scene.meshes.end(), isGlass) ? std::max(depth, 1u) : 1;
   variant.method = method;
+  if (everyEffect) return variant;
   variant.pointLights = !scene.lights.empty();
   variant.fill = scene.environment.diffuseFill > 0;
+  variant.highlights = variant.pointLights && std::any_of(scene.materials.begin(), scene.materials.end(),
+                                                          [](const auto& m) { return m.highlightStrength > 0; });
+  variant.environmentMap = scene.environment.size > 0;
   return variant;
 }
 
@@ -32,6 +38,8 @@ std::string preamble(const Variant& variant) {
   text += fmt::format("#define MALUS_METHOD \"{}\"\n", variant.method);
   if (!variant.pointLights) text += "#define MALUS_NO_POINT_LIGHTS\n";
   if (!variant.fill) text += "#define MALUS_NO_FILL\n";
+  if (!variant.highlights) text += "#define MALUS_NO_HIGHLIGHTS\n";
+  if (!variant.environmentMap) text += "#define MALUS_NO_ENVIRONMENT_MAP\n";
   if (variant.countRays) text += "#define MALUS_COUNT_RAYS\n";
   if (variant.checkNumerics) text += "#define MALUS_CHECK_NUMERICS\n";
   return text;

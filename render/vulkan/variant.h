@@ -15,14 +15,16 @@ struct Variant {
   std::string method = "fresnel";
   bool pointLights = true;
   bool fill = true;
+  bool highlights = true;
+  bool environmentMap = true;
   bool countRays = false;
   bool checkNumerics = false;
   std::uint32_t stackSize = 0;  // of a loop: ways that may wait; 0 for a recursive method
   auto operator<=>(const Variant&) const = default;
 };
 
-// What the scene calls for. depth: most specular interactions.
-Variant variantFor(const pack::Scene& scene, std::string_view method, std::uint32_t depth);
+// What the scene calls for, or everything. depth: most specular interactions.
+Variant variantFor(const pack::Scene& scene, std::string_view method, std::uint32_t depth, bool everyEffect = false);
 
 // #version, extensions and macros of the variant.
 std::string preamble(const Variant& variant);

@@ -78,8 +78,9 @@ struct Frame {
   vec3 environment;     // radiance where environmentSize is 0
   float fill;           // share of the environment's irradiance on diffuse surfaces
   vec3 irradiance[9];   // coefficients of irradiancePolynomial, per colour
+  uint shadows;         // 0: nothing blocks a point light
 };
-MALUS_SIZE(Frame, 240);
+MALUS_SIZE(Frame, 244);
 
 #ifdef __cplusplus
 }  // namespace malus::gpu

@@ -43,9 +43,13 @@ FN DirectLight directLight(Hit h, Material m, real3 mirror) {
       real3 l = toLight * (R(1.0) / distanceToLight);
       real c = dot3(h.normal, l);
       if (c <= R(0.0) || dot3(h.face, l) <= R(0.0)) continue;
+#ifndef MALUS_NO_HIGHLIGHTS
       real lobe = isGlossy ? m.highlightStrength * phongLobe(mirror, l, m.highlightExponent) : R(0.0);
+#else
+      real lobe = R(0.0);
+#endif
       if (!isDiffuse && lobe <= R(0.0)) continue;
-      if (!visible(origin, l, distanceToLight)) continue;
+      if (frame.shadows != 0u && !visible(origin, l, distanceToLight)) continue;
       real3 arriving = lights[i].intensity * (R(1.0) / distanceSq);
       if (isDiffuse)
         sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, arriving * c, enteringTransmittance(m, minR(c, R(1.0))));

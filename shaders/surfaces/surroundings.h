@@ -1,6 +1,9 @@
 // What a ray sees that leaves the scene. The octahedral map has a border of one texel that repeats what
 // lies across its edges, so bilinear interpolation needs no special case.
 FN real3 environmentRadiance(real3 d) {
+#ifdef MALUS_NO_ENVIRONMENT_MAP
+  return frame.environment;
+#else
   if (frame.environmentSize == 0) return frame.environment;
   real u;
   real v;
@@ -19,4 +22,5 @@ FN real3 environmentRadiance(real3 d) {
   real3 top = environmentTexels[at] * (R(1.0) - fx) + environmentTexels[at + 1] * fx;
   real3 bottom = environmentTexels[at + row] * (R(1.0) - fx) + environmentTexels[at + row + 1] * fx;
   return top * (R(1.0) - fy) + bottom * fy;
+#endif
 }

@@ -14,6 +14,7 @@
 #include "meshprep/base/error.h"
 #include "render/embree/renderer.h"
 #include "render/reference/reference.h"
+#include "render/scene/effects_choice.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
 
@@ -148,6 +149,37 @@ TEST_P(HardScenes, EveryMethodIsSound) {
   const embree::Renderer renderer(scene, 0);
   for (const std::string& method : render::methodNames())
     expectSound(renderer.render(method, checkedView(scene)), scene, "embree " + method);
+}
+
+// The intensity by the cheapest method that the effects allow, against full Stokes vectors with everything compiled in.
+TEST_P(HardScenes, AutoEqualsAll) {
+  const pack::Scene& scene = packOf(GetParam()).scene;
+  const Expected& expected = scenes().at(GetParam());
+  render::View view = render::viewOf(scene);
+  const embree::Renderer embree(scene, 0);
+  vulkan::Renderer vulkan(scene, {});
+  for (const render::Analyser& analyser : {render::kNoFilter, render::linearPolarizer(30)}) {
+    view.analyser = analyser;
+    const bake::PictureRequest request{view.depth, analyser, false, false};
+    for (const std::string method : {"stokes", "importance"}) {
+      const std::string cheaper = render::chooseEffects({"auto"}, method, scene, request).method;
+      const auto expectEqual = [&](const Picture& a, const Picture& b, const char* what) {
+        double largest = 0;
+        for (std::size_t i = 0; i < std::size_t{a.width} * a.height; ++i)
+          for (std::size_t c = 0; c < 3; ++c)
+            largest = std::max(
+                largest, std::abs(static_cast<double>(a.pixels[i * a.channels + c] - b.pixels[i * b.channels + c])));
+        EXPECT_LT(largest, 4e-6) << what << ": " << cheaper << " in place of " << method;
+      };
+      view.everyEffect = true;
+      const Picture all = embree.render(method, view);
+      const bool onVulkan = expected.vulkanCanDoIt || method == "importance";
+      const Picture allVulkan = onVulkan ? vulkan.render(method, view) : Picture();
+      view.everyEffect = false;
+      expectEqual(embree.render(cheaper, view), all, "embree");
+      if (onVulkan) expectEqual(vulkan.render(cheaper, view), allVulkan, "vulkan");
+    }
+  }
 }
 
 TEST_P(HardScenes, ImportanceIsTheIntensityOfTheReference) {

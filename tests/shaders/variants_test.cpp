@@ -79,12 +79,14 @@ class VariantsTest : public ::testing::TestWithParam<MethodSize> {};
 
 TEST_P(VariantsTest, CompilesWithThePayloadOfItsMethod) {
   const std::uint32_t shadow = sizeof(std::uint32_t);
-  for (int flags = 0; flags < 8; ++flags) {
+  for (int flags = 0; flags < 16; ++flags) {
     Variant variant;
     variant.method = GetParam().name;
     variant.pointLights = (flags & 1) != 0;
     variant.fill = (flags & 2) != 0;
     variant.countRays = (flags & 4) != 0;
+    variant.checkNumerics = flags == 3;
+    variant.highlights = variant.environmentMap = (flags & 8) != 0;
     for (const vulkan::StageSource& source : vulkan::stageSources(variant)) {
       SCOPED_TRACE(std::string(source.path) + " flags " + std::to_string(flags));
       const Module module(compiled(variant, source));

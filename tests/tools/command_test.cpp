@@ -435,5 +435,41 @@ TEST(Render, ChecksItsNumbers) {
   }
 }
 
+TEST(Render, Effects) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"render", folder / "tiny.pack", "--backend", "embree", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return malus(arguments);
+  };
+  // At depth 0 nothing is reflected: the intensity of stokes is that of fresnel, and it is said.
+  const Finished cheaper = render({"-o", folder / "a.png", "--method", "stokes", "--depth", "0"});
+  ASSERT_EQ(cheaper.exitCode, 0) << cheaper.err;
+  const json document = json::parse(cheaper.out);
+  EXPECT_EQ(document.at("method"), "fresnel");
+  EXPECT_TRUE(contains(document.at("inPlaceOf").get<std::string>(), "in place of stokes: ")) << cheaper.out;
+  // A file of Stokes vectors keeps its method, --intensity does without.
+  EXPECT_EQ(json::parse(render({"-o", folder / "a.exr", "--method", "stokes", "--depth", "0"}).out).at("method"),
+            "stokes-linear");
+  EXPECT_EQ(json::parse(render({"-o", folder / "b.exr", "--method", "stokes", "--depth", "0", "--intensity"}).out)
+                .at("method"),
+            "fresnel");
+  EXPECT_TRUE(json::parse(render({"-o", folder / "a.png", "--method", "stokes", "--effects", "all"}).out)
+                  .at("inPlaceOf")
+                  .is_null());
+  // Forced off: rendered as asked, with a warning.
+  const Finished less =
+      render({"-o", folder / "a.png", "--method", "stokes", "--effects", "diffuse,dielectric,conductor"});
+  ASSERT_EQ(less.exitCode, 0) << less.err;
+  EXPECT_TRUE(contains(less.err, "leaves out linear-polarization, which this scene needs")) << less.err;
+  EXPECT_TRUE(contains(less.err, "leaves out point-lights")) << less.err;
+  expectRefusal(render({"-o", folder / "c.png", "--effects", "magic"}), "linear-polarization");
+  EXPECT_EQ(
+      render({"-o", folder / "c.exr", "--method", "stokes", "--intensity", "--output-dolp", folder / "d.png"}).exitCode,
+      2);
+}
+
 }  // namespace
 }  // namespace malus::test

@@ -2,7 +2,11 @@
 // most one diattenuating element between the camera and every contribution.
 #include "bake/effects/effects.h"
 
+#include <cmath>
 #include <map>
+#include <set>
+
+#include "bake/effects/polarization_bound.h"
 
 #include "tests/bake/fixtures.h"
 
@@ -156,6 +160,100 @@ TEST(Effects, Environment) {
   scene.environment.radiance.z = 0;
   scene.environment.size = 4;
   EXPECT_TRUE(effectsOf(scene).at("environment"));
+}
+
+// A cube of side 1 about a place, outside outside; `faces` of its twelve triangles.
+pack::Mesh cubeAt(const glm::vec3& place, std::size_t faces = 12) {
+  pack::Mesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back(place + glm::vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1) - 0.5f);
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  mesh.triangles.resize(faces);
+  return mesh;
+}
+pack::Scene cubes(MaterialKind kind, std::vector<pack::Mesh> meshes) {
+  pack::Scene scene = sceneOf({material(kind)}, 8);
+  scene.meshes = std::move(meshes);
+  scene.camera.position = {0, 0, 5};
+  return scene;
+}
+
+TEST(Effects, InterfacesThatCannotSeeEachOtherNeedNoPolarization) {
+  const auto linear = [](const pack::Scene& scene) { return effectsOf(scene).at("linear-polarization"); };
+  // One flat mirror, one convex body of metal.
+  EXPECT_FALSE(linear(cubes(MaterialKind::mirrorGlass, {cubeAt({0, 0, 0}, 2)})));
+  const pack::Scene alone = cubes(MaterialKind::metal, {cubeAt({0, 0, 0})});
+  EXPECT_FALSE(linear(alone));
+  EXPECT_FALSE(effectsOf(alone).at("circular-polarization"));
+  PictureRequest request;
+  request.depth = 8;
+  EXPECT_EQ(polarizationErrorBound(alone, request), glm::dvec3(0.0));
+  // Two of them, an open one, one that the eye is in, one of clear glass: they do.
+  EXPECT_TRUE(linear(cubes(MaterialKind::metal, {cubeAt({0, 0, 0}), cubeAt({3, 0, 0})})));
+  EXPECT_TRUE(linear(cubes(MaterialKind::metal, {cubeAt({0, 0, 0}, 10)})));
+  pack::Scene inside = alone;
+  inside.camera.position = glm::dvec3(0.0);
+  EXPECT_TRUE(linear(inside));
+  EXPECT_TRUE(linear(cubes(MaterialKind::glass, {cubeAt({0, 0, 0})})));
+}
+
+TEST(Effects, APictureAsksForMore) {
+  const pack::Scene gold = cubes(MaterialKind::metal, {cubeAt({0, 0, 0})});
+  PictureRequest request;
+  request.depth = 8;
+  const auto on = [&](const pack::Scene& scene, const char* name) { return isOn(findEffects(scene, request), name); };
+  EXPECT_FALSE(on(gold, "linear-polarization") || on(gold, "filter"));
+  request.linearStokes = true;
+  EXPECT_TRUE(on(gold, "linear-polarization"));
+  request = {8, {0.5, 0.5, 0, 0}, false, false};
+  EXPECT_TRUE(on(gold, "linear-polarization") && on(gold, "filter"));
+  EXPECT_NEAR(polarizationErrorBound(cubes(MaterialKind::mirrorGlass, {cubeAt({0, 0, 0})}), request).x, 1, 1e-9)
+      << "a filter in front of Brewster's angle: twice the light, or none";
+  // Between a filter and a glass mirror two gold mirrors are enough for circular light, three depths in all.
+  const pack::Scene both = sceneOf({material(MaterialKind::metal), material(MaterialKind::mirrorGlass)}, 3);
+  request.depth = 3;
+  EXPECT_TRUE(on(both, "circular-polarization"));
+  request.analyser = {1, 0, 0, 0};
+  EXPECT_FALSE(on(both, "circular-polarization"));
+  request.circularStokes = true;
+  EXPECT_TRUE(on(both, "circular-polarization"));
+}
+
+TEST(Effects, BoundIsTheFormula) {
+  // Two glass mirrors: D reaches 1, (2 * 2 + 0)/2 - 1. Three: 3. Gold by colour: D of .05/.21/.52.
+  PictureRequest request;
+  for (const auto& [depth, bound] : {std::pair(1u, 0.0), {2u, 1.0}, {3u, 3.0}}) {
+    request.depth = depth;
+    EXPECT_NEAR(polarizationErrorBound(sceneOf({material(MaterialKind::mirrorGlass)}, depth), request).y, bound, 1e-9);
+  }
+  Material gold = material(MaterialKind::metal);
+  gold.eta = {0.1884, 0.5439, 1.3319};
+  gold.k = {3.4034, 2.2309, 1.8693};
+  request.depth = 2;
+  const glm::dvec3 d = polarizationErrorBound(sceneOf({gold}, 2), request);
+  EXPECT_NEAR(std::sqrt(d.x), 0.05, 0.006);
+  EXPECT_NEAR(std::sqrt(d.y), 0.21, 0.006);
+  EXPECT_NEAR(std::sqrt(d.z), 0.52, 0.006);
+}
+
+TEST(Effects, SceneWithoutThem) {
+  pack::Scene scene = test::smallScene();
+  const auto without = [&](const char* name) { return withoutEffects(scene, {name}); };
+  EXPECT_TRUE(without("point-lights").lights.empty());
+  EXPECT_EQ(without("environment").environment.size, 0u);
+  EXPECT_EQ(without("highlights").materials[1].highlightStrength, 0);
+  EXPECT_EQ(without("emitters").materials[2].radiance, glm::dvec3(0.0));
+  EXPECT_EQ(without("transmission").materials[0].kind, MaterialKind::mirrorGlass);
+  EXPECT_EQ(without("conductor").materials[1].kind, MaterialKind::lambert);
+  EXPECT_EQ(without("diffuse").materials[1].albedo, glm::dvec3(0.0));
+  // These four the renderer leaves out: they are no part of a scene.
+  const std::set<std::string> rendering = {"linear-polarization", "circular-polarization", "shadows", "filter"};
+  for (const std::string& name : effectNames())
+    if (name != "tir" && !rendering.contains(name)) {
+      EXPECT_FALSE(isOn(findEffects(withoutEffects(scene, {name})), name)) << name;
+    }
+  EXPECT_CONTAINS(test::errorOf([&] { without("magic"); }), "linear-polarization, ");
+  EXPECT_CONTAINS(test::errorOf([&] { without("tir"); }), "tir");
 }
 
 }  // namespace

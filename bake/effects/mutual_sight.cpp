@@ -1,0 +1,91 @@
+#include "bake/effects/mutual_sight.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace malus::bake {
+using pack::MaterialKind;
+
+namespace {
+
+bool isInterface(const pack::Scene& scene, const pack::Mesh& mesh) {
+  const MaterialKind kind = scene.materials[mesh.material].kind;
+  return kind != MaterialKind::lambert && kind != MaterialKind::emitter;
+}
+
+// Whether every edge of every interface has a face on both sides, corners in one place being one.
+bool allClosed(const pack::Scene& scene) {
+  for (const pack::Mesh& mesh : scene.meshes) {
+    if (!isInterface(scene, mesh)) continue;
+    std::map<std::array<float, 3>, int> places;
+    const auto place = [&](std::uint32_t corner) {
+      const glm::vec3& p = mesh.positions[corner];
+      return places.emplace(std::array<float, 3>{p.x, p.y, p.z}, static_cast<int>(places.size())).first->second;
+    };
+    std::map<std::pair<int, int>, int> edges;
+    for (const glm::uvec3& t : mesh.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const int from = place(t[i]), to = place(t[(i + 1) % 3]);
+        ++edges[{from, to}];
+        --edges[{to, from}];
+      }
+    for (const auto& [edge, balance] : edges)
+      if (balance != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool interfacesSeeEachOther(const pack::Scene& scene) {
+  // Step 1: the faces and corners of interfaces.
+  std::vector<glm::dvec3> corners;
+  struct Face {
+    glm::dvec3 point, normal;
+  };
+  std::vector<Face> faces;
+  double size = 0;
+  for (const pack::Mesh& mesh : scene.meshes) {
+    if (!isInterface(scene, mesh)) continue;
+    if (scene.materials[mesh.material].kind == MaterialKind::glass) return true;  // seen from inside too
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const glm::uvec3& t : mesh.triangles) used[t.x] = used[t.y] = used[t.z] = true;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (!used[i]) continue;
+      const glm::dvec3& p = corners.emplace_back(mesh.positions[i]);
+      size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    for (const glm::uvec3& t : mesh.triangles) {
+      const glm::dvec3 p0(mesh.positions[t.x]),
+          n = glm::cross(glm::dvec3(mesh.positions[t.y]) - p0, glm::dvec3(mesh.positions[t.z]) - p0);
+      if (glm::length(n) > 0) faces.push_back({p0, glm::normalize(n)});
+    }
+  }
+
+  // Step 2: whether a corner lies before a face.
+  constexpr std::size_t kMostTests = 20'000'000;
+  if (faces.empty() || faces.size() * corners.size() > kMostTests) return true;
+  const double tolerance = 1e-6 * size;
+  bool before = false, behind = false;
+  for (const Face& face : faces)
+    for (const glm::dvec3& corner : corners) {
+      const double height = glm::dot(corner - face.point, face.normal);
+      before = before || height > tolerance;
+      behind = behind || height < -tolerance;
+    }
+  if (before) return true;
+  // Convex. A flat mirror has no inside; that of a body is met by an eye within it, that of a shell through its open
+  // sides.
+  const bool eyeInside = std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
+    return glm::dot(scene.camera.position - face.point, face.normal) <= tolerance;
+  });
+  return behind && (eyeInside || !allClosed(scene));
+}
+
+}  // namespace malus::bake

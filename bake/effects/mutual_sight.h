@@ -1,0 +1,13 @@
+// Whether light can go from one interface to another: where it cannot, no path has two of them.
+#pragma once
+
+#include "bake/pack/scene.h"
+
+namespace malus::bake {
+
+// False only where no point of an interface (metal, paint, mirror glass, glass) lies before a face of one: for a
+// single flat mirror, a convex body, faces back to back. True where there is glass that transmits, no geometry,
+// or too much of it to tell.
+bool interfacesSeeEachOther(const pack::Scene& scene);
+
+}  // namespace malus::bake

@@ -1,0 +1,79 @@
+// --effects: what is taken in place of a method, what is left out, and what is said of it.
+#include "render/scene/effects_choice.h"
+
+#include <gtest/gtest.h>
+
+#include "meshprep/base/error.h"
+#include "tests/render/test_scene.h"
+
+namespace malus::render {
+namespace {
+
+using pack::MaterialKind;
+
+// A flat mirror under a lamp; with `two`, a second one that faces it.
+pack::Scene mirrors(bool two) {
+  pack::Scene scene = test::emptyScene(6);
+  test::addMaterial(scene, test::metal({0.18, 0.54, 1.33}, {3.4, 2.2, 1.9}));
+  test::addSquare(scene, 0, {0, 0, 0}, {0, 1, 0}, 1);
+  if (two) test::addSquare(scene, 0, {0, 2, 0}, {0, -1, 0}, 1);
+  scene.lights.push_back({{0, 1, 0}, {1, 1, 1}});
+  scene.materials[0].highlightStrength = 1;
+  scene.materials[0].highlightExponent = 10;
+  test::look(scene, {0, 1, 3}, {0, 0, 0});
+  return scene;
+}
+bake::PictureRequest intensityAt(std::uint32_t depth) {
+  bake::PictureRequest request;
+  request.depth = depth;
+  return request;
+}
+
+TEST(EffectsChoice, AutoTakesTheCheapestExactMethod) {
+  const pack::Scene one = mirrors(false), two = mirrors(true);
+  const auto chosen = [](const char* method, const pack::Scene& scene, const bake::PictureRequest& request) {
+    return chooseEffects({"auto"}, method, scene, request).method;
+  };
+  // One mirror bounce of unpolarized light needs no polarization.
+  EXPECT_EQ(chosen("stokes", one, intensityAt(6)), "fresnel");
+  EXPECT_EQ(chosen("stokes-half", one, intensityAt(6)), "fresnel");
+  EXPECT_EQ(chosen("importance", one, intensityAt(6)), "fresnel-loop");
+  EXPECT_FALSE(chooseEffects({"auto"}, "stokes", one, intensityAt(6)).why.empty());
+  // Methods that are not exact are what they are, and so is everything with "all".
+  for (const char* method : {"schlick", "fresnel", "sp", "sp-ratio", "sp-malus"})
+    EXPECT_EQ(chosen(method, one, intensityAt(6)), method);
+  EXPECT_EQ(chooseEffects({"all"}, "stokes", one, intensityAt(6)).method, "stokes");
+  // Two facing mirrors need it, and circular light from four bounces on.
+  EXPECT_EQ(chosen("stokes", two, intensityAt(6)), "stokes");
+  EXPECT_EQ(chosen("importance", two, intensityAt(6)), "importance");
+  EXPECT_EQ(chosen("stokes", two, intensityAt(3)), "stokes-linear");
+  EXPECT_EQ(chosen("stokes", two, intensityAt(1)), "fresnel");
+  // Who asks for Stokes vectors gets them.
+  bake::PictureRequest stokes = intensityAt(6);
+  stokes.linearStokes = stokes.circularStokes = true;
+  EXPECT_EQ(chosen("stokes", two, stokes), "stokes");
+  EXPECT_EQ(chosen("stokes", one, stokes), "stokes-linear") << "one bounce of unpolarized light has no S3";
+}
+
+TEST(EffectsChoice, AListLeavesOutTheRestAndSaysWhatThatCosts) {
+  const pack::Scene two = mirrors(true);
+  const EffectsChoice choice =
+      chooseEffects({"conductor", "point-lights", "shadows", "highlights"}, "stokes", two, intensityAt(3));
+  EXPECT_EQ(choice.method, "fresnel");
+  EXPECT_EQ(choice.off, std::vector<std::string>{"linear-polarization"});
+  ASSERT_EQ(choice.warnings.size(), 1u);
+  EXPECT_NE(choice.warnings[0].find("linear-polarization, which this scene needs"), std::string::npos);
+  EXPECT_NE(choice.warnings[0].find("of itself"), std::string::npos);
+  const EffectsChoice dark = chooseEffects({"linear-polarization"}, "stokes", two, intensityAt(3));
+  EXPECT_EQ(dark.off, (std::vector<std::string>{"conductor", "shadows", "point-lights", "highlights"}));
+  EXPECT_EQ(dark.warnings.size(), 4u);
+  try {
+    chooseEffects({"magic"}, "stokes", two, intensityAt(3));
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("linear-polarization, "), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace malus::render

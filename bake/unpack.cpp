@@ -71,6 +71,14 @@ json materialJson(const pack::Material& m) {
 json unpack(const pack::Pack& pack, const fs::path& folder) {
   const pack::Scene& scene = pack.scene;
   std::error_code failed;
+  // Somebody's scene, which looks alike, is not written over.
+  if (fs::exists(folder / "scene.json", failed)) {
+    const json old = json::parse(readTextFile(folder / "scene.json"), nullptr, false);
+    if (!old.is_object() || !old.contains("packHash"))
+      throw Error((folder / "scene.json").string(), "is there and was not unpacked from a pack", "another folder");
+    fs::remove_all(folder / "meshes", failed);
+    fs::remove(folder / "environment.exr", failed);
+  }
   fs::create_directories(folder / "meshes", failed);
   if (failed) throw Error(folder.string(), "cannot make the folder", "", failed.message());
 

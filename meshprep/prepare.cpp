@@ -34,7 +34,8 @@ std::vector<glm::vec3> authoredNormals(const Polygons& polygons, const std::stri
   for (std::size_t i = 0; i < polygons.normals.size(); ++i) {
     const glm::dvec3 n(polygons.normals[i]);
     const double length = glm::length(n);
-    if (!(length > 0)) throw Error(source, fmt::format("the normal of vertex {} has no length", i), "a direction");
+    if (!(length > 0) || !std::isfinite(length))
+      throw Error(source, fmt::format("the normal of vertex {} has no length", i), "a direction");
     normals.emplace_back(n / length);
   }
   return normals;

@@ -44,7 +44,8 @@ CLI::Validator finite() {
 
 struct RenderArguments : RenderSettings {
   std::optional<double> maxError;
-  std::vector<std::string> outputs, effects = {"auto"};
+  std::vector<std::string> outputs;
+  std::string effects = "auto";  // or "all", or names with commas between
   std::string dolp, aolp, mosaic;
   std::string inPlaceOf;  // which method was asked for, and why another was taken; empty: none
   std::optional<double> polarizer, exposure;
@@ -213,11 +214,19 @@ bake::PictureRequest requestOf(const RenderArguments& a, const View& view) {
 
 // Method, view and scene for the effects that are asked for; says what it took instead, and warns of what is missing.
 pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, View& view) {
-  view.everyEffect = a.effects == std::vector<std::string>{"all"};
+  std::vector<std::string> effects;
+  for (std::size_t at = 0; at <= a.effects.size();) {
+    const std::size_t comma = std::min(a.effects.find(',', at), a.effects.size());
+    effects.push_back(a.effects.substr(at, comma - at));
+    at = comma + 1;
+  }
+  view.everyEffect = a.effects == "all";
   // The reference carries everything, always.
   const EffectsChoice choice =
-      chooseEffects(a.effects, a.backend == "reference" ? "stokes" : a.method, scene, requestOf(a, view));
-  for (const std::string& warning : choice.warnings) console::warn(warning);
+      chooseEffects(effects, a.backend == "reference" ? "stokes" : a.method, scene, requestOf(a, view));
+  // The reference keeps its polarized light whatever is left out.
+  for (const std::string& warning : choice.warnings)
+    if (a.backend != "reference" || warning.find("-polarization") == std::string::npos) console::warn(warning);
   if (a.backend != "reference" && choice.method != a.method) {
     if (!choice.why.empty()) a.inPlaceOf = fmt::format("in place of {}: {}", a.method, choice.why);
     a.method = choice.method;
@@ -268,6 +277,8 @@ void runRender(RenderArguments a) {
   if (a.maxError) a.method = chooseMethod(a, pack, view);
   warnOfMissingLight(a, view.analyser);
   const pack::Scene scene = applyEffects(a, pack.scene, view);
+  if (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty())
+    requireStokes(a, !a.mosaic.empty() ? "--mosaic" : a.dolp.empty() ? "--output-aolp" : "--output-dolp");
   console::progress(
       fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, a.backend == "reference" ? "" : a.method));
   view.checkNumerics = a.checkNumerics;
@@ -306,7 +317,7 @@ void runRender(RenderArguments a) {
                                    {"traceMs", cost.traceMs},
                                    {"wallMs", cost.wallMs},
                                    {"numericsChecked", a.checkNumerics},
-                                   {"effects", fmt::format("{}", fmt::join(a.effects, ","))},
+                                   {"effects", a.effects},
                                    {"inPlaceOf", a.inPlaceOf.empty() ? nlohmann::json() : nlohmann::json(a.inPlaceOf)},
                                    {"outputs", written}};
     fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -420,7 +431,6 @@ void addRenderCommand(CLI::App& app) {
       ->add_option(
           "--effects", a->effects,
           "auto (what the picture calls for), all, or a list of the effects to keep, as 'malus info' names them")
-      ->delimiter(',')
       ->capture_default_str();
   command->add_flag("--intensity", a->intensity, "only the intensity: no Stokes channels in .exr files");
   command->add_flag("--check-numerics", a->checkNumerics,

@@ -142,7 +142,6 @@ void printCsv(const std::vector<SurfaceResponse>& rows) {
 
 void runMaterial(const MaterialArguments& a) {
   if (a.name.empty() == !a.eta) throw CLI::ValidationError("material", "either a NAME or --eta is needed");
-  if (!a.eta && a.k != 0) throw CLI::ValidationError("--k", "goes with --eta");
   const std::vector<double> angles = parseAngles(a.angle);
   if (angles.empty())
     throw CLI::ValidationError(

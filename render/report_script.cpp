@@ -37,6 +37,7 @@ void runReportScript(const std::string& script, const std::vector<std::string>& 
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+  ::posix_spawn_file_actions_addclose(&actions, ends[0]);
   ::posix_spawn_file_actions_addclose(&actions, ends[1]);
   pid_t child = 0;
   const bool started = ::posix_spawn(&child, kPython, &actions, nullptr, command.data(), environ) == 0;

@@ -57,15 +57,19 @@ glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const PictureRequest
     double more = 1 + filter, less = 1 - filter;
     int elements = filter > 0 ? 1 : 0;
     const std::uint32_t interactions = several ? request.depth : std::min(request.depth, 1u);
-    for (std::uint32_t i = 0; i < interactions && d.interaction > 0; ++i, ++elements) {
-      more *= 1 + d.interaction;
-      less *= 1 - d.interaction;
-    }
-    // Painted light ends a path that may have met interfaces before, where they see each other, or is seen directly.
-    if (d.leaving > 0 && (several || interactions == 0)) {
-      more *= 1 + d.leaving;
-      less *= 1 - d.leaving;
+    const auto add = [&](double diattenuation) {
+      if (diattenuation <= 0) return;
+      more *= 1 + diattenuation;
+      less *= 1 - diattenuation;
       ++elements;
+    };
+    // Light that leaves from below an interface ends a path, behind other interfaces where they see each other; where
+    // not, a path has one element: an interaction, or light that leaves.
+    if (several) {
+      for (std::uint32_t i = 0; i < interactions; ++i) add(d.interaction);
+      add(d.leaving);
+    } else {
+      add(std::max(interactions > 0 ? d.interaction : 0, d.leaving));
     }
     if (elements > 1) bound[colour] = (more + less) / 2 - 1;
   }

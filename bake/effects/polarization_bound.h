@@ -9,7 +9,7 @@ namespace malus::bake {
 
 // Largest error of the unpolarized intensity relative to itself, per colour: (prod(1 + D) + prod(1 - D))/2 - 1 over
 // the longest chain of diattenuating elements that the picture's depth and filter allow, each at its largest D of any
-// angle (shaders/optics; source: optics of chains of diattenuators, CONVENTIONS.md). 0 where at most one stands on any
+// angle (derived in shaders/optics/CONVENTIONS.md). 0 where at most one stands on any
 // path. Relative to the truth there is no bound, because the truth may be 0.
 glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const PictureRequest& request);
 

@@ -5,9 +5,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -103,15 +105,15 @@ void checkHeader(Header& header, const Lines& at) {
   // Step 2: normals, where all three are there.
   constexpr std::array<std::string_view, 3> kNormal = {"nx", "ny", "nz"};
   std::array<std::size_t, 3> normal{};
-  std::size_t known = 0;
+  std::array<int, 3> known{};
   for (std::size_t k = 0; k < header.vertexProperties.size(); ++k)
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (header.vertexProperties[k].name == kNormal[axis] &&
           header.vertexProperties[k].type.kind == Type::Kind::kFloat) {
         normal[axis] = k;
-        ++known;
+        ++known[axis];
       }
-  if (known == 3) header.normal = normal;
+  if (known == std::array<int, 3>{1, 1, 1}) header.normal = normal;
 
   // Step 3: corners, first of the face's properties; lists beside them are not read right by OpenMesh.
   const auto isCorners = [](const Property& p) {
@@ -212,7 +214,9 @@ void scanAscii(const Header& header, Lines& lines, std::string_view where, Polyg
       if (word.empty()) lines.fail("a vertex lacks numbers", fmt::to_string(header.vertexProperties.size()));
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (header.xyz[axis] == k) p[static_cast<int>(axis)] = coordinate(word, lines);
-        if (header.normal && (*header.normal)[axis] == k) n[static_cast<int>(axis)] = coordinate(word, lines);
+        // What is no number here matters to those alone who take the file's normals.
+        if (header.normal && (*header.normal)[axis] == k)
+          n[static_cast<int>(axis)] = std::strtod(std::string(word).c_str(), nullptr);
       }
     }
     if (header.normal) polygons.normals.emplace_back(n);
@@ -313,7 +317,7 @@ void scanBinary(const Header& header, std::string_view bytes, std::string_view w
         continue;
       }
       const double value = data.real(type);
-      if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
+      if (target == &p && !(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
         data.fail(fmt::format("a bad number in vertex {}", i), "a finite number that a float holds",
                   fmt::to_string(value));
       (*target)[axis] = value;

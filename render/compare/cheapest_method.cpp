@@ -86,10 +86,12 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const View& 
   const Picture reference = reference::render(pack.scene, view, threads);
   std::vector<MethodEstimate> list;
   std::vector<std::vector<double>> samples;
-  for (const std::string& method : methodNames()) {
-    list.push_back({method, pictureError(render(method, view), reference, pack.scene.exposureEv).relRms, 0});
-    samples.emplace_back();
-  }
+  for (const std::string& method : methodNames()) try {
+      list.push_back({method, pictureError(render(method, view), reference, pack.scene.exposureEv).relRms, 0});
+      samples.emplace_back();
+    } catch (const Error&) {  // this device cannot do it at this depth: others may
+      if (method == methodNames().back() && list.empty()) throw;
+    }
   for (int round = 0; round < kRounds; ++round)
     for (std::size_t i = 0; i < list.size(); ++i) samples[i].push_back(render(list[i].method, view).cost.traceMs);
   for (std::size_t i = 0; i < list.size(); ++i) list[i].medianMs = spreadOf(samples[i]).median;

@@ -52,8 +52,11 @@ void runCompare(const Arguments& a) {
   const auto& backends = a.settings.backends;
   if (std::find(backends.begin(), backends.end(), "vulkan") != backends.end())
     for (const auto& [name, pack] : comparison.packs)
-      if (!comparison.interrupted && comparison.devices.contains("vulkan"))
-        keep(vulkan::deviceStatistics(pack.scene, a.settings.methods, depthOf(pack.scene), a.settings.device), name);
+      if (!comparison.interrupted && comparison.devices.contains("vulkan")) try {
+          keep(vulkan::deviceStatistics(pack.scene, a.settings.methods, depthOf(pack.scene), a.settings.device), name);
+        } catch (const Error& error) {  // what was timed is worth more
+          console::warn(fmt::format("{}: no statistics of the device's pipelines: {}", name, error.what()));
+        }
   // Compilers' estimates for GPUs that are not here.
   for (const std::string& family : a.settings.gpuFamilies)
     for (std::size_t i = 0; i < a.packs.size() && !comparison.interrupted; ++i) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -132,7 +133,7 @@ struct Tracer {
     // The next query is made in float.
     hit.error =
         f64::hitPointError(p0, p1, p2, b0, b1, b2, 0x1p-24) + f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
-    hit.start = f64::insideTriangle(hit.position, p0, p1, p2, b0, b1, b2, across, hit.error);
+    hit.start = f64::insideTriangle(hit.position, p0, p1, p2, b0, b1, b2, across, 4 * f64::largestPart(hit.error));
     hit.outside = glm::dot(d, hit.face) < 0;
     const dvec3 interpolated = mesh.normals.empty() ? hit.face
                                                     : dvec3(mesh.normals[t.x]) * b0 + dvec3(mesh.normals[t.y]) * b1 +
@@ -208,7 +209,7 @@ struct Tracer {
 
   // The check of --check-numerics, where it is asked for. arriving: the light that met the surface, each part in a
   // frame of its own; rounding adds up to 4 eps of it.
-  Light checked(const Hit& h, std::uint32_t depth, const Light& sent, const std::vector<Light>& arriving) {
+  Light checked(const Hit& h, std::uint32_t depth, const Light& sent, std::span<const Light> arriving) {
     if (!view.checkNumerics) return sent;
     constexpr double kBounce = 4 * std::numeric_limits<double>::epsilon();
     for (std::uint32_t c = 0; c < 3; ++c) {
@@ -269,15 +270,15 @@ struct Tracer {
     // What leaves in the surface's frame: diffuse light through the interface, the mirror ray reflected, the
     // refracted ray transmitted; then back to the ray's own frame.
     Light toEye = glass ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
-    std::vector<Light> parts = {unpolarized(diffuse), unpolarized(highlight)};
+    std::array<Light, 4> parts = {unpolarized(diffuse), unpolarized(highlight), Light{}, Light{}};
     if (depth > 0) {
       const Light arriving = turned(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1));
-      parts.push_back(arriving);
+      parts[2] = arriving;
       toEye = toEye + interface.reflection * (arriving + unpolarized(highlight));
       if (glass && !total) {
         const Light below = turned(toSurface(through, s), trace(h.position, queryBelow(h), through, depth - 1));
         toEye = toEye + interface.transmission * below;
-        parts.push_back(below);
+        parts[3] = below;
       }
     }
     return checked(h, depth, turned(glm::transpose(toSurface(d, s)), toEye), parts);

@@ -62,9 +62,10 @@ EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::st
   for (const std::string& name : choice.off) {
     std::string size = "the error can be as large as the light that it makes";
     if (name == "linear-polarization" || name == "circular-polarization") {
+      if (choice.method == method) continue;  // this method carries none, or keeps it all the same
       const glm::dvec3 bound = bake::polarizationErrorBound(scene, request);
-      size = fmt::format("the intensity can be off by {:.3g}, {:.3g}, {:.3g} of itself (r, g, b)", bound.x, bound.y,
-                         bound.z);
+      size = fmt::format("the intensity can be off by {:.3g}, {:.3g}, {:.3g} of the unpolarized one (r, g, b)", bound.x,
+                         bound.y, bound.z);
     }
     choice.warnings.push_back(fmt::format("--effects leaves out {}, which this scene needs: {}", name, size));
   }

@@ -31,9 +31,9 @@ class Renderer {
   Renderer(const pack::Scene& scene, const Options& options);
   ~Renderer();
 
-  // method: one of shaders/methods. Pipelines are made at the first use of a method and kept. traceMs is the
-  // device's own time of the trace alone. Throws Error: a depth past the device's recursion limit, a message
-  // of the validation layers.
+  // method: one of shaders/methods or shaders/loops. Pipelines are made at the first use of a method and kept. traceMs
+  // is the device's own time of the trace alone. Throws Error: a depth past the device's recursion limit, a message of
+  // the validation layers.
   render::Picture render(std::string_view method, const render::View& view);
 
   // Rays of a picture, from a variant that counts; not timed.

@@ -1,8 +1,8 @@
 // The methods that follow the eye's path in a loop: what a surface does is applied to what the path carries on its way
 // out, so nothing comes back along rays. Glass is followed along the mirror direction first; the refracted way waits
 // on a stack, on which at most one waits for every interaction of a path. Included after a file of shaders/loops and
-// the surfaces; beside what they call the renderer supplies `materials[]`, kStackSize (the view's depth at least) and
-// findHit(origin, direction, depth, hit).
+// the surfaces; beside what they call the renderer supplies `materials[]`, kStackSize (the view's depth at least, 1
+// without glass) and findHit(origin, direction, depth, hit).
 
 struct EyePath {
   real3 origin;
@@ -24,16 +24,20 @@ FN real3 followEyePath(real3 direction) {
   while (follows) {
     follows = false;
     real3 seen = splat3(R(0.0));
+    real3 light = splat3(R(0.0));  // what is seen, as it leaves its source: the size of its roundings
     Hit h;
     if (!findHit(p.origin, p.d, p.depth, h)) {
       h = missedHit(p.d, p.depth);
-      seen = carriedSource(p.carried, environmentRadiance(p.d));
+      light = environmentRadiance(p.d);
+      seen = carriedSource(p.carried, light);
     } else {
       Material m = materials[h.material];
       if (m.kind == kEmitter) {
-        if (h.outside) seen = carriedSource(p.carried, m.radiance);
+        if (h.outside) light = m.radiance;
+        seen = carriedSource(p.carried, light);
       } else if (m.kind == kLambert) {
-        seen = carriedSource(p.carried, directLight(h, m, h.normal).diffuse);
+        light = directLight(h, m, h.normal).diffuse;
+        seen = carriedSource(p.carried, light);
       } else if (m.kind != kGlass || h.depth > R(0.5)) {
         GlassWay way;
         way.total = true;
@@ -51,6 +55,7 @@ FN real3 followEyePath(real3 direction) {
         carriedMeet(p.carried, h.d, h.normal);
         real3 mirror = mirrorDirection(h.d, h.normal, h.c);
         DirectLight direct = directLight(h, m, mirror);
+        light = direct.diffuse + direct.highlight;
         if (!glass) seen = carriedLeave(p.carried, f, direct.diffuse);
         if (h.depth > R(0.5)) {
           if (glass && !way.total) {
@@ -72,11 +77,14 @@ FN real3 followEyePath(real3 direction) {
       }
     }
     if (kCheckNumerics) {
-      real slack = R(64.0) * kUnitRoundoff * (R(1.0) + absR(seen.x) + absR(seen.y) + absR(seen.z));
+      // What reaches the eye from here, and what the path goes on with, which must be a number too.
       real none = R(0.0);
-      checkColour(h, seen.x, none, none, none, slack, 0u);
-      checkColour(h, seen.y, none, none, none, slack, 1u);
-      checkColour(h, seen.z, none, none, none, slack, 2u);
+      real most = carriedMost(p.carried);
+      real3 checked = isFinite(most) ? seen : splat3(most);
+      real3 slack = light * (R(64.0) * kUnitRoundoff * frame.analyser.x);
+      checkColour(h, checked.x, none, none, none, slack.x, 0u);
+      checkColour(h, checked.y, none, none, none, slack.y, 1u);
+      checkColour(h, checked.z, none, none, none, slack.z, 2u);
     }
     sum = sum + seen;
     if (!follows && count > 0) {

@@ -23,8 +23,12 @@ FN Light lightReflect(Factors f, Light l) {
   return r;
 }
 FN Light lightTransmit(Factors f, Light l) {
+  real3 ts = splat3(R(1.0)) - f.rs;
+  real3 tp = splat3(R(1.0)) - f.rp;
+  real3 product = ts * tp;
   Light r;
-  r.stokes = stokesInterface(l.stokes, splat3(R(1.0)) - f.rs, splat3(R(1.0)) - f.rp, f.tx, splat3(R(0.0)));
+  r.stokes =
+      stokesInterface(l.stokes, ts, tp, make3(sqrtR(product.x), sqrtR(product.y), sqrtR(product.z)), splat3(R(0.0)));
   return r;
 }
 FN Light lightLeave(Factors f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }

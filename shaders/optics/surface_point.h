@@ -33,30 +33,52 @@ FN real intersectionError(real3 p0, real3 p1, real3 p2, real3 p, real unitRoundo
   return R(8.0) * unitRoundoff * maxR(largestPart(p0 - p), maxR(largestPart(p1 - p), largestPart(p2 - p)));
 }
 
-// p, moved away from the nearest edge, within the face, until it is four times its error off or half way across. A
-// ray from an edge would start on the neighbour's plane, where rounding lets it start behind and leak. across: cross
-// product of p1 - p0 and p2 - p0.
-FN real3 insideTriangle(real3 p, real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, real3 across, real3 error) {
+// A point of the triangle close to p and, where there is room, at least `distance` from its edges: a ray from an edge
+// would start on the neighbour's plane, where rounding lets it start behind and leak. First away from the nearest edge,
+// no farther than to where another is as near; then, for corners, toward the centre of the inscribed circle, by 16
+// times the distance at most. Never out of the triangle. across: cross product of p1 - p0 and p2 - p0.
+FN real3 insideTriangle(real3 p, real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, real3 across, real distance) {
   real3 e0 = p2 - p1;
   real3 e1 = p0 - p2;
   real3 e2 = p1 - p0;
-  // Distance from the edge opposite a corner: its barycentric coordinate times 2 A/|edge|.
-  real c0 = maxR(b0, R(0.0));
-  real c1 = maxR(b1, R(0.0));
-  real c2 = maxR(b2, R(0.0));
-  real q0 = c0 * c0 / maxR(dot3(e0, e0), R(1e-37));
-  real q1 = c1 * c1 / maxR(dot3(e1, e1), R(1e-37));
-  real q2 = c2 * c2 / maxR(dot3(e2, e2), R(1e-37));
-  mask first = andM(lessEqualR(q0, q1), lessEqualR(q0, q2));
-  mask second = lessEqualR(q1, q2);
-  real3 edge = select3(first, e0, select3(second, e1, e2));
-  real c = selectR(first, c0, selectR(second, c1, c2));
-  real length = sqrtR(dot3(edge, edge));
+  real l0 = sqrtR(dot3(e0, e0));
+  real l1 = sqrtR(dot3(e1, e1));
+  real l2 = sqrtR(dot3(e2, e2));
   real area = sqrtR(dot3(across, across));
-  mask none = orM(lessEqualR(length, R(0.0)), lessEqualR(area, R(0.0)));
-  real height = area / selectR(none, R(1.0), length);
-  real off = maxR(minR(R(4.0) * largestPart(error), R(0.5) * height) - c * height, R(0.0));
-  return p + cross3(across, edge) * (selectR(none, R(0.0), off) / selectR(none, R(1.0), length * area));
+  mask none = lessEqualR(minR(area, minR(l0, minR(l1, l2))), R(1e-37));
+  // Distances from the edges and their unit normals inward; a coordinate below 0 is a rounding.
+  real3 unit = across * (R(1.0) / selectR(none, R(1.0), area));
+  real i0 = R(1.0) / selectR(none, R(1.0), l0);
+  real i1 = R(1.0) / selectR(none, R(1.0), l1);
+  real i2 = R(1.0) / selectR(none, R(1.0), l2);
+  real d0 = maxR(b0, R(0.0)) * area * i0;
+  real d1 = maxR(b1, R(0.0)) * area * i1;
+  real d2 = maxR(b2, R(0.0)) * area * i2;
+  real3 n0 = cross3(unit, e0 * i0);
+  real3 n1 = cross3(unit, e1 * i1);
+  real3 n2 = cross3(unit, e2 * i2);
+  // The nearest, and the two others.
+  mask first = andM(lessEqualR(d0, d1), lessEqualR(d0, d2));
+  mask second = lessEqualR(d1, d2);
+  real near = selectR(first, d0, selectR(second, d1, d2));
+  real3 nNear = select3(first, n0, select3(second, n1, n2));
+  real left = selectR(first, d1, d0);
+  real3 nLeft = select3(first, n1, n0);
+  real right = selectR(first, d2, selectR(second, d2, d1));
+  real3 nRight = select3(first, n2, select3(second, n2, n1));
+  real cosLeft = dot3(nNear, nLeft);
+  real cosRight = dot3(nNear, nRight);
+  real room = minR((left - near) / maxR(R(1.0) - cosLeft, R(1e-6)), (right - near) / maxR(R(1.0) - cosRight, R(1e-6)));
+  real away = maxR(minR(distance - near, room), R(0.0));
+  real3 q = p + nNear * away;
+  // What is left to do is done toward the inscribed circle's centre.
+  real least = minR(near + away, minR(left + away * cosLeft, right + away * cosRight));
+  real sum = selectR(none, R(1.0), l0 + l1 + l2);
+  real3 way = (p0 * l0 + p1 * l1 + p2 * l2) * (R(1.0) / sum) - q;
+  real radius = area / sum;
+  real share = clampUnit((distance - least) / maxR(radius - least, R(1e-37)));
+  share = minR(share, R(16.0) * distance / maxR(largestPart(way), R(1e-37)));
+  return select3(none, p, q + way * share);
 }
 
 // Origin of a ray that leaves p on the side that n points to, off the box of size error about p, and one

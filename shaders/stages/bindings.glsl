@@ -10,7 +10,7 @@ layout(set = 0, binding = 7, scalar) readonly buffer Positions { vec3 positions[
 layout(set = 0, binding = 8, scalar) readonly buffer Normals { vec3 normals[]; };
 layout(set = 0, binding = 9, scalar) readonly buffer EnvironmentTexels { vec3 environmentTexels[]; };
 #ifdef MALUS_CHECK_NUMERICS
-layout(set = 0, binding = 11, scalar) buffer FaultBlock { Faults faults; };
+layout(set = 0, binding = 11, scalar) shadercallcoherent buffer FaultBlock { Faults faults; };
 #endif
 #ifdef MALUS_COUNT_RAYS
 layout(set = 0, binding = 10, scalar) buffer Counter { uint rayCount; };

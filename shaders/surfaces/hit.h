@@ -30,7 +30,12 @@ FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 in
   h.position = p0 * b0 + p1 * b1 + p2 * b2;
   h.error = hitPointError(p0, p1, p2, b0, b1, b2, kUnitRoundoff) +
             splat3(intersectionError(p0, p1, p2, h.position, kUnitRoundoff));
-  h.start = insideTriangle(h.position, p0, p1, p2, b0, b1, b2, across, h.error);
+  // Close to an edge, by the least height that the triangle can have.
+  real margin = R(4.0) * largestPart(h.error);
+  real longest = maxR(largestPart(p1 - p0), maxR(largestPart(p2 - p0), largestPart(p2 - p1))) * R(1.7320508);
+  h.start = h.position;
+  if (minR(b0, minR(b1, b2)) * sqrtR(areaSq) < margin * longest)
+    h.start = insideTriangle(h.position, p0, p1, p2, b0, b1, b2, across, margin);
   h.outside = lessR(dot3(d, face), R(0.0));
   mask flatMesh = equalR(dot3(interpolated, interpolated), R(0.0));
   h.normal = shadingNormal(d, face, select3(flatMesh, face, interpolated));

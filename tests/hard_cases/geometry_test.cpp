@@ -1,9 +1,10 @@
-// The scenes of scenes/hard: every renderer renders them without a value that no light can have, they agree, and where
-// there is a closed form they have it. Each scene's README says which failure it provokes and where the numbers are
-// from.
+// The scenes of scenes/hard: the renderers render them without a value that no light can have (every method on Embree,
+// `stokes` and `importance` on Vulkan), they agree, and the centre pixel has its closed form where there is one. Each
+// scene's README says which failure it provokes and where the numbers are from.
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "render/scene/effects_choice.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
+#include "tests/render/test_scene.h"
 
 namespace malus {
 namespace {
@@ -227,6 +229,83 @@ TEST(HardScene, EveryFolderIsListed) {
     folders.insert(entry.path().filename());
   const std::vector<std::string> names = sceneNames();
   EXPECT_EQ(folders, (std::set<std::string>(names.begin(), names.end())));
+}
+
+// Scenes in which polarized light cannot show, so that auto takes another method: a convex body with smooth normals,
+// albedo and a highlight; a flat mirror.
+pack::Scene withoutMutualSight(bool flat, pack::MaterialKind kind) {
+  pack::Scene scene = test::emptyScene(6);
+  scene.width = scene.height = 48;
+  scene.camera.verticalFovDegrees = 40;
+  scene.environment.radiance = {0.3, 0.5, 0.8};
+  pack::Material m = kind == pack::MaterialKind::metal ? test::metal({0.18, 0.54, 1.33}, {3.4, 2.2, 1.9})
+                                                       : test::dielectric(kind, 1.5);
+  m.albedo = glm::dvec3(0.4);
+  m.highlightStrength = 1;
+  m.highlightExponent = 40;
+  test::addMaterial(scene, m);
+  pack::Material ground;
+  ground.albedo = glm::dvec3(0.5);
+  test::addMaterial(scene, ground);
+  if (flat) {
+    test::addSquare(scene, 0, {0, 0, 0}, {0, 1, 0}, 1);
+  } else {
+    // A ball of longitudes and latitudes.
+    pack::Mesh ball;
+    ball.name = "ball";
+    constexpr std::uint32_t kRings = 10, kSpokes = 16;
+    for (std::uint32_t i = 0; i <= kRings; ++i)
+      for (std::uint32_t j = 0; j < kSpokes; ++j) {
+        const double theta = std::numbers::pi * i / kRings, phi = 2 * std::numbers::pi * j / kSpokes;
+        const double ring = i == 0 || i == kRings ? 0 : std::sin(theta);
+        ball.normals.emplace_back(ring * std::cos(phi),
+                                  i == 0        ? 1
+                                  : i == kRings ? -1
+                                                : std::cos(theta),
+                                  ring * std::sin(phi));
+        ball.positions.push_back(ball.normals.back());
+      }
+    for (std::uint32_t i = 0; i < kRings; ++i)
+      for (std::uint32_t j = 0; j < kSpokes; ++j) {
+        const std::uint32_t a = i * kSpokes + j, b = i * kSpokes + (j + 1) % kSpokes;
+        if (i > 0) ball.triangles.emplace_back(a, b, b + kSpokes);
+        if (i + 1 < kRings) ball.triangles.emplace_back(a, b + kSpokes, a + kSpokes);
+      }
+    scene.meshes.push_back(ball);
+  }
+  test::addSquare(scene, 1, {0, -2, 0}, {0, 1, 0}, 4);
+  scene.lights.push_back({{3, 4, 2}, {20, 20, 20}});
+  test::look(scene, {0.5, 1.5, 4}, {0, 0, 0});
+  return scene;
+}
+
+TEST(HardScene, AutoIsExactWherePolarizationCannotShow) {
+  for (const bool flat : {false, true})
+    for (const pack::MaterialKind kind :
+         {pack::MaterialKind::metal, pack::MaterialKind::paint, pack::MaterialKind::mirrorGlass}) {
+      const pack::Scene scene = withoutMutualSight(flat, kind);
+      const render::View view = render::viewOf(scene);
+      const bake::PictureRequest request{view.depth, view.analyser, false, false};
+      SCOPED_TRACE(testing::Message() << (flat ? "flat " : "ball ") << pack::nameOf(kind));
+      EXPECT_EQ(render::chooseEffects({"auto"}, "stokes", scene, request).method, "fresnel");
+      EXPECT_EQ(render::chooseEffects({"auto"}, "importance", scene, request).method, "fresnel-loop");
+      const Picture truth = reference::render(scene, view, 0);
+      const embree::Renderer embree(scene, 0);
+      vulkan::Renderer vulkan(scene, {});
+      for (const char* method : {"fresnel", "fresnel-loop"})
+        for (const Picture& p : {embree.render(method, view), vulkan.render(method, view)}) {
+          std::size_t off = 0;
+          double sum = 0;
+          for (std::size_t i = 0; i < std::size_t{p.width} * p.height; ++i)
+            for (std::size_t c = 0; c < 3; ++c) {
+              const double want = truth.pixels[i * truth.channels + c];
+              if (std::abs(p.pixels[3 * i + c] - want) > 1e-4) ++off;
+              sum += want;
+            }
+          EXPECT_LE(off, 6u) << method;  // two pixels of an edge
+          EXPECT_GT(sum, 100);
+        }
+    }
 }
 
 // Closed forms at the centre pixel, six digits as the READMEs have them.

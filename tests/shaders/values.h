@@ -91,7 +91,7 @@ FN Values valuesOf(Given g) {
   r.shading = shadingNormal(g.d, g.n, g.interpolated);
   r.error = hitPointError(g.d, g.n, g.interpolated, g.c, R(0.25), R(0.125), R(0.001));
   r.intersection = intersectionError(g.d, g.n, g.interpolated, g.radiance, R(0.001));
-  r.inside = insideTriangle(g.radiance, g.d, g.n, g.interpolated, g.c, R(0.25), R(0.125), r.x, r.error);
+  r.inside = insideTriangle(g.radiance, g.d, g.n, g.interpolated, g.c, R(0.25), R(0.125), r.x, R(0.01));
   r.origin = rayOrigin(g.radiance, r.error, g.n, R(0.001));
   r.camera = cameraDirection(g.d, g.n, g.interpolated, R(0.5), R(0.25), g.c, g.cos2);
   r.clamped = max3(select3(lessR(g.c, R(0.5)), cross3(g.d, g.n), g.n), square(g.c) * kPi);

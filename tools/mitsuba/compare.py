@@ -25,7 +25,7 @@ from simplify import write_simplified  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENES = HERE.parents[1] / "scenes"
-RENDERERS = {"reference": ["--backend", "reference"], "embree": ["--backend", "embree", "--method", "stokes"]}
+RENDERERS = {"reference": ["--backend", "reference"], "embree": ["--backend", "embree", "--method", "stokes", "--effects", "all"]}
 STOCK_WIDTH, STOCK_COLOUR = 64, 1
 
 

@@ -2,7 +2,7 @@
 import html
 
 from report_data import number, timed
-from report_gpu import own_cost
+from report_gpu import own_cost, traverses_apart
 from report_format import energy, interval, percent, plain, ratio, size_of
 from report_words import bold, code, mostly, verdict
 
@@ -156,7 +156,7 @@ def bottleneck(model, all_rows) -> dict:
     answer, rows = [], []
     for entry in model:
         stages = [s for s in entry.get("stages", []) if number(s, "inverseThroughput") is not None]
-        if not stages:
+        if not stages or not traverses_apart(entry):
             continue
         worst = max(stages, key=lambda s: s["inverseThroughput"])
         total = sum(s["inverseThroughput"] for s in stages)
@@ -180,6 +180,8 @@ def bottleneck(model, all_rows) -> dict:
                 f"{code('schlick')}")
             answer.append(f"{bold(family)}: without traversal, the inverse throughput of a pipeline’s shaders goes "
                           f"from {named[0]} to {named[1]}{exact}.")
+    if any(not traverses_apart(entry) for entry in model):
+        answer.append("Methods that loop have their traversal inlined in one shader and are not compared with the others.")
     answer.append("These are static estimates of compiled code, each stage counted once; never a time.")
     finding.update(answer=answer, rows=rows, head=["GPU family", "scene", "method", "costliest stage",
                                                    "inverse throughput", "share of all stages"])

@@ -7,8 +7,16 @@ from report_plots import cost_against_payload
 kTraversal = ("traversal", "intersection")  # the driver's own shader, the same for every method
 
 
+def traverses_apart(entry: dict) -> bool:
+    """Whether traversal is a shader of its own. A loop has it inlined in its one shader: never compare the two."""
+    return any(word in str(s.get("stage", "")).lower() for s in entry.get("stages") or [] for word in kTraversal)
+
+
 def own_cost(entry: dict):
-    """Inverse throughput of a pipeline's shaders without traversal, each counted once; None where unknown."""
+    """Inverse throughput of a pipeline's shaders without traversal, each counted once; None where unknown, as for
+    loops."""
+    if not traverses_apart(entry):
+        return None
     own = [number(s, "inverseThroughput") for s in entry.get("stages") or []
            if not any(word in str(s.get("stage", "")).lower() for word in kTraversal)]
     return sum(v or 0 for v in own) if any(v is not None for v in own) else None

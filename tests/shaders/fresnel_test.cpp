@@ -1,6 +1,7 @@
 // Reflectances, cross terms and transmittances against the Jones oracle and against closed forms. An oracle
 // takes the rounded inputs; where the problem itself is ill conditioned (near the critical angle, near
 // grazing) an error is allowed to the size of what three eps in the inputs change.
+#include "tests/shaders/conditioned.h"
 #include "tests/shaders/optics_types.h"
 
 namespace malus::test {
@@ -11,28 +12,6 @@ using oracle::Real;
 
 MALUS_OPTICS_SUITE(FresnelTest);
 
-// How far each of the oracle's numbers moves when the cosine and the index move by three eps.
-struct Conditioned {
-  oracle::Powers value;
-  oracle::Powers spread{};
-};
-Conditioned conditioned(Real c, Real n1, Complex n2, Real eps) {
-  Conditioned r{oracle::powers(c, n1, n2), {}};
-  for (const Real dc : {-3.0L, 0.0L, 3.0L})
-    for (const Real dn : {-3.0L, 3.0L}) {
-      const Real near = std::min(Real(1), c * (1 + dc * eps));
-      const Complex step = (std::abs(n2 - n1) < std::abs(n2) ? n2 - n1 : n2) * (dn * eps);
-      const oracle::Powers p = oracle::powers(near, n1, n2 + step);
-      const auto grow = [](Real& spread, Real a, Real b) { spread = std::max(spread, std::abs(a - b)); };
-      grow(r.spread.rs, p.rs, r.value.rs);
-      grow(r.spread.rp, p.rp, r.value.rp);
-      grow(r.spread.ts, p.ts, r.value.ts);
-      grow(r.spread.tp, p.tp, r.value.tp);
-      grow(r.spread.txGeo, p.txGeo, r.value.txGeo);
-      r.spread.x = std::max(std::abs(r.spread.x), std::abs(p.x - r.value.x));
-    }
-  return r;
-}
 // Error beyond the spread, in parts of the size.
 Real beyond(Real got, Real expected, Real spread, Real size) {
   const Real error = std::abs(got - expected) - spread;
@@ -55,7 +34,7 @@ TYPED_TEST(FresnelTest, DielectricEqualsJones) {
     for (const real c : cosines<real>()) {
       const real n1 = R(pair[0]), n2 = R(pair[1]);
       const auto got = O::dielectricReflectance(c, n1, n2);
-      const auto want = conditioned(c, n1, n2, kEps);
+      const auto want = conditioned(c, n1, n2, 3 * Real(kEps));
       // r_p and X vanish at Brewster's angle, where only R_s gives a size to compare with.
       const Real size = want.value.rs;
       rs.add(beyond(got.rs, want.value.rs, want.spread.rs, size));
@@ -75,7 +54,7 @@ TYPED_TEST(FresnelTest, TransmittanceEqualsJones) {
     for (const real c : cosines<real>()) {
       const real n1 = R(pair[0]), n2 = R(pair[1]);
       const auto got = O::dielectricTransmittance(c, n1, n2);
-      const auto want = conditioned(c, n1, n2, kEps);
+      const auto want = conditioned(c, n1, n2, 3 * Real(kEps));
       const Real tiny = std::numeric_limits<real>::min();  // a cosine that small flushes
       ts.add(beyond(got.ts, want.value.ts, want.spread.ts, want.value.ts + tiny));
       tp.add(beyond(got.tp, want.value.tp, want.spread.tp, want.value.tp + tiny));
@@ -92,7 +71,7 @@ TYPED_TEST(FresnelTest, ConductorEqualsJones) {
   Worst rs("rs", double(kEps)), rp("rp", double(kEps)), x("x", double(kEps));
   const auto compare = [&](real c, real n1, real n, real k) {
     const auto got = O::conductorReflectance(c, n1, n, k);
-    const auto want = conditioned(c, n1, Complex(n, -k), kEps);
+    const auto want = conditioned(c, n1, Complex(n, -k), 3 * Real(kEps));
     rs.add(beyond(got.rs, want.value.rs, want.spread.rs, want.value.rs));
     rp.add(beyond(got.rp, want.value.rp, want.spread.rp, want.value.rs));
     x.add(beyond(std::abs(Complex(got.xRe, got.xIm) - want.value.x), 0, std::abs(want.spread.x), want.value.rs));
@@ -231,7 +210,7 @@ TYPED_TEST(FresnelTest, ConductorWithoutAbsorptionIsADielectric) {
   MALUS_TYPES;
   for (const auto& pair : kPairs)
     for (const real c : cosines<real>()) {
-      const auto want = conditioned(c, R(pair[0]), R(pair[1]), kEps);
+      const auto want = conditioned(c, R(pair[0]), R(pair[1]), 3 * Real(kEps));
       const auto d = O::dielectricReflectance(c, R(pair[0]), R(pair[1]));
       const auto m = O::conductorReflectance(c, R(pair[0]), R(pair[1]), 0);
       const Real size = 12 * kEps * want.value.rs;  // both errors of the two tests above
@@ -278,7 +257,7 @@ TYPED_TEST(FresnelTest, TransmissionIsReciprocal) {
       const real ct = R(std::sqrt((1 - sinT) * (1 + sinT)));
       const auto in = O::dielectricTransmittance(c, R(n1), R(n2));
       const auto out = O::dielectricTransmittance(ct, R(n2), R(n1));
-      const auto forth = conditioned(c, n1, n2, kEps), back = conditioned(ct, n2, n1, kEps);
+      const auto forth = conditioned(c, n1, n2, 3 * Real(kEps)), back = conditioned(ct, n2, n1, 3 * Real(kEps));
       EXPECT_CLOSE(in.ts, out.ts, 8 * kEps + forth.spread.ts + back.spread.ts) << c;
       EXPECT_CLOSE(in.tp, out.tp, 8 * kEps + forth.spread.tp + back.spread.tp) << c;
     }
@@ -317,7 +296,7 @@ TYPED_TEST(FresnelTest, ExtremeRatiosEqualJones) {
       for (const real c : cosines<real>()) {
         if (n1 == n2) continue;
         const auto got = O::dielectricReflectance(c, R(n1), R(n2));
-        const auto want = conditioned(c, R(n1), R(n2), kEps);
+        const auto want = conditioned(c, R(n1), R(n2), 3 * Real(kEps));
         worst.add(beyond(got.rs, want.value.rs, want.spread.rs, 1));
         worst.add(beyond(got.rp, want.value.rp, want.spread.rp, 1));
       }

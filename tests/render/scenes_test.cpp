@@ -19,6 +19,7 @@
 #include "render/embree/renderer.h"
 #include "render/image/output.h"
 #include "render/reference/reference.h"
+#include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
 
 namespace malus {
@@ -113,6 +114,21 @@ TEST_P(Scenes, StokesEqualsTheDoublePrecisionReference) {
   const image::Image reference = rendered(pack, "reference", "reference");
   for (const std::string renderer : {"vulkan", "embree"})
     expectClose(rendered(pack, renderer, "stokes"), reference, "reference", renderer);
+}
+
+TEST_P(Scenes, EveryValueIsOneThatLightCanHave) {
+  const pack::Scene& scene = packOf(GetParam()).scene;
+  render::View view = smallView(scene);
+  view.checkNumerics = true;
+  const auto expectSound = [&](const render::Picture& picture, const std::string& what) {
+    EXPECT_EQ(picture.faults.count, 0u) << what << ": " << describe(picture.faults, scene);
+  };
+  expectSound(reference::render(scene, view, 0), "reference");
+  const embree::Renderer embree(scene, 0);
+  for (const std::string& method : render::methodNames()) expectSound(embree.render(method, view), "embree " + method);
+  vulkan::Renderer vulkan(scene, {});
+  for (const std::string method : {"stokes", "importance"})
+    expectSound(vulkan.render(method, view), "vulkan " + method);
 }
 
 TEST_P(Scenes, PolarizationIsVisible) {

@@ -183,32 +183,8 @@ TEST(ClosedForms, DepthCountsSpecularInteractions) {
   }
 }
 
-// Fairness of every comparison: without polarization-dependent branching all methods send the same rays.
-TEST(ClosedForms, EveryMethodTracesTheSameRays) {
-  pack::Scene scene = test::emptyScene(6);
-  scene.width = scene.height = 24;
-  scene.camera.verticalFovDegrees = 60;
-  scene.environment.radiance = glm::dvec3(1);
-  pack::Material paint = test::dielectric(MaterialKind::paint, kN, 0.5);
-  paint.highlightStrength = 1;
-  paint.highlightExponent = 20;
-  const auto floor = test::addMaterial(scene, paint),
-             glass = test::addMaterial(scene, test::dielectric(MaterialKind::glass, kN)),
-             gold = test::addMaterial(scene, test::metal({0.2, 0.5, 1.3}, {3, 2, 2}));
-  test::addSquare(scene, floor, {0, -1, 0}, {0, 1, 0}, 4);
-  test::addSquare(scene, glass, {0, 0, 0}, {0, 0.3, 1}, 1);
-  test::addSquare(scene, glass, {0, 0, -0.1}, {0, -0.3, -1}, 1);
-  test::addSquare(scene, gold, {-2, 0, 0}, {1, 0, 0.2}, 2);
-  scene.lights.push_back({{1, 3, 2}, {5, 5, 5}});
-  test::look(scene, {0.5, 0.3, 4}, {0, 0, 0});
-  const embree::Renderer renderer(scene, 1);
-  const std::uint64_t rays = renderer.render("schlick", render::viewOf(scene)).cost.rays;
-  EXPECT_GT(rays, 24u * 24u * 3u);
-  for (const std::string& method : render::methodNames())
-    EXPECT_EQ(renderer.render(method, render::viewOf(scene)).cost.rays, rays) << method;
-}
-
-TEST(ClosedForms, LoopsEqualTheirRecursions) {
+// A glossy painted floor, a tilted pane and gold on both sides, 24 x 24 pixels.
+pack::Scene paintGlassAndGold() {
   pack::Scene scene = test::emptyScene(5);
   scene.width = scene.height = 24;
   scene.camera.verticalFovDegrees = 60;
@@ -226,6 +202,21 @@ TEST(ClosedForms, LoopsEqualTheirRecursions) {
   test::addSquare(scene, gold, {2, 0, 0}, {-1, 0, 0.2}, 2);
   scene.lights.push_back({{1, 3, 2}, {5, 5, 5}});
   test::look(scene, {0.5, 0.3, 4}, {0, 0, 0});
+  return scene;
+}
+
+// Fairness of every comparison: without polarization-dependent branching all methods send the same rays.
+TEST(ClosedForms, EveryMethodTracesTheSameRays) {
+  const pack::Scene scene = paintGlassAndGold();
+  const embree::Renderer renderer(scene, 1);
+  const std::uint64_t rays = renderer.render("schlick", render::viewOf(scene)).cost.rays;
+  EXPECT_GT(rays, 24u * 24u * 3u);
+  for (const std::string& method : render::methodNames())
+    EXPECT_EQ(renderer.render(method, render::viewOf(scene)).cost.rays, rays) << method;
+}
+
+TEST(ClosedForms, LoopsEqualTheirRecursions) {
+  const pack::Scene scene = paintGlassAndGold();
   const embree::Renderer renderer(scene, 1);
   render::View view = render::viewOf(scene);
   for (const render::Analyser& analyser :

@@ -14,6 +14,7 @@
 #include "bake/environment/octahedral_map.h"
 #include "bake/image/image.h"
 #include "bake/pack/format.h"
+#include "bake/textures/texture.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 #include "meshprep/prepare.h"
@@ -149,6 +150,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   scene.environment.diffuseFill = d.diffuseFill;
   if (d.environmentImage.empty()) {
     bakeConstantEnvironment(d.environmentRadiance, scene.environment);
+    if (d.skyDegree > 0) bakeRayleighIrradiance(d.sun, scene.environment);
   } else {
     progress("baking the environment");
     bakeEnvironment(image::read(d.environmentImage), d.environmentImage.string(), d.environmentScale,
@@ -156,6 +158,17 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     sources.push_back({{"file", d.environmentImage.lexically_relative(d.file.parent_path()).string()},
                        {"xxh3", hashText(d.environmentImage)}});
   }
+  scene.environment.sun = d.sun;
+  scene.environment.skyDegree = d.skyDegree;
+
+  // Pictures of materials.
+  for (const TextureDescription& texture : d.textures) {
+    const std::string name = texture.file.lexically_relative(d.file.parent_path()).string();
+    progress(fmt::format("baking {}", name));
+    scene.textures.push_back(bakeTexture(image::read(texture.file), texture, name));
+    sources.push_back({{"file", name}, {"xxh3", hashText(texture.file)}});
+  }
+  for (pack::Material& m : scene.materials) m.maps.origin -= m.maps.any() ? scene.origin : glm::dvec3(0.0);
   scene.effects = findEffects(scene);
 
   scene.provenance =

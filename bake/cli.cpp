@@ -89,20 +89,26 @@ void addBakeCommand(CLI::App& app) {
 void addInfoCommand(CLI::App& app) {
   struct Arguments {
     std::string input;
+    double tolerance = kInfoTolerance;
     bool verify = false, json = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("info", "Tells what a scene pack holds");
   command->add_option("pack", arguments->input, "scene pack")->required();
+  command
+      ->add_option("--tolerance", arguments->tolerance, "share of the light that the deepest bounce named may change")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   command->add_flag("--verify", arguments->verify, "say that every hash, count and number was checked");
   command->add_flag("--json", arguments->json, "print as JSON");
   command->callback([arguments] {
     const pack::Pack pack = pack::read(arguments->input);  // every check of the reader is made here
     if (arguments->json) {
       // Texts of a pack may be no UTF-8.
-      fmt::print("{}\n", infoJson(pack).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+      fmt::print("{}\n",
+                 infoJson(pack, arguments->tolerance).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
-      std::fputs(infoText(pack).c_str(), stdout);
+      std::fputs(infoText(pack, arguments->tolerance).c_str(), stdout);
       if (arguments->verify)
         fmt::print("verified: {} sections, every hash, count, index and number\n", pack.sections.size());
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/effects/deepest_bounce.h"
 #include "bake/effects/effects.h"
 #include "bake/effects/polarization_bound.h"
 
@@ -23,7 +24,7 @@ std::vector<pack::Effect> effectsOf(const pack::Scene& scene) {
 }
 }  // namespace
 
-json infoJson(const pack::Pack& pack) {
+json infoJson(const pack::Pack& pack, double tolerance) {
   const pack::Scene& scene = pack.scene;
   json meshes = json::array(), materials = json::array(), effects = json::array(), sections = json::array();
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -69,11 +70,12 @@ json infoJson(const pack::Pack& pack) {
           {"lights", scene.lights.size()},
           {"effects", effects},
           {"polarizationErrorBound", {bound.x, bound.y, bound.z}},
+          {"deepestBounce", {{"tolerance", tolerance}, {"bounce", deepestBounce(scene, scene.depth, tolerance)}}},
           {"sections", sections},
           {"provenance", provenance}};
 }
 
-std::string infoText(const pack::Pack& pack) {
+std::string infoText(const pack::Pack& pack, double tolerance) {
   const pack::Scene& scene = pack.scene;
   std::string text =
       fmt::format("{}  {}\n{} vertices, {} triangles, {} lights, {} x {} pixels, depth {}\npack {} (format {})\n",
@@ -100,6 +102,8 @@ std::string infoText(const pack::Pack& pack) {
           : fmt::format(
                 "  without polarization the intensity is off by at most {:.3g}, {:.3g}, {:.3g} of itself (r, g, b)\n",
                 bound.x, bound.y, bound.z);
+  text += fmt::format("  the deepest bounce that can change a pixel by more than {:g} of the light there is {}\n",
+                      tolerance, deepestBounce(scene, scene.depth, tolerance));
   text += "\nsections\n";
   for (const pack::Section& s : pack.sections)
     text +=

@@ -9,10 +9,14 @@
 
 namespace malus::bake {
 
+// Share of the light that the deepest bounce named may change.
+inline constexpr double kInfoTolerance = 1e-3;
+
 // {formatVersion, hash, name, title, resolution[2], depth, vertices, triangles, geometryHash,
 //  meshes[{name, vertices, triangles, material, sheet, encoding}], materials[{name, type, eta[3], k[3]}],
-//  lights, effects[{name, on, reason}], sections[{id, version, offset, sizeBytes, hash}], provenance}
-nlohmann::json infoJson(const pack::Pack& pack);
-std::string infoText(const pack::Pack& pack);
+//  lights, effects[{name, on, reason}], polarizationErrorBound[3], deepestBounce{tolerance, bounce}, sections[{id,
+//  version, offset, sizeBytes, hash}], provenance}
+nlohmann::json infoJson(const pack::Pack& pack, double tolerance = kInfoTolerance);
+std::string infoText(const pack::Pack& pack, double tolerance = kInfoTolerance);
 
 }  // namespace malus::bake

@@ -56,14 +56,38 @@ void writeEnvironment(const pack::Environment& environment, const fs::path& file
 json materialJson(const pack::Material& m) {
   json highlight;
   if (m.highlightStrength > 0) highlight = {{"strength", m.highlightStrength}, {"exponent", m.highlightExponent}};
-  return {{"name", m.name},
-          {"type", pack::nameOf(m.kind)},
-          {"eta", vectorJson(m.eta)},
-          {"k", vectorJson(m.k)},
-          {"outsideEta", m.outsideEta},
-          {"albedo", vectorJson(m.albedo)},
-          {"radiance", vectorJson(m.radiance)},
-          {"highlight", highlight}};
+  json result = {{"name", m.name},
+                 {"type", pack::nameOf(m.kind)},
+                 {"eta", vectorJson(m.eta)},
+                 {"k", vectorJson(m.k)},
+                 {"outsideEta", m.outsideEta},
+                 {"albedo", vectorJson(m.albedo)},
+                 {"radiance", vectorJson(m.radiance)},
+                 {"highlight", highlight}};
+  if (m.isPlain()) return result;
+  const auto map = [](std::int32_t index) { return index < 0 ? json() : json(index); };
+  result["absorption"] = vectorJson(m.absorption);
+  result["outsideAbsorption"] = vectorJson(m.outsideAbsorption);
+  result["coating"] = {{"eta", vectorJson(m.coating.eta)}, {"thicknessNm", m.coating.thicknessNm}};
+  result["roughness"] = m.roughness;
+  result["axis"] = vectorJson(m.axis);
+  result["polarization"] = m.polarization;
+  result["along"] = vectorJson(m.along);
+  result["across"] = vectorJson(m.across);
+  result["retardanceDegrees"] = vectorJson(m.retardanceDegrees);
+  result["maps"] = {{"albedo", map(m.maps.albedo)},        {"eta", map(m.maps.eta)},    {"k", map(m.maps.k)},
+                    {"origin", vectorJson(m.maps.origin)}, {"u", vectorJson(m.maps.u)}, {"v", vectorJson(m.maps.v)}};
+  return result;
+}
+
+// Linear texels, as the pack has them.
+void writeTexture(const pack::Texture& texture, const fs::path& file) {
+  image::Image picture;
+  picture.width = static_cast<int>(texture.width);
+  picture.height = static_cast<int>(texture.height);
+  picture.channels = {"R", "G", "B"};
+  for (const glm::vec3& t : texture.texels) picture.pixels.insert(picture.pixels.end(), {t.x, t.y, t.z});
+  image::writeExr(file, picture);
 }
 
 }  // namespace
@@ -77,6 +101,7 @@ json unpack(const pack::Pack& pack, const fs::path& folder) {
     if (!old.is_object() || !old.contains("packHash"))
       throw Error((folder / "scene.json").string(), "is there and was not unpacked from a pack", "another folder");
     fs::remove_all(folder / "meshes", failed);
+    fs::remove_all(folder / "textures", failed);
     fs::remove(folder / "environment.exr", failed);
   }
   fs::create_directories(folder / "meshes", failed);
@@ -99,9 +124,18 @@ json unpack(const pack::Pack& pack, const fs::path& folder) {
     lights.push_back(
         {{"type", "point"}, {"position", vectorJson(light.position)}, {"intensity", vectorJson(light.intensity)}});
 
+  json textures = json::array();
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const std::string file = fmt::format("textures/{:03}.exr", i);
+    fs::create_directories(folder / "textures", failed);
+    writeTexture(scene.textures[i], folder / file);
+    textures.push_back({{"name", scene.textures[i].name}, {"file", file}});
+  }
+
   const pack::Environment& e = scene.environment;
   json environment = {{"diffuseFill", e.diffuseFill}, {"irradiance", json::array()}};
   for (const glm::dvec3& c : e.irradiance) environment["irradiance"].push_back(vectorJson(c));
+  if (e.skyDegree > 0) environment["sky"] = {{"sun", vectorJson(e.sun)}, {"maxDegree", e.skyDegree}};
   if (e.size == 0) {
     environment["radiance"] = vectorJson(e.radiance);
   } else {
@@ -128,6 +162,7 @@ json unpack(const pack::Pack& pack, const fs::path& folder) {
                    {"environment", environment},
                    {"lights", lights},
                    {"materials", materials},
+                   {"textures", textures},
                    {"meshes", meshes}};
   writeFile(folder / "scene.json", document.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
   return document;

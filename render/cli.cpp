@@ -51,7 +51,8 @@ struct RenderArguments : RenderSettings {
   std::optional<double> polarizer, exposure;
   std::string analyser, wavePlate, mosaicChannel = "luminance";
   unsigned mosaicBits = 8;
-  bool json = false, countRays = false, checkNumerics = false, intensity = false;
+  double tolerance = 0;
+  bool json = false, countRays = false, checkNumerics = false, intensity = false, stokes = false;
 };
 
 // "AXIS" or "AXIS,RETARDANCE" in degrees.
@@ -133,6 +134,12 @@ void checkUsage(const RenderArguments& a) {
   if (!a.mosaic.empty() && (a.polarizer || !a.analyser.empty() || !a.wavePlate.empty()))
     fail("--mosaic", "has a polarizer in front of every pixel: no --polarizer, --analyser or --wave-plate");
   if (a.maxError && a.backend == "reference") fail("--max-error", "the reference has no error");
+  if (a.intensity && a.stokes) fail("--intensity", "excludes --stokes");
+  if (a.tolerance > 0 && (a.backend == "reference" || !methodNamed(a.method).isLoop))
+    fail("--tolerance", fmt::format("needs a method that follows the eye's path (importance, fresnel-loop, "
+                                    "schlick-loop), not {}",
+                                    a.backend == "reference" ? "the reference" : a.method));
+  if (a.stokes && !a.maxError) requireStokes(a, "--stokes");
   if (a.intensity && (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty()))
     fail("--intensity", "excludes --output-dolp, --output-aolp and --mosaic");
   if (!a.maxError && (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty()))
@@ -203,9 +210,9 @@ Picture intensityOf(Picture picture) {
 
 // What of the picture is asked for: its Stokes vectors where a file holds them.
 bake::PictureRequest requestOf(const RenderArguments& a, const View& view) {
-  const bool stokesFile =
-      !a.intensity && std::any_of(a.outputs.begin(), a.outputs.end(),
-                                  [](const std::string& output) { return endsWith(output, {".exr"}); });
+  const bool stokesFile = !a.intensity && (a.backend == "reference" || hasStokes(methodNamed(a.method), view)) &&
+                          std::any_of(a.outputs.begin(), a.outputs.end(),
+                                      [](const std::string& output) { return endsWith(output, {".exr"}); });
   bake::PictureRequest request{view.depth, view.analyser, false, false};
   request.linearStokes = stokesFile || !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
   request.circularStokes = stokesFile;
@@ -276,6 +283,8 @@ void runRender(RenderArguments a) {
                                 view.region.height));
   if (a.maxError) a.method = chooseMethod(a, pack, view);
   warnOfMissingLight(a, view.analyser);
+  view.tolerance = a.tolerance;
+  view.stokes = a.stokes || !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
   const pack::Scene scene = applyEffects(a, pack.scene, view);
   if (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty())
     requireStokes(a, !a.mosaic.empty() ? "--mosaic" : a.dolp.empty() ? "--output-aolp" : "--output-dolp");
@@ -431,6 +440,13 @@ void addRenderCommand(CLI::App& app) {
       ->add_option(
           "--effects", a->effects,
           "auto (what the picture calls for), all, or a list of the effects to keep, as 'malus info' names them")
+      ->capture_default_str();
+  command->add_flag("--stokes", a->stokes, "importance: Stokes channels too, by four analysers (four times the rays)");
+  command
+      ->add_option("--tolerance", a->tolerance,
+                   "importance and the loops: share of a light's radiance that a path may lose, and of its own that "
+                   "polarization may be, before it is left out; 0 is exact")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_flag("--intensity", a->intensity, "only the intensity: no Stokes channels in .exr files");
   command->add_flag("--check-numerics", a->checkNumerics,

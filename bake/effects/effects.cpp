@@ -20,6 +20,21 @@ bool positive(const glm::dvec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 
 bool isInterface(const Material& m) { return m.kind != MaterialKind::lambert && m.kind != MaterialKind::emitter; }
 
+bool isSheet(const Material& m) { return m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate; }
+
+bool isCoated(const Material& m) { return m.coating.thicknessNm > 0; }
+
+bool absorbs(const Material& m) { return positive(m.absorption) || positive(m.outsideAbsorption); }
+
+// Smallest index that a dielectric has anywhere.
+double leastEta(const pack::Scene& scene, const Material& m) {
+  double least = std::min({m.eta.x, m.eta.y, m.eta.z});
+  if (m.maps.eta >= 0)
+    for (const glm::vec3& t : scene.textures[static_cast<std::size_t>(m.maps.eta)].texels)
+      least = std::min(least, static_cast<double>(t.y));
+  return least;
+}
+
 // Names of the used materials for which a property holds, for people.
 std::string namesWhere(const pack::Scene& scene, const std::function<bool(const Material&)>& holds) {
   std::vector<bool> used(scene.materials.size(), false);
@@ -57,7 +72,7 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
 
   const bool diffuse = addFor("diffuse", namesWhere(scene, [](const Material& m) { return positive(m.albedo); }),
                               "material with an albedo");
-  add("textures", false, "this version of the pack has none");
+  addFor("textures", namesWhere(scene, [](const Material& m) { return m.maps.any(); }), "textured material");
   const std::string dielectrics = namesWhere(scene, [](const Material& m) {
     return m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass || m.kind == MaterialKind::glass;
   });
@@ -66,11 +81,19 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
       addFor("conductor", namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::metal; }), "metal");
   const std::string glass = namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::glass; });
   addFor("transmission", glass, "clear glass");
-  add("absorption", false, "all glass of this version is clear");
-  const std::string bent = namesWhere(scene, [](const Material& m) {
+  addFor("absorption", namesWhere(scene, absorbs), "material with an absorbing medium");
+  const bool coated = addFor("coatings", namesWhere(scene, isCoated), "material with a thin film");
+  addFor("polarizing-sheets", namesWhere(scene, isSheet), "polarizer or wave plate");
+  const bool plates = !namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::wavePlate; }).empty();
+  const std::string rough = namesWhere(scene, [](const Material& m) { return m.roughness > 0; });
+  if (deep)
+    addFor("rough-reflection", rough, "rough surface");
+  else
+    add("rough-reflection", false, "depth 0 reflects nothing");
+  const std::string bent = namesWhere(scene, [&](const Material& m) {
     if (m.kind == MaterialKind::glass) return m.eta.y != m.outsideEta;
     if (m.kind != MaterialKind::paint && m.kind != MaterialKind::mirrorGlass) return false;
-    return m.outsideEta > m.eta.x || m.outsideEta > m.eta.y || m.outsideEta > m.eta.z;
+    return m.outsideEta > leastEta(scene, m);
   });
   const bool tir = deep && !bent.empty();
   add("tir", tir,
@@ -84,18 +107,27 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
   // see each other stand on no path together.
   const bool several = !interfaces.empty() && interfacesSeeEachOther(scene);
   const std::uint32_t interactions = interfaces.empty() ? 0 : several ? depth : std::min(depth, 1u);
-  const std::uint32_t chain = interactions + (leaving && (several || interactions == 0) ? 1u : 0u);
-  const bool any = interactions > 0 || leaving;
-  const auto twoOf = [&] { return chain >= 2 ? "two diattenuating surfaces can follow each other" : ""; };
+  // Sources that are polarized themselves end any path.
+  const std::string displays = namesWhere(scene, [](const Material& m) {
+    return m.kind == MaterialKind::emitter && m.polarization > 0 && positive(m.radiance);
+  });
+  const bool sky = scene.environment.size > 0 || positive(scene.environment.radiance);
+  const bool polarizedSky = scene.environment.skyDegree > 0 && sky, sources = polarizedSky || !displays.empty();
+  const std::uint32_t chain = interactions + (sources || (leaving && (several || interactions == 0)) ? 1u : 0u);
+  const bool any = interactions > 0 || leaving || sources;
   bool linear = true;
   std::string why;
   if (request.linearStokes && any)
     why = "S1 and S2 are asked for";
   else if (chain >= 2)
-    why = fmt::format("{} within depth {}: {}; gone at depth {}", twoOf(), depth, interfaces, leaving ? 0 : 1);
+    why = sources
+              ? fmt::format("polarized light ({}{}{}) meets {}; gone at depth 0", polarizedSky ? "the sky" : "",
+                            polarizedSky && !displays.empty() ? ", " : "", displays, interfaces)
+              : fmt::format("two diattenuating surfaces can follow each other within depth {}: {}; gone at depth {}",
+                            depth, interfaces, leaving ? 0 : 1);
   else if (linearFilter && any)
-    why =
-        fmt::format("a linear polarizer stands before the camera and {} polarize; gone without the filter", interfaces);
+    why = fmt::format("a linear polarizer stands before the camera and {} polarize; gone without the filter",
+                      interfaces.empty() ? "sources" : interfaces);
   else
     linear = false;
   add("linear-polarization", linear,
@@ -106,8 +138,13 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
   // Circular light: made by a phase shifter (metal, total reflection) behind a diattenuator. It counts where two
   // shifters stand strictly between two diattenuators, the first of which may be the filter and the last light that
   // leaves a painted surface; where the filter passes one handedness, or S3 is asked for, one shifter is enough.
-  const bool shifters = conductor || tir;
-  const char* shifterNames = conductor ? (tir ? "metal, total reflection" : "metal") : "total reflection";
+  std::vector<const char*> names;
+  if (conductor) names.push_back("metal");
+  if (tir) names.push_back("total reflection");
+  if (plates) names.push_back("wave plates");
+  if (coated) names.push_back("thin films");
+  const bool shifters = !names.empty() && deep;
+  const std::string shifterNames = fmt::format("{}", fmt::join(names, ", "));
   const std::uint32_t between = chain + (linearFilter ? 1u : 0u);
   bool circular = true;
   if (shifters && (request.circularStokes || circularFilter) && chain >= 2)
@@ -134,10 +171,15 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
   addFor("emitters",
          namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::emitter && positive(m.radiance); }),
          "emitter");
-  const bool sky = scene.environment.size > 0 || positive(scene.environment.radiance);
+  add("polarized-emitters", !displays.empty(),
+      displays.empty() ? "no polarized emitter" : fmt::format("{}; gone with unpolarized light", displays));
   add("environment", sky,
       sky ? (scene.environment.size > 0 ? "a picture surrounds the scene" : "a constant radiance surrounds the scene")
           : "the surroundings are black");
+  add("polarized-sky", polarizedSky,
+      polarizedSky
+          ? fmt::format("Rayleigh's sky, polarized up to {:g}; gone with a maxDegree of 0", scene.environment.skyDegree)
+          : "the surroundings are unpolarized");
   add("filter", linearFilter || circularFilter,
       linearFilter || circularFilter ? "a filter stands in front of the camera"
                                      : "set when a filter is put in front of the camera");
@@ -176,7 +218,20 @@ pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& of
       m.highlightStrength = 0;
     }
   }
+  for (Material& m : scene.materials) {
+    if (isOff("textures")) m.maps = {};
+    if (isOff("absorption")) m.absorption = m.outsideAbsorption = glm::dvec3(0.0);
+    if (isOff("coatings")) m.coating = {};
+    if (isOff("rough-reflection")) m.roughness = 0;
+    if (isOff("polarized-emitters") && m.kind == MaterialKind::emitter) m.polarization = 0;
+    if (isOff("polarizing-sheets") && isSheet(m)) {  // grey ones
+      m.along = m.across = (m.along + m.across) * 0.5;
+      m.retardanceDegrees = glm::dvec3(0.0);
+    }
+  }
+  if (isOff("textures")) scene.textures.clear();
   if (isOff("point-lights")) scene.lights.clear();
+  if (isOff("polarized-sky")) scene.environment.skyDegree = 0;
   if (isOff("environment")) scene.environment = {};
   return scene;
 }

@@ -28,7 +28,8 @@ bool isOn(const std::vector<pack::Effect>& effects, std::string_view name);
 std::vector<std::string> effectNames();
 
 // The scene without some of its effects, by name: what the effect needs is taken away (lights, highlights, albedo,
-// radiance, surroundings; glass becomes a glass mirror, a metal or a painted surface what lies under it).
+// radiance, surroundings; glass becomes a glass mirror, a metal or a painted surface what lies under it, a polarizer or
+// wave plate a grey sheet).
 // linear-polarization, circular-polarization, filter and shadows are the renderer's to leave out. Throws Error for a
 // name that is none, or one that is no effect of its own (tir, which belongs to dielectric).
 pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& off);

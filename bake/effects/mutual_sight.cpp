@@ -53,7 +53,9 @@ bool interfacesSeeEachOther(const pack::Scene& scene) {
   double size = 0;
   for (const pack::Mesh& mesh : scene.meshes) {
     if (!isInterface(scene, mesh)) continue;
-    if (scene.materials[mesh.material].kind == MaterialKind::glass) return true;  // seen from inside too
+    const MaterialKind kind = scene.materials[mesh.material].kind;
+    // Glass is seen from inside too; sheets are seen through.
+    if (kind == MaterialKind::glass || kind == MaterialKind::polarizer || kind == MaterialKind::wavePlate) return true;
     std::vector<bool> used(mesh.positions.size(), false);
     for (const glm::uvec3& t : mesh.triangles) used[t.x] = used[t.y] = used[t.z] = true;
     for (std::size_t i = 0; i < used.size(); ++i) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 #include "bake/effects/mutual_sight.h"
 #include "shaders/optics/optics.h"
@@ -11,16 +13,31 @@ using pack::MaterialKind;
 
 namespace {
 
-// Largest diattenuation of any interaction, and of diffuse light that leaves from below an interface.
+// Largest diattenuation of any interaction, and of diffuse light that leaves from below an interface; largest degree of
+// polarization of a source.
 struct Diattenuation {
-  double interaction = 0, leaving = 0;
+  double interaction = 0, leaving = 0, source = 0;
 };
 Diattenuation largest(const pack::Scene& scene, int colour) {
   Diattenuation result;
+  if (scene.environment.size > 0 || scene.environment.radiance[colour] > 0) result.source = scene.environment.skyDegree;
   const auto ratio = [](double a, double b) { return a + b > 0 ? std::abs(a - b) / (a + b) : 0; };
   for (const pack::Mesh& mesh : scene.meshes) {
     const pack::Material& m = scene.materials[mesh.material];
+    if (m.kind == MaterialKind::emitter && m.radiance[colour] > 0)
+      result.source = std::max(result.source, m.polarization);
     if (m.kind == MaterialKind::lambert || m.kind == MaterialKind::emitter) continue;
+    if (m.kind == MaterialKind::wavePlate) continue;  // shifts phases, takes from both alike
+    if (m.kind == MaterialKind::polarizer) {
+      result.interaction = std::max(result.interaction, ratio(m.along[colour], m.across[colour]));
+      continue;
+    }
+    // Films, maps: what they reach between the steps is not bounded here.
+    if (m.coating.thicknessNm > 0 || m.maps.eta >= 0) {
+      result.interaction = 1;
+      if (m.albedo[colour] > 0) result.leaving = 1;
+      continue;
+    }
     constexpr int kSteps = 2000;
     const auto look = [&](double n1, double n2, double k2, bool transmits) {
       for (int i = 0; i <= kSteps; ++i) {
@@ -54,24 +71,25 @@ glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const PictureRequest
   glm::dvec3 bound(0.0);
   for (int colour = 0; colour < 3; ++colour) {
     const Diattenuation d = largest(scene, colour);
-    double more = 1 + filter, less = 1 - filter;
-    int elements = filter > 0 ? 1 : 0;
-    const std::uint32_t interactions = several ? request.depth : std::min(request.depth, 1u);
-    const auto add = [&](double diattenuation) {
-      if (diattenuation <= 0) return;
-      more *= 1 + diattenuation;
-      less *= 1 - diattenuation;
-      ++elements;
+    const auto worst = [&](std::initializer_list<std::pair<double, std::uint32_t>> elements) {
+      double more = 1 + filter, less = 1 - filter;
+      std::uint32_t count = filter > 0 ? 1 : 0;
+      for (const auto& [diattenuation, times] : elements)
+        for (std::uint32_t i = 0; i < times && diattenuation > 0; ++i) {
+          more *= 1 + diattenuation;
+          less *= 1 - diattenuation;
+          ++count;
+        }
+      if (count > 1) bound[colour] = std::max(bound[colour], (more + less) / 2 - 1);
     };
-    // Light that leaves from below an interface ends a path, behind other interfaces where they see each other; where
-    // not, a path has one element: an interaction, or light that leaves.
+    // A path ends with light that leaves from below an interface, or at a source; where interfaces cannot see each
+    // other it has one interaction, or light that leaves.
     if (several) {
-      for (std::uint32_t i = 0; i < interactions; ++i) add(d.interaction);
-      add(d.leaving);
+      worst({{d.interaction, request.depth}, {std::max(d.leaving, d.source), 1}});
     } else {
-      add(std::max(interactions > 0 ? d.interaction : 0, d.leaving));
+      worst({{d.leaving, 1}});
+      worst({{d.interaction, std::min(request.depth, 1u)}, {d.source, 1}});
     }
-    if (elements > 1) bound[colour] = (more + less) / 2 - 1;
   }
   return bound;
 }

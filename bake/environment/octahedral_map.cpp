@@ -145,4 +145,14 @@ void bakeConstantEnvironment(const glm::dvec3& radiance, pack::Environment& envi
   environment.irradiance[0] = radiance * kPi;
 }
 
+void bakeRayleighIrradiance(const glm::dvec3& sun, pack::Environment& environment) {
+  // 3/4 (1 + (d.sun)^2) = 1 + 3/4 ((d.sun)^2 - 1/3): bands 0 and 2, whose clamped cosines weigh pi and pi/4.
+  const glm::dvec3 band = environment.radiance * (3 * kPi / 16);
+  environment.irradiance[4] = band * (2 * sun.x * sun.y);
+  environment.irradiance[5] = band * (2 * sun.y * sun.z);
+  environment.irradiance[6] = band * ((2 * sun.z * sun.z - sun.x * sun.x - sun.y * sun.y) / 6);
+  environment.irradiance[7] = band * (2 * sun.x * sun.z);
+  environment.irradiance[8] = band * ((sun.x * sun.x - sun.y * sun.y) / 2);
+}
+
 }  // namespace malus::bake

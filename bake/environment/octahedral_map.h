@@ -17,4 +17,7 @@ void bakeEnvironment(const image::Image& picture, std::string_view where, double
 // The irradiance of a constant environment.
 void bakeConstantEnvironment(const glm::dvec3& radiance, pack::Environment& environment);
 
+// The same under Rayleigh's phase function (shaders/optics/sky.h); sun: unit, toward it.
+void bakeRayleighIrradiance(const glm::dvec3& sun, pack::Environment& environment);
+
 }  // namespace malus::bake

@@ -28,6 +28,11 @@ inline constexpr double kMaxCoordinate = 1e9;  // metres; the squared area of a 
 inline constexpr std::uint32_t kMaxDepth = 64;
 inline constexpr std::uint32_t kMaxResolution = 16384;
 inline constexpr std::uint32_t kMaxEnvironmentSize = 8192;
+inline constexpr std::uint32_t kMaxTextures = 256;
+inline constexpr std::uint32_t kMaxTextureSide = 8192;
+inline constexpr double kMaxAbsorption = 1e9;  // 1/m
+inline constexpr double kMaxThicknessNm = 1e5;
+inline constexpr double kMaxRetardanceDegrees = 1e5;
 
 struct Section {
   std::string id;  // four letters
@@ -46,6 +51,9 @@ inline constexpr const char* kCamera = "CAMR";
 inline constexpr const char* kEnvironment = "ENVR";
 inline constexpr const char* kLights = "LGHT";
 inline constexpr const char* kMaterials = "MATL";
+inline constexpr const char* kSurfaces = "SRFX";  // there where a material is not plain
+inline constexpr const char* kTextures = "TEXR";  // there where it has textures
+inline constexpr const char* kSky = "SKYP";       // there where the sky is polarized
 inline constexpr const char* kMeshes = "MESH";
 inline constexpr const char* kGeometry = "GEOM";
 inline constexpr const char* kEffects = "EFCT";     // optional

@@ -181,6 +181,87 @@ void readMaterials(ByteReader r, std::vector<Material>& materials) {
   r.end();
 }
 
+void requireUnit(const ByteReader& r, const glm::dvec3& v, std::string_view what) {
+  if (std::abs(v.x * v.x + v.y * v.y + v.z * v.z - 1) > 1e-9) r.fail(what, "a unit vector", "another");
+}
+
+// Textures come first: what a material does with one bounds its values.
+void readTextures(ByteReader r, std::vector<Texture>& textures) {
+  const std::uint32_t count = r.count(24, "number of textures");
+  if (count > kMaxTextures)
+    r.fail("number of textures", fmt::format("at most {}", kMaxTextures), fmt::format("{}", count));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Texture t;
+    t.name = r.text();
+    t.width = r.u32AtMost(kMaxTextureSide, "width of a texture");
+    t.height = r.u32AtMost(kMaxTextureSide, "height of a texture");
+    const std::uint64_t texels = std::uint64_t{t.width} * t.height;
+    if (texels == 0 || texels * 12 > r.left())
+      r.fail(fmt::format("texels of texture '{}'", t.name), fmt::format("{} bytes, more than 0", texels * 12),
+             fmt::format("{} left", r.left()));
+    t.texels.resize(static_cast<std::size_t>(texels));
+    for (glm::vec3& texel : t.texels)
+      for (int c = 0; c < 3; ++c) {
+        texel[c] = r.f32();
+        if (!(texel[c] >= 0 && texel[c] <= static_cast<float>(kMaxEta)))
+          r.fail("texel", fmt::format("0 to {:g}", kMaxEta), fmt::format("{}", texel[c]));
+      }
+    textures.push_back(std::move(t));
+  }
+  r.end();
+}
+
+void readSky(ByteReader r, Environment& environment) {
+  environment.sun = r.dvec3Between(-1.001, 1.001, "direction of the sun");
+  requireUnit(r, environment.sun, "direction of the sun");
+  environment.skyDegree = r.f64Between(0, 1, "polarization of the sky");
+  r.end();
+}
+
+std::int32_t readMap(ByteReader& r, const std::vector<Texture>& textures, float low, float high) {
+  const std::uint32_t index = r.u32AtMost(static_cast<std::uint32_t>(textures.size()), "texture of a material");
+  if (index > 0)
+    for (const glm::vec3& t : textures[index - 1].texels)
+      if (std::min({t.x, t.y, t.z}) < low || std::max({t.x, t.y, t.z}) > high)
+        r.fail(fmt::format("texture '{}' of a material", textures[index - 1].name),
+               fmt::format("values from {:g} to {:g}", low, high), "others");
+  return static_cast<std::int32_t>(index) - 1;
+}
+
+void readSurfaces(ByteReader r, const std::vector<Texture>& textures, std::vector<Material>& materials) {
+  const std::uint32_t count = r.count(276, "number of surfaces");
+  if (count != materials.size())
+    r.fail("number of surfaces", fmt::format("{}, as of materials", materials.size()), fmt::format("{}", count));
+  for (Material& m : materials) {
+    const bool sheet = m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate;
+    const bool opaque =
+        m.kind == MaterialKind::metal || m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass;
+    m.absorption = r.dvec3Between(0, kMaxAbsorption, "absorption");
+    m.outsideAbsorption = r.dvec3Between(0, kMaxAbsorption, "absorption outside");
+    m.coating.eta = r.dvec3Between(kMinEta, kMaxEta, "index of a coating");
+    m.coating.thicknessNm =
+        r.f64Between(0, opaque || m.kind == MaterialKind::glass ? kMaxThicknessNm : 0, "thickness of a coating");
+    m.roughness = r.f64Between(0, opaque ? 1 : 0, "roughness");
+    m.axis = r.dvec3Between(-1.001, 1.001, "axis");
+    m.polarization = r.f64Between(0, m.kind == MaterialKind::emitter ? 1 : 0, "polarization of an emitter");
+    if (sheet || m.polarization > 0) requireUnit(r, m.axis, "axis");
+    m.along = r.dvec3Between(0, 1, "transmittance of a sheet");
+    m.across = r.dvec3Between(0, 1, "transmittance of a sheet");
+    m.retardanceDegrees = r.dvec3Between(-kMaxRetardanceDegrees, kMaxRetardanceDegrees, "retardance");
+    m.maps.albedo = readMap(r, textures, 0, 1);
+    m.maps.eta = readMap(r, textures, m.kind == MaterialKind::metal ? 0 : static_cast<float>(kMinEta),
+                         static_cast<float>(kMaxEta));
+    m.maps.k = readMap(r, textures, static_cast<float>(kMinEta), static_cast<float>(kMaxEta));
+    if ((m.maps.eta >= 0 && !opaque) || (m.maps.k >= 0) != (m.maps.eta >= 0 && m.kind == MaterialKind::metal))
+      r.fail(fmt::format("index map of material '{}'", m.name), "eta of an opaque interface, with k of a metal alone",
+             "another");
+    m.maps.origin = r.dvec3Between(-kMaxLength, kMaxLength, "origin of a projection");
+    m.maps.u = r.dvec3Between(-kMaxLength, kMaxLength, "axis of a projection");
+    m.maps.v = r.dvec3Between(-kMaxLength, kMaxLength, "axis of a projection");
+  }
+  r.end();
+}
+
 void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::string_view where, Pack& pack) {
   const std::uint32_t count = r.count(40, "number of meshes");
   if (count > kMaxMeshes) r.fail("number of meshes", fmt::format("at most {}", kMaxMeshes), fmt::format("{}", count));
@@ -254,8 +335,8 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
     return found;
   };
   for (const Section& section : pack.sections) {
-    static const char* const kKnown[] = {kMeta,   kCamera,   kEnvironment, kLights,    kMaterials,
-                                         kMeshes, kGeometry, kEffects,     kProvenance};
+    static const char* const kKnown[] = {kMeta,     kCamera, kEnvironment, kLights,   kMaterials, kSurfaces,
+                                         kTextures, kSky,    kMeshes,      kGeometry, kEffects,   kProvenance};
     const bool known =
         std::any_of(std::begin(kKnown), std::end(kKnown), [&](const char* id) { return section.id == id; });
     if (!known && (section.flags & kOptional) == 0)
@@ -274,6 +355,12 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
   readEnvironment(reader(*find(kEnvironment, true)), pack.scene.environment);
   readLights(reader(*find(kLights, true)), pack.scene.lights);
   readMaterials(reader(*find(kMaterials, true)), pack.scene.materials);
+  if (const auto at = find(kTextures, false)) readTextures(reader(*at), pack.scene.textures);
+  if (const auto at = find(kSurfaces, false)) readSurfaces(reader(*at), pack.scene.textures, pack.scene.materials);
+  for (const Material& m : pack.scene.materials)
+    if ((m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate) && m.axis == glm::dvec3(0.0))
+      throw Error(where, fmt::format("section {} is missing", kSurfaces), fmt::format("the axis of '{}'", m.name));
+  if (const auto at = find(kSky, false)) readSky(reader(*at), pack.scene.environment);
   readMeshes(reader(*find(kMeshes, true)), body(*find(kGeometry, true)), where, pack);
   if (const auto at = find(kEffects, false)) readEffects(reader(*at), pack.scene.effects);
   if (const auto at = find(kProvenance, false)) {

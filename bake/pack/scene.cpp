@@ -16,8 +16,18 @@ std::string_view nameOf(MaterialKind kind) {
       return "glass";
     case MaterialKind::emitter:
       return "emitter";
+    case MaterialKind::polarizer:
+      return "polarizer";
+    case MaterialKind::wavePlate:
+      return "wave-plate";
   }
   return "unknown";
+}
+
+bool Material::isPlain() const {
+  return kind != MaterialKind::polarizer && kind != MaterialKind::wavePlate && absorption == glm::dvec3(0.0) &&
+         outsideAbsorption == glm::dvec3(0.0) && coating.thicknessNm == 0 && roughness == 0 && polarization == 0 &&
+         !maps.any();
 }
 
 std::uint64_t Scene::vertexCount() const {

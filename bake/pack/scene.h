@@ -13,13 +13,42 @@
 namespace malus::pack {
 
 // How a surface treats light. Values are those of the file.
-enum class MaterialKind : std::uint32_t { lambert = 0, paint = 1, mirrorGlass = 2, metal = 3, glass = 4, emitter = 5 };
-inline constexpr std::uint32_t kMaterialKinds = 6;
+enum class MaterialKind : std::uint32_t {
+  lambert = 0,
+  paint = 1,
+  mirrorGlass = 2,
+  metal = 3,
+  glass = 4,
+  emitter = 5,
+  polarizer = 6,
+  wavePlate = 7
+};
+inline constexpr std::uint32_t kMaterialKinds = 8;
 std::string_view nameOf(MaterialKind kind);  // as in scene.json: "mirror-glass"
+
+// Of the three colours.
+inline constexpr glm::dvec3 kWavelengthsNm{630, 532, 465};
 
 // Bounds of optical constants in a pack; within them the optics neither overflow nor lose their signs.
 inline constexpr double kMinEta = 1e-3;
 inline constexpr double kMaxEta = 1e3;
+
+// A plane layer of real index, with interference.
+struct Coating {
+  glm::dvec3 eta{1.0};
+  double thicknessNm = 0;  // 0: none
+};
+
+// Pictures that stand for numbers of a material: indices into Scene::textures, or -1. Laid on by parallel projection:
+// texture coordinates of a point p are dot(p - origin, u) and dot(p - origin, v), in repeats of the picture.
+struct Maps {
+  std::int32_t albedo = -1;  // times the material's albedo
+  std::int32_t eta = -1;     // in place of eta and k
+  std::int32_t k = -1;
+  glm::dvec3 origin{0.0};
+  glm::dvec3 u{0.0}, v{0.0};  // 1/m
+  bool any() const { return albedo >= 0 || eta >= 0 || k >= 0; }
+};
 
 struct Material {
   std::string name;
@@ -31,6 +60,26 @@ struct Material {
   glm::dvec3 radiance{0.0};             // of an emitter
   double highlightStrength = 0.0;       // 0: no highlight
   std::uint32_t highlightExponent = 0;  // 1 to 4095
+
+  // What few materials have; the defaults stand for nothing.
+  glm::dvec3 absorption{0.0};         // of a glass body, in 1/m: the power falls to e^-(absorption length)
+  glm::dvec3 outsideAbsorption{0.0};  // of the medium on the side that the normals point to
+  Coating coating;                    // on glass, mirror-glass, paint, metal
+  double roughness = 0;               // GGX alpha of metal, paint, mirror-glass; 0 to 1
+  glm::dvec3 axis{0.0};     // unit: of a polarized emitter's field, a polarizer's transmission, a plate's fast axis
+  double polarization = 0;  // degree of an emitter's linear polarization
+  glm::dvec3 along{1.0};    // power transmittances of polarizers and wave plates, field along the axis
+  glm::dvec3 across{1.0};   // and across it
+  glm::dvec3 retardanceDegrees{0.0};  // of wave plates
+  Maps maps;
+  bool isPlain() const;  // none of these
+};
+
+// Rows from the top, linear.
+struct Texture {
+  std::string name;
+  std::uint32_t width = 0, height = 0;
+  std::vector<glm::vec3> texels;
 };
 
 struct PointLight {
@@ -55,6 +104,8 @@ struct Environment {
   std::uint32_t size = 0;                  // texels a side without the border
   std::vector<glm::vec3> texels;           // (size + 2)^2, each exactly a half float
   double diffuseFill = 0.0;                // share of its irradiance that reaches diffuse surfaces
+  glm::dvec3 sun{0.0};                     // unit, toward the sun of a polarized sky
+  double skyDegree = 0;                    // its largest degree of polarization; 0: the light is unpolarized
   std::array<glm::dvec3, 9> irradiance{};  // coefficients of irradiancePolynomial (shaders/optics/environment.h)
 };
 
@@ -87,6 +138,7 @@ struct Scene {
   Environment environment;
   std::vector<PointLight> lights;
   std::vector<Material> materials;
+  std::vector<Texture> textures;
   std::vector<Mesh> meshes;
   std::vector<Effect> effects;
   std::string provenance;  // JSON: source hashes, settings, versions

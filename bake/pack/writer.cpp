@@ -2,6 +2,8 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "bake/pack/bytes.h"
@@ -79,6 +81,47 @@ std::vector<std::byte> materialBytes(const std::vector<Material>& materials) {
     w.f64(m.highlightStrength);
     w.u32(m.highlightExponent);
   }
+  return w.take();
+}
+
+std::vector<std::byte> surfaceBytes(const std::vector<Material>& materials) {
+  ByteWriter w;
+  w.u32(static_cast<std::uint32_t>(materials.size()));
+  for (const Material& m : materials) {
+    w.dvec3(m.absorption);
+    w.dvec3(m.outsideAbsorption);
+    w.dvec3(m.coating.eta);
+    w.f64(m.coating.thicknessNm);
+    w.f64(m.roughness);
+    w.dvec3(m.axis);
+    w.f64(m.polarization);
+    w.dvec3(m.along);
+    w.dvec3(m.across);
+    w.dvec3(m.retardanceDegrees);
+    for (const std::int32_t map : {m.maps.albedo, m.maps.eta, m.maps.k}) w.u32(static_cast<std::uint32_t>(map + 1));
+    w.dvec3(m.maps.origin);
+    w.dvec3(m.maps.u);
+    w.dvec3(m.maps.v);
+  }
+  return w.take();
+}
+
+std::vector<std::byte> textureBytes(const std::vector<Texture>& textures) {
+  ByteWriter w;
+  w.u32(static_cast<std::uint32_t>(textures.size()));
+  for (const Texture& t : textures) {
+    w.text(t.name);
+    w.u32(t.width);
+    w.u32(t.height);
+    for (const glm::vec3& texel : t.texels) w.f32(texel.x), w.f32(texel.y), w.f32(texel.z);
+  }
+  return w.take();
+}
+
+std::vector<std::byte> skyBytes(const Environment& environment) {
+  ByteWriter w;
+  w.dvec3(environment.sun);
+  w.f64(environment.skyDegree);
   return w.take();
 }
 
@@ -169,6 +212,11 @@ Written serialize(const Scene& scene, const WriteSettings& settings) {
   bodies.push_back({kEnvironment, 0, environmentBytes(scene.environment)});
   bodies.push_back({kLights, 0, lightBytes(scene.lights)});
   bodies.push_back({kMaterials, 0, materialBytes(scene.materials)});
+  // What few scenes have: without it a pack is what it was before these sections existed.
+  if (!std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.isPlain(); }))
+    bodies.push_back({kSurfaces, 0, surfaceBytes(scene.materials)});
+  if (!scene.textures.empty()) bodies.push_back({kTextures, 0, textureBytes(scene.textures)});
+  if (scene.environment.skyDegree > 0) bodies.push_back({kSky, 0, skyBytes(scene.environment)});
   bodies.push_back({kMeshes, 0, table.take()});
   bodies.push_back({kGeometry, 0, geometry.take()});
   bodies.push_back({kEffects, kOptional, effectBytes(scene.effects)});

@@ -4,6 +4,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "bake/materials/library.h"
@@ -57,6 +58,14 @@ void readCamera(StrictObject camera, SceneDescription& scene) {
   camera.finish();
 }
 
+// A direction, as a unit vector.
+glm::dvec3 direction(StrictObject& object, const char* key) {
+  const glm::dvec3 v = object.vector(key, -kFar, kFar);
+  const double length = glm::length(v);
+  if (!(length > 0)) object.fail(key, "is no direction", "a vector other than 0");
+  return v / length;
+}
+
 void readEnvironment(StrictObject environment, SceneDescription& scene) {
   const bool constant = environment.has("radiance"), image = environment.has("image");
   if (constant == image)
@@ -66,6 +75,12 @@ void readEnvironment(StrictObject environment, SceneDescription& scene) {
     scene.environmentImage = scene.file.parent_path() / environment.text("image");
     scene.environmentScale = environment.number("scale", 0, kBright, 1);
     scene.environmentRotationDegrees = environment.number("rotationDegrees", -360, 360, 0);
+  }
+  if (environment.has("sky")) {
+    StrictObject sky = environment.object("sky");
+    scene.sun = direction(sky, "sun");
+    scene.skyDegree = sky.number("maxDegree", 0, 1, 0.8);
+    sky.finish();
   }
   scene.diffuseFill = environment.number("diffuseFill", 0, 1000, 0);
   environment.finish();
@@ -110,24 +125,101 @@ void readIndex(StrictObject& material, pack::Material& result, bool dielectric) 
   }
 }
 
-pack::Material readMaterial(const std::string& name, StrictObject material) {
+// Index of the picture among the scene's textures.
+std::int32_t readMap(StrictObject map, SceneDescription& scene, TextureDescription texture) {
+  texture.file = scene.file.parent_path() / map.text("image");
+  texture.scale = map.number("scale", -1e6, 1e6, 1);
+  texture.offset = map.number("offset", -1e6, 1e6, 0);
+  map.finish();
+  const auto found = std::find(scene.textures.begin(), scene.textures.end(), texture);
+  const auto index = static_cast<std::int32_t>(found - scene.textures.begin());
+  if (found == scene.textures.end()) scene.textures.push_back(std::move(texture));
+  if (scene.textures.size() > pack::kMaxTextures)
+    map.fail("", "too many pictures", fmt::format("at most {}", pack::kMaxTextures));
+  return index;
+}
+
+void readMaps(StrictObject& material, pack::Material& result, SceneDescription& scene) {
+  using Kind = pack::MaterialKind;
+  const bool metal = result.kind == Kind::metal;
+  if ((metal || result.kind == Kind::paint || result.kind == Kind::lambert) && material.has("albedoMap"))
+    result.maps.albedo = readMap(material.object("albedoMap"), scene, {{}, 1, 0, 0, 1, false});
+  if (metal || result.kind == Kind::paint || result.kind == Kind::mirrorGlass) {
+    if (material.has("etaMap"))
+      result.maps.eta =
+          readMap(material.object("etaMap"), scene, {{}, 1, 0, metal ? 0 : pack::kMinEta, pack::kMaxEta, !metal});
+    if (metal && material.has("kMap"))
+      result.maps.k = readMap(material.object("kMap"), scene, {{}, 1, 0, pack::kMinEta, pack::kMaxEta, false});
+    if (metal && (result.maps.eta >= 0) != (result.maps.k >= 0))
+      material.fail("etaMap", "and kMap belong together", "both", "one");
+  }
+  if (!result.maps.any()) return;
+  StrictObject projection = material.object("projection");
+  result.maps.origin = projection.vector("origin", -kFar, kFar, {0, 0, 0});
+  result.maps.u = projection.vector("u", -kFar, kFar);
+  result.maps.v = projection.vector("v", -kFar, kFar);
+  projection.finish();
+}
+
+// What few materials have.
+void readExtras(StrictObject& material, pack::Material& result, SceneDescription& scene) {
+  using Kind = pack::MaterialKind;
+  const Kind kind = result.kind;
+  const bool opaque = kind == Kind::metal || kind == Kind::paint || kind == Kind::mirrorGlass;
+  result.outsideAbsorption = material.numberOrVector("outsideAbsorption", 0, pack::kMaxAbsorption, glm::dvec3(0.0));
+  if (kind == Kind::glass)
+    result.absorption = material.numberOrVector("absorption", 0, pack::kMaxAbsorption, glm::dvec3(0.0));
+  if ((opaque || kind == Kind::glass) && material.has("coating")) {
+    StrictObject coating = material.object("coating");
+    result.coating.eta = coating.numberOrVector("eta", pack::kMinEta, pack::kMaxEta);
+    result.coating.thicknessNm = coating.number("thicknessNm", 0, pack::kMaxThicknessNm);
+    coating.finish();
+  }
+  if (opaque) result.roughness = material.number("roughness", 0, 1, 0);
+  if (kind == Kind::emitter && material.has("polarization")) {
+    StrictObject polarization = material.object("polarization");
+    result.axis = direction(polarization, "axis");
+    result.polarization = polarization.number("degree", 0, 1, 1);
+    polarization.finish();
+  }
+  if (kind == Kind::polarizer) {
+    result.axis = direction(material, "axis");
+    result.along = material.numberOrVector("along", 0, 1, glm::dvec3(1.0));
+    result.across = material.numberOrVector("across", 0, 1, glm::dvec3(0.0));
+  }
+  if (kind == Kind::wavePlate) {
+    result.axis = direction(material, "axis");
+    result.retardanceDegrees = material.numberOrVector("retardanceDegrees", -pack::kMaxRetardanceDegrees,
+                                                       pack::kMaxRetardanceDegrees, glm::dvec3(90.0));
+    result.along = result.across = material.numberOrVector("transmittance", 0, 1, glm::dvec3(1.0));
+  }
+  readMaps(material, result, scene);
+}
+
+pack::Material readMaterial(const std::string& name, StrictObject material, SceneDescription& scene) {
   using Kind = pack::MaterialKind;
   pack::Material result;
   result.name = name;
   result.kind = kindNamed(material);
   const Kind kind = result.kind;
-  const bool interface = kind != Kind::lambert && kind != Kind::emitter;
+  const bool interface = kind == Kind::metal || kind == Kind::glass || kind == Kind::mirrorGlass || kind == Kind::paint;
   if (interface) {
-    if (kind == Kind::paint) result.eta = glm::dvec3(1.5);
-    const bool optional = kind == Kind::paint;
+    // A mirror with an index map has its index there.
+    const bool optional = kind == Kind::paint || (kind == Kind::mirrorGlass && material.has("etaMap"));
+    if (optional) result.eta = glm::dvec3(1.5);
     readIndex(material, result, kind != Kind::metal);
     if (!optional && result.eta == glm::dvec3(1.0) && kind != Kind::metal && !material.has("preset") &&
         !material.has("eta"))
       material.fail("preset", "is missing", "a preset, or eta");
   }
   result.outsideEta = material.number("outsideEta", pack::kMinEta, pack::kMaxEta, 1);
-  if (kind == Kind::lambert || kind == Kind::paint) result.albedo = material.numberOrVector("albedo", 0, 1);
-  if (kind == Kind::metal) result.albedo = material.numberOrVector("albedo", 0, 1, glm::dvec3(0.0));
+  readExtras(material, result, scene);
+  const bool mapped = result.maps.albedo >= 0;
+  if ((kind == Kind::lambert || kind == Kind::paint) && !mapped)
+    result.albedo = material.numberOrVector("albedo", 0, 1);
+  else if (mapped)
+    result.albedo = material.numberOrVector("albedo", 0, 1, glm::dvec3(1.0));
+  if (kind == Kind::metal && !mapped) result.albedo = material.numberOrVector("albedo", 0, 1, glm::dvec3(0.0));
   if (kind == Kind::emitter) result.radiance = material.vector("radiance", 0, kBright);
   if (interface && material.has("highlight")) {
     StrictObject highlight = material.object("highlight");
@@ -225,7 +317,8 @@ SceneDescription readSceneFile(const std::filesystem::path& path) {
 
   StrictObject materials = top.object("materials");
   for (const auto& item : top.at("materials").items())
-    scene.materials.push_back(readMaterial(item.key(), {item.value(), where, fmt::format("materials.{}", item.key())}));
+    scene.materials.push_back(
+        readMaterial(item.key(), {item.value(), where, fmt::format("materials.{}", item.key())}, scene));
   if (scene.materials.size() > pack::kMaxMaterials)
     top.fail("materials", "too many", fmt::format("at most {}", pack::kMaxMaterials));
 

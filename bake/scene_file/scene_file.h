@@ -32,6 +32,15 @@ struct MeshDescription {
   std::vector<Transform> instances;
 };
 
+// A picture whose values, times scale and plus offset, are a material's numbers.
+struct TextureDescription {
+  std::filesystem::path file;
+  double scale = 1, offset = 0;
+  double low = 0, high = 1;  // what the values may be
+  bool grey = false;         // its green channel serves every colour
+  friend bool operator==(const TextureDescription&, const TextureDescription&) = default;
+};
+
 struct SceneDescription {
   std::filesystem::path file;
   std::string name;
@@ -49,7 +58,10 @@ struct SceneDescription {
   double environmentScale = 1;
   double environmentRotationDegrees = 0;
   double diffuseFill = 0;
-  std::vector<pack::PointLight> lights;  // in world space
+  glm::dvec3 sun{0.0};  // toward it, where skyDegree is over 0
+  double skyDegree = 0;
+  std::vector<TextureDescription> textures;  // that the materials' maps count in
+  std::vector<pack::PointLight> lights;      // in world space
   std::vector<pack::Material> materials;
   std::vector<MeshDescription> meshes;
 };

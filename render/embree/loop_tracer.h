@@ -1,5 +1,5 @@
-// The tracer of one method that follows the eye's path in a loop. Included once by a generated file for each, which
-// defines MALUS_METHOD as the loop's struct.
+// The tracer of one method that follows the eye's path in a loop. Included once by a generated file for each build of
+// each, which defines MALUS_METHOD as the loop's struct and every MALUS_EFFECT_ as 1 or 0.
 #include "bake/pack/format.h"
 #include "render/embree/scene_access.h"
 
@@ -15,7 +15,7 @@ using namespace malus::gpu;
 template <bool kCheckNumerics>
 struct Tracer : MALUS_METHOD, embree::SceneAccess {
   using SceneAccess::SceneAccess;
-  static constexpr int kStackSize = pack::kMaxDepth;
+  static constexpr int kStackSize = pack::kMaxDepth + (MALUS_EFFECT_ROUGHNESS ? static_cast<int>(kFacets) : 0);
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -29,8 +29,14 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 
 template <bool kCheckNumerics>
 embree::TileOutput renderTile(const embree::TileInput& tile) {
+  if (tile.stokes)
+    return embree::renderPixels<Tracer<kCheckNumerics>>(tile, 15, [](auto& tracer, float* out) {
+      const Stokes s = tracer.eyePathStokes(tracer.pixelX, tracer.pixelY);
+      const real3 values[5] = {tracer.cameraColour(s), s.s0, s.s1, s.s2, s.s3};
+      for (std::size_t i = 0; i < 15; ++i) out[i] = values[i / 3][static_cast<int>(i % 3)];
+    });
   return embree::renderPixels<Tracer<kCheckNumerics>>(tile, 3, [](auto& tracer, float* out) {
-    const real3 colour = tracer.eyePathPixel(tracer.pixelX, tracer.pixelY);
+    const real3 colour = tracer.eyePathColour(tracer.pixelX, tracer.pixelY);
     for (int i = 0; i < 3; ++i) out[i] = colour[i];
   });
 }

@@ -1,5 +1,5 @@
-// The recursive tracer of one method. Included once by a generated file for each method, which defines
-// MALUS_METHOD as the method's struct.
+// The recursive tracer of one method. Included once by a generated file for each build of each method, which
+// defines MALUS_METHOD as the method's struct and every MALUS_EFFECT_ as 1 or 0.
 #include "render/embree/scene_access.h"
 
 #include "shaders/optics/language_begin.h"
@@ -25,7 +25,11 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
   Payload traceRay(real3 origin, real3 direction, real depth) {
     Hit hit;
     if (!findHit(origin, direction, depth, hit)) return shadeMiss(direction, depth);
+#if MALUS_EFFECT_TEXTURES
+    const Material material = materialAt(hit);
+#else
     const Material& material = materials[hit.material];
+#endif
     switch (material.kind) {
       case kLambert:
         return shadeLambert(hit, material);
@@ -35,6 +39,10 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
         return shadeMetal(hit, material);
       case kGlass:
         return shadeGlass(hit, material);
+#if MALUS_EFFECT_SHEET
+      case kSheet:
+        return shadeSheet(hit, material);
+#endif
       default:
         return shadeEmitter(hit, material);
     }

@@ -1,4 +1,5 @@
-// Every method of the Embree renderer, in the order of the list in shaders/CMakeLists.txt.
+// Every build of every method of the Embree renderer: methods in the order of the list in shaders/CMakeLists.txt,
+// builds from the smallest on.
 #pragma once
 
 #include <vector>

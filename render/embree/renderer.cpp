@@ -13,6 +13,7 @@
 
 #include "render/embree/methods.h"
 #include "render/embree/tile.h"
+#include "render/scene/compiled_effects.h"
 #include "render/scene/methods.h"
 
 namespace malus::embree {
@@ -23,6 +24,14 @@ double sinceMs(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 constexpr std::size_t kTileSide = 16;
+
+// The first build of a method that has all effects; one that checks where that is asked for.
+const Method& buildFor(std::string_view name, std::uint32_t effects, bool checks) {
+  const Method* found = nullptr;
+  for (const Method* m : allMethods())
+    if (m->name == name && (effects & ~m->effects) == 0 && (!checks || m->renderTileChecked) && !found) found = m;
+  return *found;  // the last build has everything
+}
 }  // namespace
 
 struct Renderer::Impl {
@@ -48,14 +57,12 @@ std::string Renderer::device() const { return fmt::format("{}, {} threads", Bvh:
 
 render::Picture Renderer::render(std::string_view name, const render::View& view) const {
   const render::MethodInfo& info = render::methodNamed(name);
-  const Method* method = nullptr;
-  for (const Method* m : allMethods())
-    if (m->name == name) method = m;
+  const Method& method = buildFor(name, render::compiledEffects(*impl_->source, view), view.checkNumerics);
 
   render::Picture picture;
   picture.width = view.region.width;
   picture.height = view.region.height;
-  picture.channels = info.hasStokes ? render::kStokesChannels : render::kColourChannels;
+  picture.channels = render::hasStokes(info, view) ? render::kStokesChannels : render::kColourChannels;
   picture.pixels.resize(picture.channels * picture.width * picture.height);
   picture.device = device();
   const gpu::Frame frame = render::frameOf(*impl_->source, view);
@@ -68,9 +75,10 @@ render::Picture Renderer::render(std::string_view name, const render::View& view
     tbb::parallel_for(
         tbb::blocked_range2d<std::uint32_t>(0, view.region.height, kTileSide, 0, view.region.width, kTileSide),
         [&](const tbb::blocked_range2d<std::uint32_t>& r) {
-          const auto renderTile = view.checkNumerics ? method->renderTileChecked : method->renderTile;
-          const TileOutput tile = renderTile({impl_->bvh.get(), &impl_->scene, &frame, r.cols().begin(),
-                                              r.rows().begin(), r.cols().end(), r.rows().end(), picture.pixels.data()});
+          const auto renderTile = view.checkNumerics ? method.renderTileChecked : method.renderTile;
+          const TileOutput tile =
+              renderTile({impl_->bvh.get(), &impl_->scene, &frame, r.cols().begin(), r.rows().begin(), r.cols().end(),
+                          r.rows().end(), picture.pixels.data(), render::hasStokes(info, view)});
           rays += tile.rays;
           if (tile.faults.count == 0) return;
           const std::scoped_lock lock(merging);

@@ -2,10 +2,17 @@
 // of the tracers, so that they see the method, the scene and these by their own names.
 #pragma once
 
+#include <shaders/effects.h>
+
 #include "render/embree/tile.h"
 #include "shaders/methods/methods.h"
 
 namespace malus::embree {
+
+// What this translation unit has.
+#define MALUS_TERM(name, macro) | ((macro)*shaders::bitOf(shaders::Effect::name))
+static constexpr std::uint32_t kTileEffects = 0 MALUS_FOR_EACH_EFFECT(MALUS_TERM);
+#undef MALUS_TERM
 
 struct SceneAccess {
   explicit SceneAccess(const TileInput& tile)
@@ -14,6 +21,9 @@ struct SceneAccess {
         frame(*tile.frame),
         materials(scene.materials.data()),
         lights(scene.lights.data()),
+        extras(scene.extras.data()),
+        textures(scene.textures.data()),
+        textureTexels(scene.textureTexels.data()),
         environmentTexels(scene.environmentTexels.data()) {}
 
   const Bvh& bvh;
@@ -21,6 +31,9 @@ struct SceneAccess {
   const gpu::Frame& frame;
   const gpu::Material* materials;
   const gpu::PointLight* lights;
+  const gpu::MaterialExtra* extras;
+  const gpu::Texture* textures;
+  const glm::vec3* textureTexels;
   const glm::vec3* environmentTexels;
   std::uint64_t rays = 0;
   std::uint32_t pixelX = 0, pixelY = 0;  // the pixel at hand, of the whole picture

@@ -1,4 +1,4 @@
-// One method's rendering of a tile; each method is a translation unit of its own (method_tracer.h).
+// One method's rendering of a tile; each build of a method is a translation unit of its own (method_tracer.h).
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,7 @@ struct TileInput {
   const gpu::Frame* frame;
   std::uint32_t beginX, beginY, endX, endY;  // within the region
   float* pixels;                             // the region's
+  bool stokes;                               // of a loop: Stokes vectors by four analysers
 };
 
 struct TileOutput {
@@ -25,8 +26,10 @@ struct TileOutput {
 
 struct Method {
   const char* name;
+  const char* build;
+  std::uint32_t effects;  // bits of shaders::Effect that are compiled in
   TileOutput (*renderTile)(const TileInput&);
-  TileOutput (*renderTileChecked)(const TileInput&);  // with --check-numerics
+  TileOutput (*renderTileChecked)(const TileInput&);  // with --check-numerics; not every build has it
 };
 
 }  // namespace malus::embree

@@ -71,19 +71,73 @@ struct Interface {
   dvec3 meanTransmittance;
 };
 
-Interface interfaceOf(const pack::Material& m, double c, double n1, double n2) {
+// A material at a place, where pictures may tell its numbers.
+struct Surface {
+  const pack::Material* material = nullptr;
+  dvec3 eta{1.0}, k{0.0}, albedo{0.0};
+};
+
+Interface interfaceOf(const Surface& surface, double c, double n1, double n2) {
+  const pack::Material& m = *surface.material;
   Interface result;
   for (std::size_t i = 0; i < 3; ++i) {
     const int colour = static_cast<int>(i);
     const bool metal = m.kind == MaterialKind::metal;
-    const f64::Reflectance r =
-        metal ? f64::conductorReflectance(c, n1, m.eta[colour], m.k[colour]) : f64::dielectricReflectance(c, n1, n2);
+    const double n3 = metal ? surface.eta[colour] : n2, k3 = metal ? surface.k[colour] : 0;
+    if (m.coating.thicknessNm > 0) {
+      const f64::Film film = f64::filmOf(c, n1, m.coating.eta[colour], render::filmTurns(m.coating)[colour], n3, k3);
+      result.reflection[i] =
+          interfaceMatrix(film.reflected.rs, film.reflected.rp, film.reflected.xRe, film.reflected.xIm);
+      result.transmission[i] = interfaceMatrix(film.through.rs, film.through.rp, film.through.xRe, film.through.xIm);
+      result.meanTransmittance[colour] = 1 - (film.reflected.rs + film.reflected.rp) / 2;
+      continue;
+    }
+    const f64::Reflectance r = metal ? f64::conductorReflectance(c, n1, n3, k3) : f64::dielectricReflectance(c, n1, n2);
     const double cross = metal ? 0 : f64::dielectricTransmittance(c, n1, n2).x;
     result.reflection[i] = interfaceMatrix(r.rs, r.rp, r.xRe, r.xIm);
     result.transmission[i] = interfaceMatrix(1 - r.rs, 1 - r.rp, cross, 0);
     result.meanTransmittance[colour] = 1 - (r.rs + r.rp) / 2;
   }
   return result;
+}
+
+// A polarizer or wave plate, in the frame whose x is its axis seen along the ray: [[A, B], [B, A]] of the two
+// transmittances, and their geometric mean times [[cos, sin], [-sin, cos]] of the retardance on (S2, S3).
+Mueller sheetMatrix(const pack::Material& m) {
+  Mueller result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int colour = static_cast<int>(i);
+    const double along = m.along[colour], across = m.across[colour], both = std::sqrt(along * across),
+                 retardance = m.retardanceDegrees[colour] * std::numbers::pi / 180;
+    result[i] = interfaceMatrix(along, across, both * std::cos(retardance), -both * std::sin(retardance));
+  }
+  return result;
+}
+
+dvec3 transmittanceOver(const dvec3& absorption, double distance) { return glm::exp(-absorption * distance); }
+
+Light scaled(const Light& l, const dvec3& scale) { return {l[0] * scale[0], l[1] * scale[1], l[2] * scale[2]}; }
+
+// Linear polarization of a degree along x.
+Light polarized(const dvec3& radiance, double degree) {
+  Light l = unpolarized(radiance);
+  for (std::size_t i = 0; i < 3; ++i) l[i][1] = l[i][0] * degree;
+  return l;
+}
+
+// Bilinear, repeated; (0, 0) is the upper left corner.
+dvec3 textureAt(const pack::Texture& t, double u, double v) {
+  const double x = (u - std::floor(u)) * t.width - 0.5, y = (v - std::floor(v)) * t.height - 0.5;
+  const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
+  const auto texel = [&](double column, double row) {
+    const auto wrapped = [](double at, std::uint32_t count) {
+      const double n = count;
+      return static_cast<std::size_t>(at < 0 ? at + n : at >= n ? at - n : at);
+    };
+    return dvec3(t.texels[wrapped(row, t.height) * t.width + wrapped(column, t.width)]);
+  };
+  return (texel(x0, y0) * (1 - fx) + texel(x0 + 1, y0) * fx) * (1 - fy) +
+         (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
 }
 
 struct Tracer {
@@ -98,11 +152,25 @@ struct Tracer {
   // A hit whose point was found again in double on the triangle that Embree names.
   struct Hit {
     dvec3 d, position, start, error, face, normal;
-    double c;
+    double c, travelled;
     bool outside;
-    const pack::Material* material;
+    Surface surface;
     std::uint32_t materialIndex;
   };
+
+  Surface surfaceAt(std::uint32_t index, const dvec3& p) const {
+    const pack::Material& m = scene.materials[index];
+    Surface s{&m, m.eta, m.k, m.albedo};
+    const auto map = [&](std::int32_t texture) {
+      const dvec3 from = p - m.maps.origin;
+      return textureAt(scene.textures[static_cast<std::size_t>(texture)], glm::dot(from, m.maps.u),
+                       glm::dot(from, m.maps.v));
+    };
+    if (m.maps.albedo >= 0) s.albedo *= map(m.maps.albedo);
+    if (m.maps.eta >= 0) s.eta = map(m.maps.eta);
+    if (m.maps.k >= 0) s.k = map(m.maps.k);
+    return s;
+  }
 
   bool intersect(const dvec3& origin, const dvec3& queryOrigin, const dvec3& d, Hit& hit) {
     ++rays;
@@ -115,7 +183,6 @@ struct Tracer {
     const double area2 = glm::length(across);
     hit.d = d;
     hit.materialIndex = mesh.material;
-    hit.material = &scene.materials[mesh.material];
     hit.face = area2 > 0 ? across / area2 : -d;
 
     // The ray meets the plane at distance s; barycentric coordinates from signed areas there.
@@ -130,6 +197,8 @@ struct Tracer {
     }
     const double b0 = 1 - b1 - b2;
     hit.position = p0 * b0 + p1 * b1 + p2 * b2;
+    hit.travelled = glm::length(hit.position - origin);
+    hit.surface = surfaceAt(mesh.material, hit.position);
     // The next query is made in float.
     hit.error =
         f64::hitPointError(p0, p1, p2, b0, b1, b2, 0x1p-24) + f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
@@ -171,11 +240,28 @@ struct Tracer {
     return result;
   }
 
+  // Light that leaves the scene's surroundings against d: S1 is across the plane of d and the sun.
+  Light surroundings(const dvec3& d) const {
+    const pack::Environment& e = scene.environment;
+    if (e.skyDegree == 0) return unpolarized(environment(d));
+    const double cosine = glm::dot(d, e.sun);
+    const dvec3 radiance = environment(d) * (e.size == 0 ? f64::rayleighPhase(cosine) : 1.0);
+    return turned(glm::transpose(toSurface(d, f64::sDirection(d, e.sun))),
+                  polarized(radiance, f64::rayleighDegree(cosine, e.skyDegree)));
+  }
+
+  // Of the medium on the side of the ray.
+  static dvec3 absorptionAt(const Hit& h) {
+    const pack::Material& m = *h.surface.material;
+    return m.kind == MaterialKind::glass && !h.outside ? m.absorption : m.outsideAbsorption;
+  }
+
   // Diffuse radiance below the interface, and highlight radiance along the mirror direction.
   void directLight(const Hit& h, std::uint32_t depth, const dvec3& mirror, dvec3& diffuse, dvec3& highlight) {
-    const pack::Material& m = *h.material;
+    const pack::Material& m = *h.surface.material;
+    const dvec3& albedo = h.surface.albedo;
     diffuse = highlight = dvec3(0);
-    const bool isDiffuse = m.albedo.x > 0 || m.albedo.y > 0 || m.albedo.z > 0,
+    const bool isDiffuse = albedo.x > 0 || albedo.y > 0 || albedo.z > 0,
                isGlossy = m.highlightStrength > 0 && depth > 0;
     if (!isDiffuse && !isGlossy) return;
     for (const pack::PointLight& light : scene.lights) {
@@ -189,15 +275,16 @@ struct Tracer {
       if (!isDiffuse && lobe <= 0) continue;
       if (view.shadows) ++rays;
       if (view.shadows && !bvh.visible(glm::vec3(queryAbove(h)), glm::vec3(l), static_cast<float>(distance))) continue;
-      const dvec3 arriving = light.intensity / (distance * distance);
-      const dvec3 entering = m.kind == MaterialKind::lambert
-                                 ? dvec3(1)
-                                 : interfaceOf(m, std::min(c, 1.0), m.outsideEta, m.eta.y).meanTransmittance;
-      if (isDiffuse) diffuse += f64::lambertRadiance(m.albedo, arriving * c, entering);
+      const dvec3 arriving = light.intensity / (distance * distance) * transmittanceOver(absorptionAt(h), distance);
+      const dvec3 entering =
+          m.kind == MaterialKind::lambert
+              ? dvec3(1)
+              : interfaceOf(h.surface, std::min(c, 1.0), m.outsideEta, h.surface.eta.y).meanTransmittance;
+      if (isDiffuse) diffuse += f64::lambertRadiance(albedo, arriving * c, entering);
       highlight += arriving * lobe;
     }
     if (isDiffuse && scene.environment.diffuseFill > 0)
-      diffuse += f64::lambertRadiance(m.albedo, fillIrradiance(h.normal) * scene.environment.diffuseFill,
+      diffuse += f64::lambertRadiance(albedo, fillIrradiance(h.normal) * scene.environment.diffuseFill,
                                       fillTransmittance[h.materialIndex]);
     const double basic = 1 / (m.outsideEta * m.outsideEta);
     diffuse *= basic;
@@ -229,27 +316,66 @@ struct Tracer {
     return sent;
   }
 
-  // Light that comes back along a ray, in the ray's canonical frame, as basic radiance.
-  Light trace(const dvec3& origin, const dvec3& queryOrigin, const dvec3& d, std::uint32_t depth) {
+  // Light that the facets of a rough surface send toward the eye, in the ray's canonical frame: each facet reflects
+  // in a frame of its own.
+  Light facetLight(const Hit& h, double n1, double n2, std::uint32_t depth, Light& arrivedPart) {
+    const double alpha = h.surface.material->roughness;
+    Light sum = unpolarized(dvec3(0));
+    for (std::size_t i = 0; i < gpu::kFacets; ++i) {
+      const glm::dvec2 point = render::facetPoint(i);
+      const dvec3 normal = f64::facetNormal(-h.d, h.normal, alpha, point.x, point.y);
+      const double c = f64::clampUnit(-glm::dot(h.d, normal));
+      const dvec3 mirror = f64::mirrorDirection(h.d, normal, c);
+      const double weight = f64::facetWeight(-h.d, mirror, h.normal, alpha) / gpu::kFacets;
+      if (weight <= 0 || glm::dot(mirror, h.face) <= 0) continue;
+      const dvec3 s = f64::sDirection(h.d, normal);
+      const Light arriving = turned(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1, true));
+      arrivedPart = arrivedPart + scaled(arriving, dvec3(weight));
+      sum = sum +
+            scaled(turned(glm::transpose(toSurface(h.d, s)), interfaceOf(h.surface, c, n1, n2).reflection * arriving),
+                   dvec3(weight));
+    }
+    return sum;
+  }
+
+  // Light that comes back along a ray, in the ray's canonical frame, as basic radiance. behindRough: a rough surface
+  // was met on the way; others are smooth then.
+  Light trace(const dvec3& origin, const dvec3& queryOrigin, const dvec3& d, std::uint32_t depth,
+              bool behindRough = false) {
     Hit h{};
     h.d = d;
     h.materialIndex = gpu::kEnvironment;
-    if (!intersect(origin, queryOrigin, d, h)) return checked(h, depth, unpolarized(environment(d)), {});
-    const pack::Material& m = *h.material;
+    if (!intersect(origin, queryOrigin, d, h)) return checked(h, depth, surroundings(d), {});
+    const pack::Material& m = *h.surface.material;
+    const dvec3 medium = transmittanceOver(absorptionAt(h), h.travelled);
 
     // Surfaces without an interface.
-    if (m.kind == MaterialKind::emitter)
-      return checked(h, depth, unpolarized(h.outside ? m.radiance / (m.outsideEta * m.outsideEta) : dvec3(0)), {});
+    if (m.kind == MaterialKind::emitter) {
+      const dvec3 radiance = h.outside ? m.radiance / (m.outsideEta * m.outsideEta) * medium : dvec3(0);
+      if (m.polarization == 0) return checked(h, depth, unpolarized(radiance), {});
+      const dvec3 s = f64::sDirection(d, glm::cross(h.face, m.axis));
+      return checked(h, depth, turned(glm::transpose(toSurface(d, s)), polarized(radiance, m.polarization)), {});
+    }
     dvec3 diffuse, highlight;
     if (m.kind == MaterialKind::lambert) {
       directLight(h, depth, h.normal, diffuse, highlight);
-      return checked(h, depth, unpolarized(diffuse), {});
+      return checked(h, depth, unpolarized(diffuse * medium), {});
+    }
+
+    // Sheets: straight on.
+    if (m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate) {
+      if (depth == 0) return unpolarized(dvec3(0));
+      const dmat4 turn = toSurface(d, f64::sDirection(d, glm::cross(h.face, m.axis)));
+      const Light arriving = turned(turn, trace(h.position, queryBelow(h), d, depth - 1, behindRough));
+      return checked(h, depth, scaled(turned(glm::transpose(turn), sheetMatrix(m) * arriving), medium),
+                     std::array<Light, 1>{arriving});
     }
 
     // Interfaces: from the index on this side to the one beyond.
     const bool glass = m.kind == MaterialKind::glass;
     if (glass && depth == 0) return unpolarized(dvec3(0));
-    const double n1 = !glass || h.outside ? m.outsideEta : m.eta.y, n2 = !glass || h.outside ? m.eta.y : m.outsideEta;
+    const double inside = h.surface.eta.y;
+    const double n1 = !glass || h.outside ? m.outsideEta : inside, n2 = !glass || h.outside ? inside : m.outsideEta;
     dvec3 through(0);
     bool total = false;
     if (glass) {
@@ -262,7 +388,7 @@ struct Tracer {
         total = f64::refractionTerms(h.c, n1, n2).total;
       }
     }
-    const Interface interface = interfaceOf(m, h.c, n1, n2);
+    const Interface interface = interfaceOf(h.surface, h.c, n1, n2);
     const dvec3 mirror = f64::mirrorDirection(d, h.normal, h.c);
     const dvec3 s = f64::sDirection(d, h.normal);  // across all three rays
     directLight(h, depth, mirror, diffuse, highlight);
@@ -271,17 +397,24 @@ struct Tracer {
     // refracted ray transmitted; then back to the ray's own frame.
     Light toEye = glass ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
     std::array<Light, 4> parts = {unpolarized(diffuse), unpolarized(highlight), Light{}, Light{}};
+    const dmat4 toRay = glm::transpose(toSurface(d, s));
+    if (m.roughness > 0 && !behindRough && depth > 0) {
+      toEye = turned(toRay, toEye + interface.reflection * unpolarized(highlight));
+      return checked(h, depth, scaled(toEye + facetLight(h, n1, n2, depth, parts[2]), medium), parts);
+    }
     if (depth > 0) {
-      const Light arriving = turned(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1));
+      const Light arriving =
+          turned(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1, behindRough));
       parts[2] = arriving;
       toEye = toEye + interface.reflection * (arriving + unpolarized(highlight));
       if (glass && !total) {
-        const Light below = turned(toSurface(through, s), trace(h.position, queryBelow(h), through, depth - 1));
+        const Light below =
+            turned(toSurface(through, s), trace(h.position, queryBelow(h), through, depth - 1, behindRough));
         toEye = toEye + interface.transmission * below;
         parts[3] = below;
       }
     }
-    return checked(h, depth, turned(glm::transpose(toSurface(d, s)), toEye), parts);
+    return checked(h, depth, scaled(turned(toRay, toEye), medium), parts);
   }
 };
 

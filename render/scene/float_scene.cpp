@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/trigonometric.hpp>
+
 #include "shaders/optics/optics.h"
 
 namespace malus::render {
@@ -21,20 +23,62 @@ gpu::SurfaceKind surfaceKind(pack::MaterialKind kind) {
       return gpu::kGlass;
     case pack::MaterialKind::emitter:
       return gpu::kEmitter;
+    case pack::MaterialKind::polarizer:
+    case pack::MaterialKind::wavePlate:
+      return gpu::kSheet;
   }
   return gpu::kLambert;
 }
 
+glm::dvec3 filmTurns(const pack::Coating& coating) { return 2 * coating.thicknessNm / pack::kWavelengthsNm; }
+
+namespace {
+
+f64::Reflectance reflectanceOf(const pack::Material& m, double c, int colour) {
+  const bool metal = m.kind == pack::MaterialKind::metal;
+  const double n3 = metal ? m.eta[colour] : m.eta.y, k3 = metal ? m.k[colour] : 0;
+  if (m.coating.thicknessNm > 0)
+    return f64::filmOf(c, m.outsideEta, m.coating.eta[colour], filmTurns(m.coating)[colour], n3, k3).reflected;
+  return metal ? f64::conductorReflectance(c, m.outsideEta, n3, k3) : f64::dielectricReflectance(c, m.outsideEta, n3);
+}
+
+gpu::MaterialExtra extraOf(const pack::Material& m) {
+  gpu::MaterialExtra e{};
+  e.absorption = glm::vec3(m.absorption);
+  e.outsideAbsorption = glm::vec3(m.outsideAbsorption);
+  e.axis = glm::vec3(m.axis);
+  e.degree = static_cast<float>(m.polarization);
+  e.along = glm::vec3(m.along);
+  e.across = glm::vec3(m.across);
+  const glm::dvec3 retardance = m.retardanceDegrees * (std::numbers::pi / 180);
+  e.retardanceCos = glm::vec3(glm::cos(retardance));
+  e.retardanceSin = glm::vec3(glm::sin(retardance));
+  if (m.coating.thicknessNm > 0) {
+    e.filmEta = glm::vec3(m.coating.eta);
+    e.filmTurns = glm::vec3(filmTurns(m.coating));
+  }
+  e.roughness = static_cast<float>(m.roughness);
+  const auto map = [](std::int32_t index) { return index < 0 ? gpu::kNoTexture : static_cast<gpu::uint>(index); };
+  e.albedoMap = map(m.maps.albedo);
+  e.etaMap = map(m.maps.eta);
+  e.kMap = map(m.maps.k);
+  e.mapOrigin = glm::vec3(m.maps.origin);
+  e.mapU = glm::vec3(m.maps.u);
+  e.mapV = glm::vec3(m.maps.v);
+  return e;
+}
+
+}  // namespace
+
 glm::dvec3 hemisphereTransmittance(const pack::Material& m) {
-  if (m.kind == pack::MaterialKind::lambert || m.kind == pack::MaterialKind::emitter) return glm::dvec3(1.0);
+  const gpu::SurfaceKind kind = surfaceKind(m.kind);
+  if (kind != gpu::kPaint && kind != gpu::kMetal && kind != gpu::kGlass) return glm::dvec3(1.0);
   constexpr int kSteps = 256;
   glm::dvec3 sum(0.0);
   for (int i = 0; i < kSteps; ++i) {
     const double c = (i + 0.5) / kSteps;
     for (int colour = 0; colour < 3; ++colour) {
-      const f64::Reflectance r = m.kind == pack::MaterialKind::metal
-                                     ? f64::conductorReflectance(c, m.outsideEta, m.eta[colour], m.k[colour])
-                                     : f64::dielectricReflectance(c, m.outsideEta, m.eta.y);
+      const f64::Reflectance r = reflectanceOf(m, c, colour);
       sum[colour] += 2 * c * (1 - 0.5 * (r.rs + r.rp)) / kSteps;
     }
   }
@@ -57,6 +101,7 @@ FloatScene floatScene(const pack::Scene& scene) {
     g.highlightExponent = static_cast<int>(m.highlightExponent);
     g.kind = surfaceKind(m.kind);
     result.materials.push_back(g);
+    result.extras.push_back(extraOf(m));
   }
   for (const pack::PointLight& light : scene.lights)
     result.lights.push_back({glm::vec3(light.position), glm::vec3(light.intensity)});
@@ -71,9 +116,24 @@ FloatScene floatScene(const pack::Scene& scene) {
     result.normals.resize(result.positions.size(), glm::vec3(0));
     result.triangles.insert(result.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
   }
+  for (const pack::Texture& t : scene.textures) {
+    result.textures.push_back({static_cast<std::uint32_t>(result.textureTexels.size()), t.width, t.height});
+    result.textureTexels.insert(result.textureTexels.end(), t.texels.begin(), t.texels.end());
+  }
+  if (result.textures.empty()) {
+    result.textures.push_back({0, 1, 1});
+    result.textureTexels.emplace_back(0.0f);
+  }
   result.environmentTexels = scene.environment.texels;
   if (result.environmentTexels.empty()) result.environmentTexels.emplace_back(0.0f);
   return result;
+}
+
+glm::dvec2 facetPoint(std::size_t i) {
+  // Vogel's spiral: equal areas, each point turned by the golden angle.
+  const double radius = std::sqrt((static_cast<double>(i) + 0.5) / gpu::kFacets),
+               angle = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
+  return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
 gpu::Frame frameOf(const pack::Scene& scene, const View& view) {
@@ -101,6 +161,10 @@ gpu::Frame frameOf(const pack::Scene& scene, const View& view) {
   f.environment = glm::vec3(scene.environment.radiance);
   f.fill = static_cast<float>(scene.environment.diffuseFill);
   f.shadows = view.shadows ? 1 : 0;
+  f.sun = glm::vec3(scene.environment.sun);
+  f.skyDegree = static_cast<float>(scene.environment.skyDegree);
+  f.tolerance = static_cast<float>(view.tolerance);
+  for (std::size_t i = 0; i < gpu::kFacets; ++i) f.facets[i] = glm::vec2(facetPoint(i));
   for (int i = 0; i < 9; ++i) f.irradiance[i] = glm::vec3(scene.environment.irradiance[static_cast<std::size_t>(i)]);
   return f;
 }

@@ -17,8 +17,11 @@ struct FloatScene {
   std::vector<std::uint32_t> meshTriangles;  // triangles of each mesh
   std::vector<std::uint32_t> meshVertices;
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;            // one a position; of flat meshes (0, 0, 0)
-  std::vector<glm::uvec3> triangles;         // indices within their mesh
+  std::vector<glm::vec3> normals;          // one a position; of flat meshes (0, 0, 0)
+  std::vector<glm::uvec3> triangles;       // indices within their mesh
+  std::vector<gpu::MaterialExtra> extras;  // one a material
+  std::vector<gpu::Texture> textures;      // one at least, so that a buffer has something to hold
+  std::vector<glm::vec3> textureTexels;
   std::vector<glm::vec3> environmentTexels;  // with their border; one texel where there is no map
 };
 
@@ -28,6 +31,12 @@ gpu::Frame frameOf(const pack::Scene& scene, const View& view);
 // Mean transmittance of a dielectric interface, or 1 - R of a metal, for light from all directions of a
 // hemisphere (cosine weighted), per colour.
 glm::dvec3 hemisphereTransmittance(const pack::Material& material);
+
+// Twice the thickness over the wavelength of each colour (shaders/optics/film.h).
+glm::dvec3 filmTurns(const pack::Coating& coating);
+
+// Point i of the unit disk that chooses facet i of a rough surface (shaders/optics/facets.h).
+glm::dvec2 facetPoint(std::size_t i);
 
 // Kind of surface, hence hit group, of a material.
 gpu::SurfaceKind surfaceKind(pack::MaterialKind kind);

@@ -52,8 +52,10 @@ struct View {
   std::uint32_t samples = 1;  // rays per pixel along each axis
   std::uint32_t depth = 0;    // most specular interactions along a path
   Analyser analyser = kNoFilter;
-  bool shadows = true;         // false: nothing blocks a point light
-  bool everyEffect = false;    // compile in every effect, whether the scene calls for it or not
+  bool shadows = true;       // false: nothing blocks a point light
+  bool everyEffect = false;  // compile in every effect, whether the scene calls for it or not
+  double tolerance = 0;      // of methods that follow the eye's path: share of a source's radiance that a path may lose
+  bool stokes = false;       // of those: Stokes vectors too, by four analysers
   bool checkNumerics = false;  // look for values that no light can have (fault.h); slow
 };
 

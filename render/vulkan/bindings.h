@@ -20,6 +20,9 @@ enum Binding : std::uint32_t {
   kTexels,
   kCounter,
   kFaults,
+  kExtras,
+  kTextures,
+  kTextureTexels,
   kBindings
 };
 

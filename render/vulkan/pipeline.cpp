@@ -1,5 +1,6 @@
 #include "render/vulkan/pipeline.h"
 
+#include <array>
 #include <cstring>
 #include <utility>
 
@@ -33,8 +34,6 @@ struct Modules {
   }
 };
 
-constexpr std::uint32_t kFirstHitGroup = 3;  // after ray generation and two misses
-
 VkDeviceSize alignedTo(VkDeviceSize value, VkDeviceSize alignment) {
   return (value + alignment - 1) / alignment * alignment;
 }
@@ -44,7 +43,7 @@ VkDeviceSize alignedTo(VkDeviceSize value, VkDeviceSize alignment) {
 Pipeline::Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene,
                    VkDescriptorSetLayout bindings, std::uint32_t recursion)
     : Pipeline(device, variant, bindings, recursion, 0) {
-  createTable(scene, static_cast<std::uint32_t>(stageSources(variant).size()));
+  createTable(scene, stageSources(variant));
 }
 
 Pipeline::Pipeline(const Device& device, const Variant& variant, VkDescriptorSetLayout bindings,
@@ -104,7 +103,8 @@ Pipeline::~Pipeline() {
   if (layout_) vkDestroyPipelineLayout(device_.get(), layout_, nullptr);
 }
 
-void Pipeline::createTable(const render::FloatScene& scene, std::uint32_t groupCount) {
+void Pipeline::createTable(const render::FloatScene& scene, const std::vector<StageSource>& groups) {
+  const auto groupCount = static_cast<std::uint32_t>(groups.size());
   const auto& limits = device_.rayTracing();
   const std::size_t handleBytes = limits.shaderGroupHandleSize;
   std::vector<std::byte> handles(handleBytes * groupCount);
@@ -112,22 +112,25 @@ void Pipeline::createTable(const render::FloatScene& scene, std::uint32_t groupC
       device_.getRayTracingShaderGroupHandles(device_.get(), pipeline_, 0, groupCount, handles.size(), handles.data()),
       "vkGetRayTracingShaderGroupHandlesKHR");
 
-  // Ray generation, two misses, one hit record a mesh.
+  // Ray generation, the misses, one hit record a mesh.
+  std::uint32_t misses = 0;
+  std::array<std::uint32_t, gpu::kSurfaceKinds> groupOf{};
+  for (std::uint32_t i = 0; i < groupCount; ++i) {
+    if (groups[i].stage == Stage::miss) ++misses;
+    if (groups[i].stage == Stage::closestHit) groupOf[groups[i].kind] = i;
+  }
   const VkDeviceSize stride = alignedTo(handleBytes, limits.shaderGroupHandleAlignment),
                      base = limits.shaderGroupBaseAlignment;
-  const VkDeviceSize missAt = alignedTo(stride, base), hitAt = missAt + alignedTo(2 * stride, base);
+  const VkDeviceSize missAt = alignedTo(stride, base), hitAt = missAt + alignedTo(misses * stride, base);
   const bool raygenAlone = groupCount == 1;
   std::vector<std::byte> records(raygenAlone ? stride : hitAt + stride * scene.meshes.size());
   const auto put = [&](VkDeviceSize at, std::uint32_t group) {
     std::memcpy(records.data() + at, handles.data() + group * handleBytes, handleBytes);
   };
   put(0, 0);
-  if (!raygenAlone) {
-    put(missAt, 1);
-    put(missAt + stride, 2);
-  }
+  for (std::uint32_t i = 0; i < misses; ++i) put(missAt + stride * i, 1 + i);
   for (std::size_t i = 0; i < scene.meshes.size() && !raygenAlone; ++i)
-    put(hitAt + stride * i, kFirstHitGroup + scene.materials[scene.meshes[i].material].kind);
+    put(hitAt + stride * i, groupOf[scene.materials[scene.meshes[i].material].kind]);
 
   // The table's start must be aligned; a little room makes it so on every driver.
   std::vector<std::byte> padded(records.size() + base);
@@ -147,7 +150,7 @@ void Pipeline::createTable(const render::FloatScene& scene, std::uint32_t groupC
   table_ = std::move(probe);
   raygen_ = {start, stride, stride};
   if (raygenAlone) return;
-  miss_ = {start + missAt, stride, 2 * stride};
+  miss_ = {start + missAt, stride, misses * stride};
   hit_ = {start + hitAt, stride, stride * scene.meshes.size()};
 }
 

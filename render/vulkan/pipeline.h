@@ -25,7 +25,7 @@ class Pipeline {
   VkPipeline get() const { return pipeline_; }
 
  private:
-  void createTable(const render::FloatScene& scene, std::uint32_t groupCount);
+  void createTable(const render::FloatScene& scene, const std::vector<StageSource>& groups);
 
   const Device& device_;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;

@@ -63,20 +63,6 @@ VkShaderStageFlags flagsOf(Stage stage) {
   return stage == Stage::miss ? VK_SHADER_STAGE_MISS_BIT_KHR : VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
 }
 
-// Whether a pack's rays can reach each of stageSources(): surfaces that it has, and its shadow rays.
-std::vector<bool> presentStages(const pack::Scene& scene, const Variant& variant) {
-  std::array<bool, gpu::kSurfaceKinds> kinds{};
-  for (const pack::Mesh& mesh : scene.meshes) kinds[render::surfaceKind(scene.materials[mesh.material].kind)] = true;
-  std::vector<bool> result;
-  std::size_t kind = 0;
-  for (const StageSource& source : stageSources(variant))
-    if (source.stage == Stage::closestHit)
-      result.push_back(kinds.at(kind++));
-    else
-      result.push_back(variant.pointLights || source.path != "shaders/stages/shadow.rmiss");
-  return result;
-}
-
 std::uint64_t valueOf(const VkPipelineExecutableStatisticKHR& s) {
   switch (s.format) {
     case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_BOOL32_KHR:
@@ -113,8 +99,7 @@ std::map<std::string, std::uint64_t> valuesOf(const Device& device, VkPipeline p
 // Drivers name all closest-hit shaders alike, and list them in the order in which the pipeline was given
 // them. An executable that is none of the pipeline's shaders, such as the traversal that RADV adds as an
 // intersection shader, comes last.
-std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline, const Variant& variant,
-                                      const std::vector<bool>& present) {
+std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline, const Variant& variant) {
   VkPipelineInfoKHR info{VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR};
   info.pipeline = pipeline;
   std::uint32_t count = 0;
@@ -124,7 +109,7 @@ std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline,
   check(device.getPipelineExecutableProperties(device.get(), &info, &count, list.data()),
         "vkGetPipelineExecutablePropertiesKHR");
 
-  const std::vector<StageSource>& sources = stageSources(variant);
+  const std::vector<StageSource> sources = stageSources(variant);
   std::vector<StageStatistics> stages, others;
   std::size_t next = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -133,7 +118,6 @@ std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline,
     fillFields(stage);
     if (next < sources.size() && list[i].stages == flagsOf(sources[next].stage)) {
       stage.stage = stageName(sources[next]);
-      stage.present = present[next];
       ++next;
       stages.push_back(std::move(stage));
     } else {
@@ -169,12 +153,15 @@ std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const p
     s.driver = device.physical().driver;
     s.method = method;
     s.payloadBytes = render::methodNamed(method).payloadBytes;
-    const Variant variant = variantFor(scene, method, depth);
+    render::View view = render::viewOf(scene);
+    view.depth = depth;
+    const Variant variant = variantFor(scene, method, view);
+    const std::vector<StageSource> sources = stageSources(variant);
     const Pipeline pipeline(device, variant, layout.handle, variant.stackSize > 0 ? 1 : depth + 2,
                             VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);
-    s.stages = stagesOf(device, pipeline.get(), variant, presentStages(scene, variant));
-    for (std::uint32_t group = 0; group < stageSources(variant).size(); ++group) {
-      const StageSource& source = stageSources(variant)[group];
+    s.stages = stagesOf(device, pipeline.get(), variant);
+    for (std::uint32_t group = 0; group < sources.size(); ++group) {
+      const StageSource& source = sources[group];
       const VkDeviceSize bytes = device.getRayTracingShaderGroupStackSize(device.get(), pipeline.get(), group,
                                                                           source.stage == Stage::closestHit
                                                                               ? VK_SHADER_GROUP_SHADER_CLOSEST_HIT_KHR
@@ -197,7 +184,7 @@ std::vector<PipelineStatistics> deviceStatistics(const pack::Scene& scene, const
 nlohmann::json toJson(const PipelineStatistics& statistics) {
   nlohmann::json stages = nlohmann::json::array();
   for (const StageStatistics& s : statistics.stages) {
-    nlohmann::json stage = {{"stage", s.stage}, {"present", s.present}, {"values", s.values}};
+    nlohmann::json stage = {{"stage", s.stage}, {"values", s.values}};
     for (const Field& field : kFields)
       (*field.object ? stage[field.object][field.name] : stage[field.name]) = jsonOf(s.*field.member);
     stages.push_back(std::move(stage));
@@ -222,7 +209,6 @@ PipelineStatistics statisticsFromJson(const nlohmann::json& json) {
   for (const nlohmann::json& stage : json.at("stages")) {
     StageStatistics& s = result.stages.emplace_back();
     stage.at("stage").get_to(s.stage);
-    stage.at("present").get_to(s.present);
     stage.at("values").get_to(s.values);
     fillFields(s);
   }

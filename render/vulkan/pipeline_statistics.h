@@ -19,8 +19,7 @@ class Device;
 
 // One shader. Numbers that a driver does not tell are empty.
 struct StageStatistics {
-  std::string stage;    // "ray generation", "miss: environment", "closest hit: paint", "traversal"
-  bool present = true;  // rays of this pack can reach it; the others are compiled all the same
+  std::string stage;  // "ray generation", "miss: environment", "closest hit: paint", "traversal"
   std::map<std::string, std::uint64_t> values;  // all that the driver tells, by its names, but for hashes
 
   // Those of RADV by names that mean one thing.
@@ -52,7 +51,7 @@ std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const p
 std::vector<PipelineStatistics> deviceStatistics(const pack::Scene& scene, const std::vector<std::string>& methods,
                                                  std::uint32_t depth, const std::string& wanted);
 
-// {family, device, driver, method, payloadBytes, stages: [{stage, present, registers: {vector, scalar},
+// {family, device, driver, method, payloadBytes, stages: [{stage, registers: {vector, scalar},
 // spills: {vector, scalar}, lds, codeSize, scratch, instructions, latency, inverseThroughput, wavesPerSimd,
 // values: {by the driver's names}}], stackBytes: {stage: bytes}}; null: the driver does not tell.
 nlohmann::json toJson(const PipelineStatistics& statistics);

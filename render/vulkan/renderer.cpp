@@ -148,6 +148,9 @@ struct Renderer::Impl {
         positions(uploaded(device, bytesOf(floats.positions), kBuildInput)),
         normals(uploaded(device, bytesOf(floats.normals), kStorage)),
         texels(uploaded(device, bytesOf(floats.environmentTexels), kStorage)),
+        extras(uploaded(device, bytesOf(floats.extras), kStorage)),
+        textures(uploaded(device, bytesOf(floats.textures), kStorage)),
+        textureTexels(uploaded(device, bytesOf(floats.textureTexels), kStorage)),
         frame(device, sizeof(gpu::Frame), kStorage, kHost),
         counter(device, sizeof(std::uint32_t), kStorage, kHost),
         faults(device, sizeof(gpu::Faults), kStorage, kHost),
@@ -167,6 +170,9 @@ struct Renderer::Impl {
     bindings.bind(kTexels, texels);
     bindings.bind(kCounter, counter);
     bindings.bind(kFaults, faults);
+    bindings.bind(kExtras, extras);
+    bindings.bind(kTextures, textures);
+    bindings.bind(kTextureTexels, textureTexels);
   }
 
   const Pipeline& pipelineFor(const Variant& variant, std::uint32_t recursion);
@@ -178,7 +184,8 @@ struct Renderer::Impl {
   const pack::Scene& scene;
   render::FloatScene floats;
   Clock::time_point uploading;
-  Buffer materials, lights, meshes, triangles, positions, normals, texels, frame, counter, faults, pixels, readBack;
+  Buffer materials, lights, meshes, triangles, positions, normals, texels, extras, textures, textureTexels, frame,
+      counter, faults, pixels, readBack;
   Clock::time_point building;
   Acceleration acceleration;
   Clock::time_point built;
@@ -215,7 +222,8 @@ render::Picture Renderer::Impl::trace(const Variant& variant, const render::View
   render::Picture picture;
   picture.width = view.region.width;
   picture.height = view.region.height;
-  picture.channels = render::methodNamed(variant.method).hasStokes ? render::kStokesChannels : render::kColourChannels;
+  picture.channels =
+      render::hasStokes(render::methodNamed(variant.method), view) ? render::kStokesChannels : render::kColourChannels;
   picture.pixels.resize(picture.channels * picture.width * picture.height);
   const VkDeviceSize bytes = picture.pixels.size() * sizeof(float);
   if (pixels.sizeBytes() < bytes) {
@@ -289,7 +297,7 @@ render::Picture Renderer::render(std::string_view method, const render::View& vi
   if (!isLoop && view.depth > maxDepth())
     throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name),
                 fmt::format("at most {}", maxDepth()), fmt::format("{}", view.depth));
-  Variant variant = variantFor(impl_->scene, method, view.depth, view.everyEffect);
+  Variant variant = variantFor(impl_->scene, method, view);
   render::Picture picture = impl_->trace(variant, view);
   picture.device = device();
   if (view.checkNumerics) {
@@ -307,7 +315,7 @@ render::Picture Renderer::render(std::string_view method, const render::View& vi
 }
 
 std::uint64_t Renderer::countRays(std::string_view method, const render::View& view) {
-  Variant variant = variantFor(impl_->scene, method, view.depth, view.everyEffect);
+  Variant variant = variantFor(impl_->scene, method, view);
   variant.countRays = true;
   return impl_->trace(variant, view).cost.rays;
 }

@@ -4,27 +4,27 @@
 
 #include <fmt/format.h>
 
+#include "render/scene/compiled_effects.h"
 #include "render/scene/methods.h"
+#include "shaders/gpu/scene.h"
 #include "shaders/sources.h"
 
 namespace malus::vulkan {
 
-Variant variantFor(const pack::Scene& scene, std::string_view method, std::uint32_t depth, bool everyEffect) {
+using shaders::Effect;
+
+bool has(const Variant& variant, Effect effect) { return (variant.effects & shaders::bitOf(effect)) != 0; }
+
+Variant variantFor(const pack::Scene& scene, std::string_view method, const render::View& view) {
   Variant variant;
-  const auto isGlass = [&](const pack::Mesh& mesh) {
-    return scene.materials[mesh.material].kind == pack::MaterialKind::glass;
-  };
-  // Without glass nothing waits; an array has one place at least.
-  if (render::methodNamed(method).isLoop)
-    variant.stackSize =
-        everyEffect || std::any_of(scene.meshes.begin(), scene.meshes.end(), isGlass) ? std::max(depth, 1u) : 1;
   variant.method = method;
-  if (everyEffect) return variant;
-  variant.pointLights = !scene.lights.empty();
-  variant.fill = scene.environment.diffuseFill > 0;
-  variant.highlights = variant.pointLights && std::any_of(scene.materials.begin(), scene.materials.end(),
-                                                          [](const auto& m) { return m.highlightStrength > 0; });
-  variant.environmentMap = scene.environment.size > 0;
+  variant.effects = render::compiledEffects(scene, view);
+  const render::MethodInfo& info = render::methodNamed(method);
+  if (!info.isLoop) return variant;
+  variant.fourAnalysers = render::hasStokes(info, view);
+  // Without glass nothing waits; an array has one place at least.
+  variant.stackSize = has(variant, Effect::kGlass) ? std::max(view.depth, 1u) : 1;
+  if (has(variant, Effect::kRoughness)) variant.stackSize += gpu::kFacets;
   return variant;
 }
 
@@ -36,25 +36,26 @@ std::string preamble(const Variant& variant) {
   if (variant.stackSize > 0)
     text += fmt::format("#extension GL_EXT_ray_query : require\n#define MALUS_STACK_SIZE {}\n", variant.stackSize);
   text += fmt::format("#define MALUS_METHOD \"{}\"\n", variant.method);
-  if (!variant.pointLights) text += "#define MALUS_NO_POINT_LIGHTS\n";
-  if (!variant.fill) text += "#define MALUS_NO_FILL\n";
-  if (!variant.highlights) text += "#define MALUS_NO_HIGHLIGHTS\n";
-  if (!variant.environmentMap) text += "#define MALUS_NO_ENVIRONMENT_MAP\n";
+  for (std::size_t i = 0; i < shaders::kEffectMacros.size(); ++i)
+    text += fmt::format("#define {} {}\n", shaders::kEffectMacros[i], variant.effects >> i & 1);
+  if (variant.fourAnalysers) text += "#define MALUS_FOUR_ANALYSERS\n";
   if (variant.countRays) text += "#define MALUS_COUNT_RAYS\n";
   if (variant.checkNumerics) text += "#define MALUS_CHECK_NUMERICS\n";
   return text;
 }
 
-const std::vector<StageSource>& stageSources(const Variant& variant) {
-  static const std::vector<StageSource> kLoop = {{"shaders/stages/eye_path.rgen", Stage::raygen}};
-  if (variant.stackSize > 0) return kLoop;
-  static const std::vector<StageSource> kSources = {
-      {"shaders/stages/raygen.rgen", Stage::raygen},     {"shaders/stages/environment.rmiss", Stage::miss},
-      {"shaders/stages/shadow.rmiss", Stage::miss},      {"shaders/stages/lambert.rchit", Stage::closestHit},
-      {"shaders/stages/paint.rchit", Stage::closestHit}, {"shaders/stages/metal.rchit", Stage::closestHit},
-      {"shaders/stages/glass.rchit", Stage::closestHit}, {"shaders/stages/emitter.rchit", Stage::closestHit},
-  };
-  return kSources;
+std::vector<StageSource> stageSources(const Variant& variant) {
+  if (variant.stackSize > 0) return {{"shaders/stages/eye_path.rgen", Stage::raygen}};
+  std::vector<StageSource> sources = {{"shaders/stages/raygen.rgen", Stage::raygen},
+                                      {"shaders/stages/environment.rmiss", Stage::miss}};
+  if (has(variant, Effect::kPointLights) && has(variant, Effect::kShadows))
+    sources.push_back({"shaders/stages/shadow.rmiss", Stage::miss});
+  static constexpr std::string_view kHits[gpu::kSurfaceKinds] = {
+      "shaders/stages/lambert.rchit", "shaders/stages/paint.rchit",   "shaders/stages/metal.rchit",
+      "shaders/stages/glass.rchit",   "shaders/stages/emitter.rchit", "shaders/stages/sheet.rchit"};
+  for (std::uint32_t kind = 0; kind < gpu::kSurfaceKinds; ++kind)
+    if ((variant.effects >> kind & 1) != 0) sources.push_back({kHits[kind], Stage::closestHit, kind});
+  return sources;
 }
 
 std::string_view includedSource(const Variant& variant, std::string_view path) {

@@ -7,24 +7,26 @@
 #include <string_view>
 #include <vector>
 
+#include <shaders/effects.h>
+
 #include "bake/pack/scene.h"
+#include "render/scene/view.h"
 
 namespace malus::vulkan {
 
 struct Variant {
   std::string method = "fresnel";
-  bool pointLights = true;
-  bool fill = true;
-  bool highlights = true;
-  bool environmentMap = true;
+  std::uint32_t effects = shaders::kEveryEffect;  // bits of shaders::Effect
+  bool fourAnalysers = false;                     // of a loop: Stokes vectors
   bool countRays = false;
   bool checkNumerics = false;
   std::uint32_t stackSize = 0;  // of a loop: ways that may wait; 0 for a recursive method
   auto operator<=>(const Variant&) const = default;
 };
 
-// What the scene calls for, or everything. depth: most specular interactions.
-Variant variantFor(const pack::Scene& scene, std::string_view method, std::uint32_t depth, bool everyEffect = false);
+// What the picture calls for.
+Variant variantFor(const pack::Scene& scene, std::string_view method, const render::View& view);
+bool has(const Variant& variant, shaders::Effect effect);
 
 // #version, extensions and macros of the variant.
 std::string preamble(const Variant& variant);
@@ -35,10 +37,11 @@ enum class Stage { raygen, miss, closestHit, compute };
 struct StageSource {
   std::string_view path;
   Stage stage;
+  std::uint32_t kind = 0;  // of a closest hit: gpu::SurfaceKind
 };
-// Ray generation, environment miss, shadow miss, then a closest hit for every gpu::SurfaceKind in order; of a loop ray
-// generation alone.
-const std::vector<StageSource>& stageSources(const Variant& variant);
+// Ray generation, environment miss, shadow miss where there are shadows, then a closest hit for every gpu::SurfaceKind
+// that the variant has, in order; of a loop ray generation alone.
+std::vector<StageSource> stageSources(const Variant& variant);
 
 // Text of a file by its path, "shaders/methods/selected.h" being the variant's method.
 std::string_view includedSource(const Variant& variant, std::string_view path);

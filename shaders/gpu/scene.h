@@ -5,11 +5,13 @@
 
 #include <cstdint>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace malus::gpu {
 using uint = std::uint32_t;
+using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 #define MALUS_SIZE(T, bytes) static_assert(sizeof(T) == (bytes))
@@ -19,13 +21,16 @@ using vec4 = glm::vec4;
 
 // Kinds of surface, each with a hit group of its own.
 #ifdef __cplusplus
-enum SurfaceKind : uint { kLambert, kPaint, kMetal, kGlass, kEmitter, kSurfaceKinds };
+enum SurfaceKind : uint { kLambert, kPaint, kMetal, kGlass, kEmitter, kSheet, kSurfaceKinds };
+inline constexpr uint kFacets = 16;  // that stand for a rough surface
 #else
 const uint kLambert = 0u;
 const uint kPaint = 1u;
 const uint kMetal = 2u;
 const uint kGlass = 3u;
 const uint kEmitter = 4u;
+const uint kSheet = 5u;  // polarizer or wave plate
+const uint kFacets = 16u;
 #endif
 
 struct Material {
@@ -41,6 +46,41 @@ struct Material {
   uint kind;  // SurfaceKind
 };
 MALUS_SIZE(Material, 80);
+
+// What only some materials have, one for every material; read by variants whose effects need it alone.
+struct MaterialExtra {
+  vec3 absorption;         // of the body, in 1/m
+  vec3 outsideAbsorption;  // of the medium on the side that the normals point to
+  vec3 axis;               // unit, in the scene: of an emitter's field, of a sheet's transmission or fast axis
+  float degree;            // of an emitter's linear polarization
+  vec3 along;              // power transmittance of a sheet for light polarized along its axis
+  vec3 across;
+  vec3 retardanceCos;  // of a sheet
+  vec3 retardanceSin;
+  vec3 filmEta;     // index of a thin film; 0: none
+  vec3 filmTurns;   // twice its thickness over the wavelength
+  float roughness;  // 0: smooth
+  uint albedoMap;   // texture that albedo is multiplied by; kNoTexture: none
+  uint etaMap;      // texture in place of eta
+  uint kMap;
+  vec3 mapOrigin;  // texture coordinates: dot(p - mapOrigin, mapU or mapV)
+  vec3 mapU;
+  vec3 mapV;
+};
+MALUS_SIZE(MaterialExtra, 164);
+
+#ifdef __cplusplus
+inline constexpr uint kNoTexture = 0xffffffffu;
+#else
+const uint kNoTexture = 0xffffffffu;
+#endif
+
+struct Texture {
+  uint first;  // of its texels, row by row from the top
+  uint width;
+  uint height;
+};
+MALUS_SIZE(Texture, 12);
 
 struct PointLight {
   vec3 position;
@@ -79,8 +119,12 @@ struct Frame {
   float fill;           // share of the environment's irradiance on diffuse surfaces
   vec3 irradiance[9];   // coefficients of irradiancePolynomial, per colour
   uint shadows;         // 0: nothing blocks a point light
+  vec3 sun;             // unit, toward it
+  float skyDegree;      // largest degree of polarization of the sky
+  vec2 facets[16];      // points of the unit disk (optics/facets.h)
+  float tolerance;      // loops: share of a source's radiance that may be lost along a path
 };
-MALUS_SIZE(Frame, 244);
+MALUS_SIZE(Frame, 392);
 
 #ifdef __cplusplus
 }  // namespace malus::gpu

@@ -4,6 +4,8 @@
 
 #include "shaders/methods/mueller_factors.h"
 
+CONST int kHasStokes = 1;
+
 struct Carried {
   real3 x;  // frame of the rows: unit, across the ray; their y is cross(-d, x)
   Row r;    // of red, or of all three colours
@@ -31,6 +33,26 @@ FN real3 carriedWeights(Carried c) { return c.split ? make3(c.r.w, c.g.w, c.b.w)
 FN real3 carriedSource(Carried c, real3 radiance) { return carriedWeights(c) * radiance; }
 FN real carriedMost(Carried c) { return c.split ? maxR(c.r.w, maxR(c.g.w, c.b.w)) : c.r.w; }
 
+// Whether only the power of light counts: a row that is not polarized turns into itself.
+FN mask rowIsPlain(Row r) { return r.q == R(0.0) && r.u == R(0.0) && r.v == R(0.0); }
+
+// A row whose polarization is at most `tolerance` of it loses it: what is wrong by that is at most as large a share of
+// the light that it meets. At tolerance 0 only what is 0 is lost.
+FN Row rowWithin(Row r, real tolerance) {
+  real most = tolerance * r.w;
+  if (r.q * r.q + r.u * r.u + r.v * r.v > most * most) return r;
+  r.q = R(0.0);
+  r.u = R(0.0);
+  r.v = R(0.0);
+  return r;
+}
+FN void carriedForget(INOUT(Carried) c, real tolerance) {
+  c.r = rowWithin(c.r, tolerance);
+  if (!c.split) return;
+  c.g = rowWithin(c.g, tolerance);
+  c.b = rowWithin(c.b, tolerance);
+}
+
 // Into the frame of a surface with normal n: from n's components across the ray, no angle. Where they are 0 every
 // frame is one of the surface's.
 FN void carriedMeet(INOUT(Carried) c, real3 d, real3 n) {
@@ -40,14 +62,40 @@ FN void carriedMeet(INOUT(Carried) c, real3 d, real3 n) {
   real sum = nx * nx + ny * ny;
   if (sum < R(1e-30)) return;
   real root = R(1.0) / sqrtR(sum);
+  c.x = c.x * (R(0.0) - ny * root) + y * (nx * root);
+  if (!c.split && rowIsPlain(c.r)) return;
   real inverse = root * root;
   real cos2 = (ny - nx) * (ny + nx) * inverse;
   real sin2 = R(-2.0) * nx * ny * inverse;
-  c.x = c.x * (R(0.0) - ny * root) + y * (nx * root);
   c.r = rowTurn(c.r, cos2, sin2);
   if (!c.split) return;
   c.g = rowTurn(c.g, cos2, sin2);
   c.b = rowTurn(c.b, cos2, sin2);
+}
+
+FN void carriedSplit(INOUT(Carried) c) {
+  if (c.split) return;
+  c.g = c.r;
+  c.b = c.r;
+  c.split = true;
+}
+
+// Light polarized to a degree along the s direction of a surface with normal n.
+FN real3 carriedPolarized(Carried c, real3 d, real3 n, real3 radiance, real degree) {
+  carriedMeet(c, d, n);
+  real3 q = c.split ? make3(c.r.q, c.g.q, c.b.q) : splat3(c.r.q);
+  return (carriedWeights(c) + q * degree) * radiance;
+}
+
+FN void carriedScale(INOUT(Carried) c, real3 scale) {
+  if (!c.split && scale.x == scale.y && scale.y == scale.z) {
+    c.r = rowScale(c.r, scale.x);
+    return;
+  }
+  carriedSplit(c);
+  c.r = rowScale(c.r, scale.x);
+  c.g = rowScale(c.g, scale.y);
+  c.b = rowScale(c.b, scale.z);
 }
 
 // Diffuse light from below the interface: unpolarized, transmitted with 1 - R_s and 1 - R_p.
@@ -59,11 +107,7 @@ FN real3 carriedLeave(Carried c, Factors f, real3 radiance) {
 }
 
 FN void carriedReflect(INOUT(Carried) c, Factors f, mask coloured) {
-  if (coloured && !c.split) {
-    c.g = c.r;
-    c.b = c.r;
-    c.split = true;
-  }
+  if (coloured) carriedSplit(c);
   c.r = rowInterface(c.r, f.rs.x, f.rp.x, f.xRe.x, f.xIm.x);
   if (!c.split) return;
   c.g = rowInterface(c.g, f.rs.y, f.rp.y, f.xRe.y, f.xIm.y);

@@ -19,6 +19,12 @@ FN Light lightUnpolarized(real3 radiance) {
   l.colour = radiance;
   return l;
 }
+FN Light lightPolarized(real3 radiance, real degree) { return lightUnpolarized(radiance); }
+FN Light lightScale(Light a, real3 scale) {
+  Light l;
+  l.colour = a.colour * scale;
+  return l;
+}
 FN Light lightAdd(Light a, Light b) {
   Light l;
   l.colour = a.colour + b.colour;

@@ -6,16 +6,12 @@ struct Factors {
 
 FN real meanReflectance(Reflectance f) { return R(0.5) * (f.rs + f.rp); }
 
-FN Factors dielectricFactors(real c, real n1, real n2) {
+FN Factors exactFactors(Reflectance red, Reflectance green, Reflectance blue) {
   Factors f;
-  f.r = splat3(meanReflectance(dielectricReflectance(c, n1, n2)));
+  f.r = make3(meanReflectance(red), meanReflectance(green), meanReflectance(blue));
   return f;
 }
-FN Factors conductorFactors(real c, real n1, real3 n2, real3 k2) {
-  Factors f;
-  f.r = make3(meanReflectance(conductorReflectance(c, n1, n2.x, k2.x)),
-              meanReflectance(conductorReflectance(c, n1, n2.y, k2.y)),
-              meanReflectance(conductorReflectance(c, n1, n2.z, k2.z)));
-  return f;
-}
+
+#include "shaders/methods/exact_factors.h"
+
 FN real3 meanTransmittance(Factors f) { return splat3(R(1.0)) - f.r; }

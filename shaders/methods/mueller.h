@@ -17,6 +17,20 @@ FN Light lightAdd(Light a, Light b) {
   l.stokes = stokesAdd(a.stokes, b.stokes);
   return l;
 }
+// Linear polarization of a degree from -1 to 1 along s.
+FN Light lightPolarized(real3 radiance, real degree) {
+  Light l = lightUnpolarized(radiance);
+  l.stokes.s1 = radiance * degree;
+  return l;
+}
+FN Light lightScale(Light a, real3 scale) {
+  Light l;
+  l.stokes.s0 = a.stokes.s0 * scale;
+  l.stokes.s1 = a.stokes.s1 * scale;
+  l.stokes.s2 = a.stokes.s2 * scale;
+  l.stokes.s3 = a.stokes.s3 * scale;
+  return l;
+}
 FN Light lightReflect(Factors f, Light l) {
   Light r;
   r.stokes = stokesInterface(l.stokes, f.rs, f.rp, f.xRe, f.xIm);

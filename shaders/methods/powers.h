@@ -7,22 +7,15 @@ struct Factors {
   real3 rp;
 };
 
-FN Factors dielectricFactors(real c, real n1, real n2) {
-  Reflectance r = dielectricReflectance(c, n1, n2);
+FN Factors exactFactors(Reflectance red, Reflectance green, Reflectance blue) {
   Factors f;
-  f.rs = splat3(r.rs);
-  f.rp = splat3(r.rp);
+  f.rs = make3(red.rs, green.rs, blue.rs);
+  f.rp = make3(red.rp, green.rp, blue.rp);
   return f;
 }
-FN Factors conductorFactors(real c, real n1, real3 n2, real3 k2) {
-  Reflectance x = conductorReflectance(c, n1, n2.x, k2.x);
-  Reflectance y = conductorReflectance(c, n1, n2.y, k2.y);
-  Reflectance z = conductorReflectance(c, n1, n2.z, k2.z);
-  Factors f;
-  f.rs = make3(x.rs, y.rs, z.rs);
-  f.rp = make3(x.rp, y.rp, z.rp);
-  return f;
-}
+
+#include "shaders/methods/exact_factors.h"
+
 FN real3 meanTransmittance(Factors f) { return splat3(R(1.0)) - (f.rs + f.rp) * R(0.5); }
 
 // Light about to meet, or leaving, a surface: powers along the surface's s and p directions.
@@ -41,6 +34,19 @@ FN Light lightAdd(Light a, Light b) {
   Light l;
   l.s = a.s + b.s;
   l.p = a.p + b.p;
+  return l;
+}
+// Linear polarization of a degree from -1 to 1 along s.
+FN Light lightPolarized(real3 radiance, real degree) {
+  Light l;
+  l.s = radiance * (R(0.5) + R(0.5) * degree);
+  l.p = radiance * (R(0.5) - R(0.5) * degree);
+  return l;
+}
+FN Light lightScale(Light a, real3 scale) {
+  Light l;
+  l.s = a.s * scale;
+  l.p = a.p * scale;
   return l;
 }
 FN Light lightReflect(Factors f, Light l) {

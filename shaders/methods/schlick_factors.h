@@ -15,4 +15,23 @@ FN Factors conductorFactors(real c, real n1, real3 n2, real3 k2) {
               schlickReflectance(c, n1, n2.z, k2.z));
   return f;
 }
+// Of what has no Schlick form (polarizer sheets): the mean.
+FN Factors exactFactors(Reflectance red, Reflectance green, Reflectance blue) {
+  Factors f;
+  f.r = make3(red.rs + red.rp, green.rs + green.rp, blue.rs + blue.rp) * R(0.5);
+  return f;
+}
+// Schlick's curve from the film's reflectance at normal incidence.
+FN Factors filmFactors(real c, real n1, real3 nf, real3 turns, real3 n3, real3 k3) {
+  Factors f;
+  f.r = make3(schlickCurve(c, n1, n3.x, k3.x, filmOf(R(1.0), n1, nf.x, turns.x, n3.x, k3.x).reflected.rs),
+              schlickCurve(c, n1, n3.y, k3.y, filmOf(R(1.0), n1, nf.y, turns.y, n3.y, k3.y).reflected.rs),
+              schlickCurve(c, n1, n3.z, k3.z, filmOf(R(1.0), n1, nf.z, turns.z, n3.z, k3.z).reflected.rs));
+  return f;
+}
+FN Factors filmThroughFactors(real c, real n1, real3 nf, real3 turns, real3 n3) {
+  Factors f = filmFactors(c, n1, nf, turns, n3, splat3(R(0.0)));
+  f.r = splat3(R(1.0)) - f.r;
+  return f;
+}
 FN real3 meanTransmittance(Factors f) { return splat3(R(1.0)) - f.r; }

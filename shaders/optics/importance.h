@@ -20,6 +20,15 @@ FN Row rowTurn(Row r, real cos2, real sin2) {
   return t;
 }
 
+FN Row rowScale(Row r, real scale) {
+  Row t;
+  t.w = r.w * scale;
+  t.q = r.q * scale;
+  t.u = r.u * scale;
+  t.v = r.v * scale;
+  return t;
+}
+
 // From the light that leaves an interface to the light that meets it: the row times the Mueller matrix of stokes.h
 // (stokesInterface). Transmission has the same form with x real.
 FN Row rowInterface(Row r, real rs, real rp, real xRe, real xIm) {

@@ -1,10 +1,7 @@
 // Schlick's approximation (1994) of the unpolarized reflectance, as games use it: F0 + (1 - F0)(1 - c)^5,
 // F0 from the complex index at normal incidence. Leaving the denser medium the transmitted cosine is
 // taken, and total reflection gives 1.
-FN real schlickReflectance(real c, real n1, real n2, real k2) {
-  real d = n2 - n1;
-  real s = n2 + n1;
-  real f0 = (d * d + k2 * k2) / (s * s + k2 * k2);
+FN real schlickCurve(real c, real n1, real n2, real k2, real f0) {
   real eta = n2 / n1;
   real sinSq = (R(1.0) - c) * (R(1.0) + c);
   real transmittedSq = R(1.0) - sinSq / (eta * eta);
@@ -14,4 +11,9 @@ FN real schlickReflectance(real c, real n1, real n2, real k2) {
   real m2 = m * m;
   real f = f0 + (R(1.0) - f0) * m2 * m2 * m;
   return selectR(andM(leaving, lessR(transmittedSq, R(0.0))), R(1.0), f);
+}
+FN real schlickReflectance(real c, real n1, real n2, real k2) {
+  real d = n2 - n1;
+  real s = n2 + n1;
+  return schlickCurve(c, n1, n2, k2, (d * d + k2 * k2) / (s * s + k2 * k2));
 }

@@ -1,4 +1,7 @@
 #include "shaders/stages/hit.glsl"
 #include "shaders/surfaces/emitter.h"
 
-void main() { result = shadeEmitter(loadHit(), hitMaterial()); }
+void main() {
+  Hit h = loadHit();
+  result = shadeEmitter(h, materialAt(h));
+}

@@ -1,11 +1,15 @@
-// A hit, from the geometry that every stage sees. d: the ray; the rest as the device names them.
-Hit hitOf(uint geometry, uint primitive, vec2 barycentric, vec3 d, float depth) {
+// A hit, from the geometry that every stage sees. origin, d: the ray; the rest as the device names them.
+Hit hitOf(uint geometry, uint primitive, vec2 barycentric, vec3 origin, vec3 d, float depth) {
   Mesh mesh = meshes[geometry];
   uvec3 corner = triangles[mesh.firstTriangle + primitive] + mesh.firstVertex;
   float b0 = 1.0 - barycentric.x - barycentric.y;
   vec3 interpolated = vec3(0.0);
   if (mesh.hasNormals != 0u)
     interpolated = normals[corner.x] * b0 + normals[corner.y] * barycentric.x + normals[corner.z] * barycentric.y;
-  return makeHit(d, positions[corner.x], positions[corner.y], positions[corner.z], barycentric.x, barycentric.y,
+  Hit h = makeHit(d, positions[corner.x], positions[corner.y], positions[corner.z], barycentric.x, barycentric.y,
                  interpolated, depth, mesh.material);
+#if MALUS_EFFECT_ABSORPTION
+  h.travelled = length(h.position - origin);
+#endif
+  return h;
 }

@@ -1,4 +1,7 @@
 #include "shaders/stages/hit.glsl"
 #include "shaders/surfaces/glass.h"
 
-void main() { result = shadeGlass(loadHit(), hitMaterial()); }
+void main() {
+  Hit h = loadHit();
+  result = shadeGlass(h, materialAt(h));
+}

@@ -6,14 +6,18 @@
 #include "shaders/stages/geometry.glsl"
 #include "shaders/surfaces/check.h"
 #include "shaders/surfaces/check_sent.h"
+#include "shaders/surfaces/textures.h"
+#include "shaders/surfaces/medium.h"
+#include "shaders/surfaces/interface.h"
 #include "shaders/surfaces/direct_light.h"
 #include "shaders/surfaces/glass_way.h"
+#include "shaders/surfaces/sheet_factors.h"
+#include "shaders/surfaces/facet.h"
 
 layout(location = 0) rayPayloadInEXT Payload result;
 hitAttributeEXT vec2 barycentric;
 
-Material hitMaterial() { return materials[meshes[gl_GeometryIndexEXT].material]; }
-
 Hit loadHit() {
-  return hitOf(gl_GeometryIndexEXT, gl_PrimitiveID, barycentric, gl_WorldRayDirectionEXT, payloadDepth(result));
+  return hitOf(gl_GeometryIndexEXT, gl_PrimitiveID, barycentric, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT,
+               payloadDepth(result));
 }

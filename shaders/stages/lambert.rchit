@@ -1,4 +1,7 @@
 #include "shaders/stages/hit.glsl"
 #include "shaders/surfaces/lambert.h"
 
-void main() { result = shadeLambert(loadHit(), hitMaterial()); }
+void main() {
+  Hit h = loadHit();
+  result = shadeLambert(h, materialAt(h));
+}

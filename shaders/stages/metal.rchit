@@ -2,4 +2,7 @@
 #include "shaders/surfaces/opaque.h"
 #include "shaders/surfaces/metal.h"
 
-void main() { result = shadeMetal(loadHit(), hitMaterial()); }
+void main() {
+  Hit h = loadHit();
+  result = shadeMetal(h, materialAt(h));
+}

@@ -2,4 +2,7 @@
 #include "shaders/surfaces/opaque.h"
 #include "shaders/surfaces/paint.h"
 
-void main() { result = shadePaint(loadHit(), hitMaterial()); }
+void main() {
+  Hit h = loadHit();
+  result = shadePaint(h, materialAt(h));
+}

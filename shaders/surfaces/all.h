@@ -7,6 +7,9 @@
 #include "shaders/surfaces/paint.h"
 #include "shaders/surfaces/metal.h"
 #include "shaders/surfaces/glass.h"
+#if MALUS_EFFECT_SHEET
+#include "shaders/surfaces/sheet.h"
+#endif
 #include "shaders/surfaces/emitter.h"
 #include "shaders/surfaces/miss.h"
 #include "shaders/surfaces/pixel.h"

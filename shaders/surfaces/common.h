@@ -2,6 +2,12 @@
 // clang-format off
 #include "shaders/surfaces/hit.h"
 #include "shaders/surfaces/check.h"
+#include "shaders/surfaces/textures.h"
+#include "shaders/surfaces/medium.h"
+#include "shaders/surfaces/interface.h"
 #include "shaders/surfaces/direct_light.h"
 #include "shaders/surfaces/glass_way.h"
+#include "shaders/surfaces/sheet_factors.h"
+#include "shaders/surfaces/facet.h"
 #include "shaders/surfaces/surroundings.h"
+#include "shaders/surfaces/camera_colour.h"

@@ -7,9 +7,8 @@ struct DirectLight {
 };
 
 // Transmittance of the material's interface, mean of s and p, for light at an angle with cosine c.
-FN real3 enteringTransmittance(Material m, real c) {
-  if (m.kind == kPaint) return meanTransmittance(dielectricFactors(c, m.outsideEta, m.eta.y));
-  if (m.kind == kMetal) return meanTransmittance(conductorFactors(c, m.outsideEta, m.eta, m.k));
+FN real3 enteringTransmittance(Material m, uint index, real c) {
+  if (m.kind == kPaint || m.kind == kMetal) return meanTransmittance(opaqueFactors(c, m, index));
   return splat3(R(1.0));
 }
 
@@ -31,9 +30,11 @@ FN DirectLight directLight(Hit h, Material m, real3 mirror) {
   DirectLight sum;
   sum.diffuse = splat3(R(0.0));
   sum.highlight = splat3(R(0.0));
+#if MALUS_EFFECT_POINT_LIGHTS || MALUS_EFFECT_FILL
   bool isDiffuse = maxR(m.albedo.x, maxR(m.albedo.y, m.albedo.z)) > R(0.0);
+#endif
+#if MALUS_EFFECT_POINT_LIGHTS
   bool isGlossy = m.highlightStrength > R(0.0) && h.depth > R(0.5);
-#ifndef MALUS_NO_POINT_LIGHTS
   if (isDiffuse || isGlossy) {
     for (int i = 0; i < frame.lightCount; ++i) {
       real3 origin = originAbove(h);
@@ -43,21 +44,27 @@ FN DirectLight directLight(Hit h, Material m, real3 mirror) {
       real3 l = toLight * (R(1.0) / distanceToLight);
       real c = dot3(h.normal, l);
       if (c <= R(0.0) || dot3(h.face, l) <= R(0.0)) continue;
-#ifndef MALUS_NO_HIGHLIGHTS
+#if MALUS_EFFECT_HIGHLIGHTS
       real lobe = isGlossy ? m.highlightStrength * phongLobe(mirror, l, m.highlightExponent) : R(0.0);
 #else
       real lobe = R(0.0);
 #endif
       if (!isDiffuse && lobe <= R(0.0)) continue;
+#if MALUS_EFFECT_SHADOWS
       if (frame.shadows != 0u && !visible(origin, l, distanceToLight)) continue;
+#endif
       real3 arriving = lights[i].intensity * (R(1.0) / distanceSq);
+#if MALUS_EFFECT_ABSORPTION
+      arriving = arriving * transmittanceOver(mediumAbsorption(h, m), distanceToLight);
+#endif
       if (isDiffuse)
-        sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, arriving * c, enteringTransmittance(m, minR(c, R(1.0))));
+        sum.diffuse = sum.diffuse +
+                      lambertRadiance(m.albedo, arriving * c, enteringTransmittance(m, h.material, minR(c, R(1.0))));
       sum.highlight = sum.highlight + arriving * lobe;
     }
   }
 #endif
-#ifndef MALUS_NO_FILL
+#if MALUS_EFFECT_FILL
   if (isDiffuse && frame.fill > R(0.0))
     sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, fillIrradiance(h.normal) * frame.fill, m.fillTransmittance);
 #endif

@@ -1,7 +1,17 @@
-// Gives off unpolarized light on the side of its normal; reflects nothing.
+// Gives off light on the side of its normal, unpolarized or, as a display does, linearly polarized; reflects nothing.
 FN Payload shadeEmitter(Hit h, Material m) {
   real3 none = splat3(R(0.0));
-  Payload sent = payloadSource(select3(h.outside, m.radiance, none));
+  real3 radiance = select3(h.outside, m.radiance, none);
+#if MALUS_EFFECT_ABSORPTION
+  radiance = radiance * mediumTransmittance(h, m);
+#endif
+#if MALUS_EFFECT_POLARIZED_EMITTERS
+  real3 across = cross3(h.face, extras[h.material].axis);
+  Payload sent = payloadSend(lightPolarized(radiance, extras[h.material].degree), h.d, surfaceS(h.d, across));
+  if (kCheckNumerics) checkSent(h, sent, radiance * (R(8.0) * kUnitRoundoff));
+#else
+  Payload sent = payloadSource(radiance);
   if (kCheckNumerics) checkSent(h, sent, none);
+#endif
   return sent;
 }

@@ -2,7 +2,7 @@
 FN Payload shadeGlass(Hit h, Material m) {
   if (h.depth < R(0.5)) return payloadSource(splat3(R(0.0)));
   GlassWay way = glassWay(h, m);
-  Factors f = dielectricFactors(h.c, way.n1, way.n2);
+  Factors f = glassFactors(h.c, way.n1, way.n2, h.material);
   real3 mirror = mirrorDirection(h.d, h.normal, h.c);
   real3 s = surfaceS(h.d, h.normal);
   Payload returned = traceRay(originAbove(h), mirror, h.depth - R(1.0));
@@ -14,8 +14,20 @@ FN Payload shadeGlass(Hit h, Material m) {
   if (!way.total) {
     Payload below = traceRay(originBelow(h), way.through, h.depth - R(1.0));
     if (kCheckNumerics) slack = slack + slackOf(payloadStokes(below, way.through));
-    toEye = lightAdd(toEye, lightTransmit(f, lightReceive(below, way.through, s)));
+    Light fromBelow = lightReceive(below, way.through, s);
+#if MALUS_EFFECT_COATINGS
+    if (hasFilm(h.material))
+      fromBelow = lightReflect(
+          filmThroughFactors(h.c, way.n1, extras[h.material].filmEta, extras[h.material].filmTurns, splat3(way.n2)),
+          fromBelow);
+    else
+#endif
+      fromBelow = lightTransmit(f, fromBelow);
+    toEye = lightAdd(toEye, fromBelow);
   }
+#if MALUS_EFFECT_ABSORPTION
+  toEye = lightScale(toEye, mediumTransmittance(h, m));
+#endif
   Payload sent = payloadSend(toEye, h.d, s);
   if (kCheckNumerics) checkSent(h, sent, slack);
   return sent;

@@ -1,5 +1,6 @@
 // Where a ray met a surface. The files of this folder are shared by both renderers; beside the optics and
-// one method they call what the renderer supplies: `frame`, `lights[]`, `environmentTexels[]`,
+// one method they call what the renderer supplies: `frame`, `lights[]`, `environmentTexels[]`, `extras[]`,
+// `textures[]`, `textureTexels[]`,
 // traceRay(origin, direction, depth), visible(origin, direction, distance), kCheckNumerics and noteFault (check.h).
 
 struct Hit {
@@ -13,6 +14,9 @@ struct Hit {
   mask outside;    // the side that the mesh's normals point to was hit
   real depth;      // specular interactions left
   uint material;   // index of its material
+#if MALUS_EFFECT_ABSORPTION
+  real travelled;  // from the ray's origin, set by who found the hit
+#endif
 };
 
 CONST real kUnitRoundoff = R(5.9604644775390625e-8);  // 2^-24, of float
@@ -60,6 +64,9 @@ FN Hit missedHit(real3 d, real depth) {
   h.outside = true;
   h.depth = depth;
   h.material = kEnvironment;
+#if MALUS_EFFECT_ABSORPTION
+  h.travelled = R(0.0);
+#endif
   return h;
 }
 

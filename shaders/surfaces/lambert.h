@@ -1,6 +1,10 @@
 // Bare Lambert: unpolarized diffuse light, no interface.
 FN Payload shadeLambert(Hit h, Material m) {
-  Payload sent = payloadSource(directLight(h, m, h.normal).diffuse);
+  real3 diffuse = directLight(h, m, h.normal).diffuse;
+#if MALUS_EFFECT_ABSORPTION
+  diffuse = diffuse * mediumTransmittance(h, m);
+#endif
+  Payload sent = payloadSource(diffuse);
   if (kCheckNumerics) checkSent(h, sent, splat3(R(0.0)));
   return sent;
 }

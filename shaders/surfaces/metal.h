@@ -1,2 +1,2 @@
-// A smooth conductor; with albedo also the paper's diffuse term, which leaves with 1 - R.
-FN Payload shadeMetal(Hit h, Material m) { return shadeOpaque(h, m, conductorFactors(h.c, m.outsideEta, m.eta, m.k)); }
+// A smooth or rough conductor; with albedo also the paper's diffuse term, which leaves with 1 - R.
+FN Payload shadeMetal(Hit h, Material m) { return shadeOpaque(h, m, metalFactors(h.c, m, h.material)); }

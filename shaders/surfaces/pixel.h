@@ -25,7 +25,3 @@ FN Stokes cameraPixel(uint x, uint y) {
   sum.s3 = sum.s3 * scale;
   return sum;
 }
-
-FN real3 cameraColour(Stokes s) {
-  return analysed(s, frame.analyser.x, frame.analyser.y, frame.analyser.z, frame.analyser.w);
-}

@@ -1,7 +1,7 @@
 // What a ray sees that leaves the scene. The octahedral map has a border of one texel that repeats what
 // lies across its edges, so bilinear interpolation needs no special case.
 FN real3 environmentRadiance(real3 d) {
-#ifdef MALUS_NO_ENVIRONMENT_MAP
+#if !MALUS_EFFECT_ENVIRONMENT_MAP
   return frame.environment;
 #else
   if (frame.environmentSize == 0) return frame.environment;
@@ -24,3 +24,15 @@ FN real3 environmentRadiance(real3 d) {
   return top * (R(1.0) - fy) + bottom * fy;
 #endif
 }
+
+#if MALUS_EFFECT_SKY
+// The same under a clear sky: a picture has its radiance already, a constant is its mean. degree: of linear
+// polarization along the s direction of a surface whose normal points to the sun.
+FN real3 skyRadiance(real3 d, OUT(real) degree) {
+  real cosine = dot3(d, frame.sun);
+  degree = rayleighDegree(cosine, frame.skyDegree);
+  real3 radiance = environmentRadiance(d);
+  if (frame.environmentSize == 0 && frame.skyDegree > R(0.0)) radiance = radiance * rayleighPhase(cosine);
+  return radiance;
+}
+#endif

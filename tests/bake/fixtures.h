@@ -127,4 +127,38 @@ inline pack::Scene smallScene() {
   return scene;
 }
 
+// A small scene with everything that few scenes have.
+inline pack::Scene unusualScene() {
+  pack::Scene scene = smallScene();
+  scene.environment.sun = {0.6, 0.8, 0};
+  scene.environment.skyDegree = 0.75;
+  pack::Texture letters{"letters.png", 2, 1, {{0.25f, 0.5f, 1}, {0, 0.125f, 0.75f}}};
+  pack::Texture metal{"metal.exr", 1, 2, {{0.5f, 1, 1.5f}, {2, 3, 4}}};
+  scene.textures = {letters, metal};
+  pack::Material& glass = scene.materials[0];
+  glass.absorption = {1, 2, 3};
+  glass.outsideAbsorption = {0, 0.5, 0};
+  glass.coating = {{1.38, 1.37, 1.36}, 96.4};
+  pack::Material& gold = scene.materials[1];
+  gold.roughness = 0.25;
+  gold.maps = {0, 1, 1, {1, 2, 3}, {0.5, 0, 0}, {0, -0.5, 0}};
+  pack::Material& lamp = scene.materials[2];
+  lamp.axis = {0, 0.6, -0.8};
+  lamp.polarization = 0.875;
+  pack::Material polarizer;
+  polarizer.name = "polarizer";
+  polarizer.kind = pack::MaterialKind::polarizer;
+  polarizer.axis = {1, 0, 0};
+  polarizer.along = {0.9, 0.8, 0.7};
+  polarizer.across = {0.01, 0.02, 0.03};
+  pack::Material plate;
+  plate.name = "plate";
+  plate.kind = pack::MaterialKind::wavePlate;
+  plate.axis = {0, 0.8, 0.6};
+  plate.retardanceDegrees = {76, 90, 103};
+  scene.materials.push_back(polarizer);
+  scene.materials.push_back(plate);
+  return scene;
+}
+
 }  // namespace malus::bake::test

@@ -26,6 +26,8 @@ namespace malus::test {
     using Reflectance = malus::space::Reflectance;     \
     using Transmittance = malus::space::Transmittance; \
     using Refraction = malus::space::Refraction;       \
+    using Film = malus::space::Film;                   \
+    using Complex = malus::space::Complex;             \
     static constexpr real kPi = malus::space::kPi;     \
     static constexpr const char* kName = label;        \
     MALUS_FORWARD(space, make3)                        \
@@ -44,6 +46,13 @@ namespace malus::test {
     MALUS_FORWARD(space, dielectricTransmittance)      \
     MALUS_FORWARD(space, conductorReflectance)         \
     MALUS_FORWARD(space, schlickReflectance)           \
+    MALUS_FORWARD(space, complexTurn)                  \
+    MALUS_FORWARD(space, complexRoot)                  \
+    MALUS_FORWARD(space, filmOf)                       \
+    MALUS_FORWARD(space, rayleighDegree)               \
+    MALUS_FORWARD(space, rayleighPhase)                \
+    MALUS_FORWARD(space, facetNormal)                  \
+    MALUS_FORWARD(space, facetWeight)                  \
     MALUS_FORWARD(space, mirrorDirection)              \
     MALUS_FORWARD(space, refractedDirection)           \
     MALUS_FORWARD(space, canonicalFrame)               \

@@ -50,6 +50,11 @@ struct Values {
   real3 clamped;
   Row turnedRow;
   Row metRow;
+  Film film;
+  real3 facet;
+  real facetShare;
+  real skyDegree;
+  real skyPhase;
   real halved;    // back from 16 bits
   real fraction;  // as above
 };
@@ -105,5 +110,11 @@ FN Values valuesOf(Given g) {
   word bits = joinWord(halfBits(g.k2), fractionBits(g.cos2));
   r.halved = halfValue(lowHalf(bits));
   r.fraction = fractionValue(highHalf(bits));
+  // Denser than the first medium: GLSL has no exponential function in double for what fades.
+  r.film = filmOf(g.c, R(1.0), R(1.0) + absR(g.cos2), R(1.25), R(1.0) + absR(g.sin2), g.k2);
+  r.facet = facetNormal(g.d, g.n, R(0.25), R(0.5) * g.cos2, R(0.5) * g.sin2);
+  r.facetShare = facetWeight(g.d, g.interpolated, g.n, R(0.25));
+  r.skyDegree = rayleighDegree(g.c, R(0.75));
+  r.skyPhase = rayleighPhase(g.c);
   return r;
 }

@@ -2,8 +2,11 @@
 // method's C++ struct has.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <ostream>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -67,6 +70,19 @@ std::vector<std::uint32_t> compiled(const Variant& variant, const vulkan::StageS
                              [&](std::string_view path) { return vulkan::includedSource(variant, path); });
 }
 
+// Sets of effects: everything, what the paper's scenes have, mirrors alone, a metal in a constant light.
+using shaders::Effect;
+constexpr std::uint32_t setOf(std::initializer_list<Effect> effects) {
+  std::uint32_t bits = 0;
+  for (const Effect effect : effects) bits |= shaders::bitOf(effect);
+  return bits;
+}
+constexpr std::uint32_t kLit =
+    setOf({Effect::kLambert, Effect::kPaint, Effect::kMetal, Effect::kGlass, Effect::kEmitter, Effect::kPointLights,
+           Effect::kShadows, Effect::kHighlights, Effect::kFill, Effect::kEnvironmentMap});
+constexpr std::uint32_t kSets[] = {shaders::kEveryEffect, kLit, setOf({Effect::kPaint, Effect::kMetal}),
+                                   setOf({Effect::kMetal})};
+
 struct MethodSize {
   const char* name;
   std::uint32_t bytes;
@@ -82,11 +98,9 @@ TEST_P(VariantsTest, CompilesWithThePayloadOfItsMethod) {
   for (int flags = 0; flags < 16; ++flags) {
     Variant variant;
     variant.method = GetParam().name;
-    variant.pointLights = (flags & 1) != 0;
-    variant.fill = (flags & 2) != 0;
+    variant.effects = kSets[flags % 4];
     variant.countRays = (flags & 4) != 0;
-    variant.checkNumerics = flags == 3;
-    variant.highlights = variant.environmentMap = (flags & 8) != 0;
+    variant.checkNumerics = (flags & 8) != 0;
     for (const vulkan::StageSource& source : vulkan::stageSources(variant)) {
       SCOPED_TRACE(std::string(source.path) + " flags " + std::to_string(flags));
       const Module module(compiled(variant, source));
@@ -111,9 +125,85 @@ INSTANTIATE_TEST_SUITE_P(Methods, VariantsTest, ::testing::ValuesIn(kMethods), [
   return name;
 });
 
+// Instructions, of a variant's whole pipeline.
+struct Counts {
+  std::size_t words = 0, traces = 0, queries = 0;
+  std::vector<std::uint32_t> bindings;
+};
+Counts countsOf(const Variant& variant) {
+  Counts counts;
+  for (const vulkan::StageSource& source : vulkan::stageSources(variant)) {
+    const std::vector<std::uint32_t> words = compiled(variant, source);
+    counts.words += words.size();
+    std::set<std::uint32_t> tracing;  // functions that trace: their calls are trace sites
+    std::vector<std::uint32_t> calls;
+    std::uint32_t function = 0;
+    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
+      const std::uint32_t opcode = words[at] & 0xffff;
+      if (opcode == 54) function = words[at + 2];                                         // OpFunction
+      if (opcode == 57) calls.push_back(words[at + 3]);                                   // OpFunctionCall
+      if (opcode == 4445) tracing.insert(function);                                       // OpTraceRayKHR
+      if (opcode == 4473) ++counts.queries;                                               // OpRayQueryInitializeKHR
+      if (opcode == 71 && words[at + 2] == 33) counts.bindings.push_back(words[at + 3]);  // OpDecorate Binding
+    }
+    for (const std::uint32_t called : calls) counts.traces += tracing.count(called);
+  }
+  return counts;
+}
+
+// What an effect that is on adds to the paper's scenes' variant; off, its code, its buffers and its rays are not there.
+TEST(VariantsTest, AnEffectThatIsOffCostsNothing) {
+  for (const char* method : {"stokes", "importance"}) {
+    Variant off;
+    off.method = method;
+    off.effects = kLit;
+    off.stackSize = std::string(method) == "importance" ? 6 : 0;
+    const Counts without = countsOf(off);
+    const auto expectBinding = [&](const Counts& c, std::uint32_t binding, bool there) {
+      EXPECT_EQ(std::count(c.bindings.begin(), c.bindings.end(), binding) > 0, there) << method << ' ' << binding;
+    };
+    for (const std::uint32_t binding : {12u, 13u, 14u}) expectBinding(without, binding, false);
+    for (const Effect effect : {Effect::kSheet, Effect::kTextures, Effect::kAbsorption, Effect::kCoatings,
+                                Effect::kRoughness, Effect::kSky, Effect::kPolarizedEmitters}) {
+      SCOPED_TRACE(std::string(method) + " " + shaders::kEffectMacros[static_cast<std::size_t>(effect)]);
+      Variant on = off;
+      on.effects |= shaders::bitOf(effect);
+      const Counts with = countsOf(on);
+      EXPECT_GT(with.words, without.words);
+      expectBinding(with, 12, effect != Effect::kSky);
+      expectBinding(with, 13, effect == Effect::kTextures);
+      // More trace sites where an effect sends rays of its own; a loop has its two.
+      const bool traces = effect == Effect::kSheet || effect == Effect::kRoughness;
+      if (off.stackSize == 0)
+        EXPECT_EQ(with.traces > without.traces, traces);
+      else
+        EXPECT_EQ(with.queries, without.queries);
+    }
+    // The other way: what the variant has and a scene of mirrors does not need.
+    Variant mirrors = off;
+    mirrors.effects = setOf({Effect::kPaint, Effect::kMetal});
+    const Counts few = countsOf(mirrors);
+    EXPECT_LT(few.words, without.words);
+    if (off.stackSize == 0)  // the camera's rays, a mirror ray from either surface
+      EXPECT_EQ(few.traces, 3u);
+    else  // no shadow ray
+      EXPECT_EQ(few.queries, 1u);
+    for (const Effect effect : {Effect::kPointLights, Effect::kShadows, Effect::kFill, Effect::kHighlights,
+                                Effect::kEnvironmentMap, Effect::kGlass, Effect::kLambert, Effect::kEmitter}) {
+      Variant less = off;
+      less.effects &= ~shaders::bitOf(effect);
+      EXPECT_LT(countsOf(less).words, without.words) << shaders::kEffectMacros[static_cast<std::size_t>(effect)];
+    }
+  }
+}
+
 TEST(VariantsTest, EveryStageIsThere) {
-  // Ray generation, two misses, a closest hit for each of five kinds of surface.
-  EXPECT_EQ(vulkan::stageSources({}).size(), 8u);
+  // Ray generation, two misses, a closest hit for each of six kinds of surface; without lights and with one kind,
+  // three.
+  EXPECT_EQ(vulkan::stageSources({}).size(), 9u);
+  Variant metal;
+  metal.effects = setOf({Effect::kMetal});
+  EXPECT_EQ(vulkan::stageSources(metal).size(), 3u);
 }
 
 TEST(VariantsTest, LoopsHaveOneStageAndNoPayload) {
@@ -123,9 +213,9 @@ TEST(VariantsTest, LoopsHaveOneStageAndNoPayload) {
       Variant variant;
       variant.method = loop;
       variant.stackSize = 6;
-      variant.pointLights = (flags & 1) != 0;
-      variant.fill = (flags & 2) != 0;
-      variant.countRays = (flags & 4) != 0;
+      variant.effects = kSets[flags % 4];
+      variant.fourAnalysers = (flags & 4) != 0;
+      variant.countRays = (flags & 8) == 0;
       variant.checkNumerics = (flags & 8) != 0;
       SCOPED_TRACE(std::string(loop) + " flags " + std::to_string(flags));
       ASSERT_EQ(vulkan::stageSources(variant).size(), 1u);

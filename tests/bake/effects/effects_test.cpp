@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "bake/effects/deepest_bounce.h"
 #include "bake/effects/polarization_bound.h"
 
 #include "tests/bake/fixtures.h"
@@ -59,10 +60,26 @@ TEST(Effects, AllOfThemInOrder) {
     names.push_back(e.name);
     EXPECT_FALSE(e.on) << e.name;  // nothing is there
   }
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"diffuse", "textures", "dielectric", "conductor", "transmission", "absorption",
-                                      "tir", "linear-polarization", "circular-polarization", "shadows", "point-lights",
-                                      "highlights", "emitters", "environment", "filter"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"diffuse",
+                                             "textures",
+                                             "dielectric",
+                                             "conductor",
+                                             "transmission",
+                                             "absorption",
+                                             "coatings",
+                                             "polarizing-sheets",
+                                             "rough-reflection",
+                                             "tir",
+                                             "linear-polarization",
+                                             "circular-polarization",
+                                             "shadows",
+                                             "point-lights",
+                                             "highlights",
+                                             "emitters",
+                                             "polarized-emitters",
+                                             "environment",
+                                             "polarized-sky",
+                                             "filter"}));
 }
 
 TEST(Effects, MaterialsThatNoMeshHasDoNotCount) {
@@ -101,6 +118,93 @@ TEST(Effects, TotalReflectionNeedsADenserSide) {
   submerged.eta = glm::dvec3(1.2);
   submerged.outsideEta = 1.33;
   EXPECT_TRUE(effectsOf(sceneOf({submerged}, 4)).at("tir"));
+}
+
+TEST(Effects, WhatFewMaterialsHave) {
+  const auto bits = [](Material m, std::uint32_t depth = 4) { return effectsOf(sceneOf({std::move(m)}, depth)); };
+  Material glass = material(MaterialKind::glass);
+  glass.absorption = {0, 1, 0};
+  EXPECT_TRUE(bits(glass).at("absorption"));
+  Material wet = material(MaterialKind::lambert, 0.5);
+  wet.outsideAbsorption = {0, 0, 1};
+  EXPECT_TRUE(bits(wet).at("absorption"));
+  Material coated = material(MaterialKind::mirrorGlass);
+  coated.coating.thicknessNm = 100;
+  EXPECT_TRUE(bits(coated).at("coatings"));
+  EXPECT_TRUE(bits(coated).at("circular-polarization"));  // films shift phases
+  EXPECT_FALSE(bits(material(MaterialKind::mirrorGlass)).at("circular-polarization"));
+  Material rough = material(MaterialKind::metal);
+  rough.roughness = 0.1;
+  EXPECT_TRUE(bits(rough).at("rough-reflection"));
+  EXPECT_FALSE(bits(rough, 0).at("rough-reflection"));
+  Material mapped = material(MaterialKind::lambert, 0.5);
+  mapped.maps.albedo = 0;
+  EXPECT_TRUE(bits(mapped).at("textures"));
+  for (const MaterialKind kind : {MaterialKind::polarizer, MaterialKind::wavePlate})
+    EXPECT_TRUE(bits(material(kind)).at("polarizing-sheets"));
+  for (const auto& [name, on] : effectsOf(sceneOf({material(MaterialKind::glass), material(MaterialKind::metal)}, 4)))
+    for (const char* few : {"absorption", "coatings", "rough-reflection", "textures", "polarizing-sheets",
+                            "polarized-emitters", "polarized-sky"})
+      EXPECT_FALSE(name == few && on) << name;
+}
+
+TEST(Effects, PolarizedSourcesAreTheFirstOfTwoDiattenuators) {
+  Material display = material(MaterialKind::emitter);
+  display.polarization = 1;
+  auto scene = sceneOf({display}, 4);
+  EXPECT_TRUE(effectsOf(scene).at("polarized-emitters"));
+  EXPECT_FALSE(effectsOf(scene).at("linear-polarization"));  // seen by itself
+  PictureRequest request;
+  request.depth = 4;
+  request.analyser = {0.5, 0.5, 0, 0};
+  EXPECT_TRUE(isOn(findEffects(scene, request), "linear-polarization"));  // behind a filter
+  scene = sceneOf({display, material(MaterialKind::mirrorGlass)}, 1);
+  EXPECT_TRUE(effectsOf(scene).at("linear-polarization"));  // one mirror is enough
+  scene.depth = 0;
+  EXPECT_FALSE(effectsOf(scene).at("linear-polarization"));
+  // The sky.
+  scene = sceneOf({material(MaterialKind::mirrorGlass)}, 1);
+  EXPECT_FALSE(effectsOf(scene).at("linear-polarization"));
+  scene.environment.radiance = glm::dvec3(1);
+  scene.environment.sun = {0, 1, 0};
+  scene.environment.skyDegree = 0.8;
+  EXPECT_TRUE(effectsOf(scene).at("polarized-sky"));
+  EXPECT_TRUE(effectsOf(scene).at("linear-polarization"));
+  // A polarizer and a mirror of glass (D = 1 both): (2 2 + 0)/2 - 1.
+  scene = sceneOf({material(MaterialKind::polarizer)}, 2);
+  scene.materials[0].across = glm::dvec3(0);
+  request = {2, {1, 0, 0, 0}, false, false};
+  EXPECT_DOUBLE_EQ(polarizationErrorBound(scene, request).x, 1);
+}
+
+TEST(Effects, DeepestBounce) {
+  // Two square mirrors of side 1 that face each other at distance 1: the most grazing way from corner to corner has a
+  // cosine of 1/sqrt(3).
+  const auto facing = [](MaterialKind kind, double distance) {
+    pack::Scene scene = sceneOf({material(kind)}, 20);
+    scene.meshes.resize(2, scene.meshes[0]);
+    for (int i = 0; i < 2; ++i) {
+      pack::Mesh& mesh = scene.meshes[static_cast<std::size_t>(i)];
+      const auto z = static_cast<float>(i * distance);
+      mesh.positions = {{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}};
+      mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+      if (i == 1) mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
+    }
+    scene.camera.position = {0.5, 0.5, distance / 2};
+    return scene;
+  };
+  const pack::Scene glass = facing(MaterialKind::mirrorGlass, 1);
+  // From the eye in the middle too: k bounces leave R_s^k.
+  const double c = 1 / std::sqrt(3.0), t = std::sqrt(1.25 + c * c), rs = std::pow(1.25 / ((c + t) * (c + t)), 2);
+  EXPECT_EQ(deepestBounce(glass, 20, 0.999 * std::pow(rs, 3)), 3u);
+  EXPECT_EQ(deepestBounce(glass, 2, 1e-9), 2u);
+  EXPECT_LT(deepestBounce(glass, 20, 1e-3), deepestBounce(facing(MaterialKind::metal, 1), 20, 1e-3));
+  EXPECT_EQ(deepestBounce(facing(MaterialKind::mirrorGlass, 1e-3), 20, 1e-3), 20u);  // grazing ways
+  EXPECT_EQ(deepestBounce(facing(MaterialKind::glass, 1), 20, 1e-3), 20u);           // transmits
+  EXPECT_EQ(deepestBounce(sceneOf({material(MaterialKind::lambert, 0.5)}, 20), 20, 1e-3), 0u);
+  pack::Scene alone = glass;
+  alone.meshes.pop_back();
+  EXPECT_EQ(deepestBounce(alone, 20, 1e-3), 1u);  // a flat mirror does not see itself
 }
 
 TEST(Effects, LinearPolarizationNeedsTwoDiattenuators) {

@@ -348,7 +348,7 @@ TEST(CorruptPack, MaterialOutOfBounds) {
   constexpr std::size_t kEta = 4, kK = 28, kOutside = 52;  // behind the kind
   for (std::size_t at = kGlass + kEta; at + 8 <= kGlass + 116; at += 8)
     EXPECT_TRUE(contains(errorWith("MATL", at, kNan), "not finite")) << at;
-  EXPECT_TRUE(contains(errorWith("MATL", kGlass, 6u), "kind of material"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGlass, 8u), "kind of material"));
   EXPECT_TRUE(contains(errorWith("MATL", kGlass + kEta, 1e4), "index eta"));
   EXPECT_TRUE(contains(errorWith("MATL", kGlass + kEta, 1e-4), "index of refraction"));
   EXPECT_TRUE(contains(errorWith("MATL", kGlass + kK, 0.5), "index of a dielectric"));
@@ -365,6 +365,76 @@ TEST(CorruptPack, MaterialOutOfBounds) {
 TEST(CorruptPack, EffectOutOfBounds) {
   const std::string error = errorWith("EFCT", 4 + 4 + 5, 2u);
   EXPECT_TRUE(contains(error, "state of an effect")) << error;
+}
+
+// The sections that few scenes have.
+const std::vector<RawSection>& unusualSections() {
+  static const std::vector<RawSection> kSections = test::takenApart(serialize(bake::test::unusualScene(), {}).bytes);
+  return kSections;
+}
+
+template <class T>
+std::string unusualErrorWith(std::string_view id, std::size_t at, T value) {
+  std::vector<RawSection> sections = unusualSections();
+  test::setNumber(test::section(sections, id).bytes, at, value);
+  return parseError(test::putTogether(sections));
+}
+
+TEST(CorruptPack, UnusualSectionsOutOfBounds) {
+  EXPECT_EQ(parseError(test::putTogether(unusualSections())), "");
+  constexpr std::size_t kRecord = 276, kGold = 4 + kRecord, kLamp = kGold + kRecord, kPolarizer = kLamp + kRecord;
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", 0, 4u), "number of surfaces"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", 4, -1.0), "absorption"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", 4, kNan), "not finite"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", 4 + 48, 0.0), "index of a coating"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", 4 + 72, 1e6), "thickness of a coating"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", 4 + 80, 0.5), "roughness"));  // of glass
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kGold + 80, 1.5), "roughness"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kLamp + 72, 1.0), "thickness of a coating"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kLamp + 88, 0.5), "axis"));  // no unit vector
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kLamp + 112, 1.5), "polarization of an emitter"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kGold + 112, 0.5), "polarization of an emitter"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kPolarizer + 120, 1.5), "transmittance of a sheet"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kPolarizer + 168, 1e9), "retardance"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kGold + 192, 3u), "texture of a material"));
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kGold + 192, 2u), "values from 0 to 1"));  // an albedo of 4
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kGold + 200, 1u), "values from 0.001"));   // k = 0
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kGold + 200, 0u), "index map"));           // eta alone
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kLamp + 196, 2u), "index map"));
+  EXPECT_TRUE(contains(unusualErrorWith("TEXR", 0, 300u), "number of textures"));
+  constexpr std::size_t kFirst = 4 + 4 + 11;  // behind the first name
+  EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst, 8193u), "width of a texture"));
+  EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst, 0u), "texels of texture"));
+  EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst, 8000u), "texels of texture"));
+  EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst + 8, -0.5f), "texel"));
+  EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst + 8, std::numeric_limits<float>::quiet_NaN()), "texel"));
+  EXPECT_TRUE(contains(unusualErrorWith("SKYP", 0, 0.5), "direction of the sun"));
+  EXPECT_TRUE(contains(unusualErrorWith("SKYP", 24, 1.5), "polarization of the sky"));
+  // A polarizer without its axis.
+  std::vector<RawSection> sections = unusualSections();
+  std::erase_if(sections, [](const RawSection& s) { return s.id == "SRFX"; });
+  EXPECT_TRUE(contains(parseError(test::putTogether(sections)), "section SRFX is missing"));
+}
+
+TEST(CorruptPack, EveryFlippedBitOfUnusualSectionsBehindTheHashesIsHarmless) {
+  std::size_t refused = 0, taken = 0;
+  for (std::size_t s = 0; s < unusualSections().size(); ++s) {
+    if (const std::string& id = unusualSections()[s].id; id != "SRFX" && id != "TEXR" && id != "SKYP") continue;
+    for (std::size_t i = 0; i < unusualSections()[s].bytes.size(); ++i)
+      for (int bit = 0; bit < 8; ++bit) {
+        std::vector<RawSection> sections = unusualSections();
+        sections[s].bytes[i] ^= static_cast<std::byte>(1 << bit);
+        const Bytes bytes = test::putTogether(sections);
+        const std::string error = errorOf([&] {
+          for (const Material& m : parse(bytes, "file.pack").scene.materials)
+            for (const std::int32_t map : {m.maps.albedo, m.maps.eta, m.maps.k}) ASSERT_LT(map, 2);
+        });
+        error.empty() ? ++taken : ++refused;
+        ASSERT_TRUE(error.empty() || contains(error, "file.pack")) << error;
+      }
+  }
+  EXPECT_GT(refused, 100u);
+  EXPECT_GT(taken, 100u);
 }
 
 TEST(CorruptPack, MissingFileAndFolder) {

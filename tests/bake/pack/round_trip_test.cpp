@@ -76,6 +76,49 @@ TEST(PackRoundTrip, EveryFieldComesBack) {
   EXPECT_EQ(s.provenance, scene.provenance);
 }
 
+TEST(PackRoundTrip, WhatFewScenesHaveComesBack) {
+  const Scene scene = bake::test::unusualScene();
+  const Scene s = parse(serialize(scene, {}).bytes, "test").scene;
+  EXPECT_EQ(s.environment.sun, scene.environment.sun);
+  EXPECT_EQ(s.environment.skyDegree, scene.environment.skyDegree);
+  ASSERT_EQ(s.textures.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(s.textures[i].name, scene.textures[i].name);
+    EXPECT_EQ(s.textures[i].width, scene.textures[i].width);
+    EXPECT_EQ(s.textures[i].height, scene.textures[i].height);
+    EXPECT_EQ(s.textures[i].texels, scene.textures[i].texels);
+  }
+  ASSERT_EQ(s.materials.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const Material &m = s.materials[i], &truth = scene.materials[i];
+    EXPECT_EQ(m.kind, truth.kind);
+    EXPECT_EQ(m.absorption, truth.absorption);
+    EXPECT_EQ(m.outsideAbsorption, truth.outsideAbsorption);
+    EXPECT_EQ(m.coating.eta, truth.coating.eta);
+    EXPECT_EQ(m.coating.thicknessNm, truth.coating.thicknessNm);
+    EXPECT_EQ(m.roughness, truth.roughness);
+    EXPECT_EQ(m.axis, truth.axis);
+    EXPECT_EQ(m.polarization, truth.polarization);
+    EXPECT_EQ(m.along, truth.along);
+    EXPECT_EQ(m.across, truth.across);
+    EXPECT_EQ(m.retardanceDegrees, truth.retardanceDegrees);
+    EXPECT_EQ(m.maps.albedo, truth.maps.albedo);
+    EXPECT_EQ(m.maps.eta, truth.maps.eta);
+    EXPECT_EQ(m.maps.k, truth.maps.k);
+    EXPECT_EQ(m.maps.origin, truth.maps.origin);
+    EXPECT_EQ(m.maps.u, truth.maps.u);
+    EXPECT_EQ(m.maps.v, truth.maps.v);
+  }
+}
+
+// A scene without them has no section for them, and every pack from before they existed is such a one.
+TEST(PackRoundTrip, WhatFewScenesHaveTakesNoRoomInOthers) {
+  const Pack pack = parse(serialize(smallScene(), {}).bytes, "test");
+  for (const Section& section : pack.sections)
+    EXPECT_TRUE(section.id != kSurfaces && section.id != kTextures && section.id != kSky) << section.id;
+  for (const Material& m : pack.scene.materials) EXPECT_TRUE(m.isPlain()) << m.name;
+}
+
 TEST(PackRoundTrip, MeshesComeBackWithinTheGrid) {
   const Scene scene = smallScene();
   const Pack pack = parse(serialize(scene, {}).bytes, "test");

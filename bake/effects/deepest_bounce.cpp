@@ -1,0 +1,115 @@
+#include "bake/effects/deepest_bounce.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "bake/effects/mutual_sight.h"
+#include "shaders/optics/optics.h"
+
+namespace malus::bake {
+using pack::Material;
+using pack::MaterialKind;
+
+namespace {
+
+constexpr double kFlat = 4e-6;
+
+struct Face {
+  std::array<glm::dvec3, 3> corners;
+  glm::dvec3 normal;         // 0: without area
+  const Material* material;  // nullptr: reflects all that it meets
+};
+
+// Reflectance of s light, the larger one, which grows toward grazing incidence; of the most reflecting colour.
+double reflectance(const Material& m, double c) {
+  double most = 0;
+  for (int colour = 0; colour < 3; ++colour) {
+    const f64::Reflectance r = m.kind == MaterialKind::metal
+                                   ? f64::conductorReflectance(c, m.outsideEta, m.eta[colour], m.k[colour])
+                                   : f64::dielectricReflectance(c, m.outsideEta, m.eta.y);
+    most = std::max({most, r.rs, r.rp});
+  }
+  return most;
+}
+
+// The most that a face reflects of light toward one of the points. The cosine's level sets are cones, so its least
+// value between two convex sets lies at corners; 0 where the points lie on both sides. Angles between that and normal
+// incidence are looked at in steps, because a metal's reflectance may dip and rise.
+double most(const Face& face, std::span<const glm::dvec3> points) {
+  if (!face.material || face.normal == glm::dvec3(0.0)) return 1;
+  double least = 1;
+  double before = 0, behind = 0, size = 0;
+  for (const glm::dvec3& p : points)
+    for (const glm::dvec3& q : face.corners) {
+      const double length = glm::length(p - q), height = glm::dot(p - q, face.normal);
+      before = std::max(before, height);
+      behind = std::max(behind, -height);
+      size = std::max(size, length);
+      least = std::min(least, length > 0 ? std::abs(height) / length : 0);
+    }
+  // In one plane they do not see each other; twice a step of a pack's grid bends it.
+  if (std::max(before, behind) <= kFlat * size) return 0;
+  if (before > 0 && behind > 0) least = 0;
+  constexpr int kSteps = 32;
+  double result = 0;
+  for (int i = 0; i <= kSteps; ++i)
+    result = std::max(result, reflectance(*face.material, least + (1 - least) * i / kSteps));
+  return result;
+}
+
+bool isFlatMirror(const Material& m, const pack::Mesh& mesh) {
+  const bool opaque =
+      m.kind == MaterialKind::metal || m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass;
+  // From a denser side light can be totally reflected.
+  const bool denser = m.kind != MaterialKind::metal && m.outsideEta > m.eta.y;
+  return opaque && !denser && mesh.normals.empty() && m.coating.thicknessNm == 0 && m.roughness == 0 && m.maps.eta < 0;
+}
+
+}  // namespace
+
+std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, double tolerance) {
+  std::vector<Face> faces;
+  for (const pack::Mesh& mesh : scene.meshes) {
+    const Material& m = scene.materials[mesh.material];
+    if (m.kind == MaterialKind::lambert || m.kind == MaterialKind::emitter) continue;
+    for (const glm::uvec3& t : mesh.triangles) {
+      if (faces.size() == kMostFaces) return depth;
+      const glm::dvec3 p0(mesh.positions[t.x]), p1(mesh.positions[t.y]), p2(mesh.positions[t.z]);
+      const glm::dvec3 across = glm::cross(p1 - p0, p2 - p0);
+      const double length = glm::length(across);
+      faces.push_back(
+          {{p0, p1, p2}, length > 0 ? across / length : glm::dvec3(0.0), isFlatMirror(m, mesh) ? &m : nullptr});
+    }
+  }
+  if (faces.empty()) return 0;
+  if (!interfacesSeeEachOther(scene)) depth = std::min(depth, 1u);
+
+  // Step 1: from the eye. Step 2: bounce by bounce, the best way to every face.
+  const std::size_t count = faces.size();
+  std::vector<double> share(count);
+  for (std::size_t j = 0; j < count; ++j) share[j] = most(faces[j], std::array{scene.camera.position});
+  std::vector<double> between;
+  for (std::uint32_t bounce = 1; bounce <= depth; ++bounce) {
+    if (*std::max_element(share.begin(), share.end()) <= tolerance) return bounce - 1;
+    if (bounce == depth) break;
+    if (between.empty()) {
+      between.resize(count * count);
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j)
+          // A flat face does not see itself.
+          between[i * count + j] = i == j && faces[i].material ? 0 : most(faces[j], faces[i].corners);
+    }
+    std::vector<double> next(count, 0);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count; ++j) next[j] = std::max(next[j], share[i] * between[i * count + j]);
+    share = std::move(next);
+  }
+  return depth;
+}
+
+}  // namespace malus::bake

@@ -1,0 +1,44 @@
+#include "render/scene/compiled_effects.h"
+
+#include <algorithm>
+
+#include <shaders/effects.h>
+
+#include "render/scene/float_scene.h"
+
+namespace malus::render {
+
+using shaders::Effect;
+
+static_assert(gpu::kSheet == static_cast<std::uint32_t>(Effect::kSheet), "kinds of surface come first");
+
+std::uint32_t compiledEffects(const pack::Scene& scene, const View& view) {
+  if (view.everyEffect) return shaders::kEveryEffect;
+  std::uint32_t bits = 0;
+  const auto need = [&](Effect effect, bool needed) { bits |= needed ? shaders::bitOf(effect) : 0; };
+  bool diffuse = false, glossy = false;
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const pack::Mesh& mesh : scene.meshes) used[mesh.material] = true;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    const pack::Material& m = scene.materials[i];
+    bits |= 1u << surfaceKind(m.kind);
+    diffuse = diffuse || m.albedo.x > 0 || m.albedo.y > 0 || m.albedo.z > 0;
+    glossy = glossy || m.highlightStrength > 0;
+    need(Effect::kTextures, m.maps.any());
+    need(Effect::kAbsorption, m.absorption != glm::dvec3(0.0) || m.outsideAbsorption != glm::dvec3(0.0));
+    need(Effect::kCoatings, m.coating.thicknessNm > 0);
+    need(Effect::kRoughness, m.roughness > 0 && view.depth > 0);
+    need(Effect::kPolarizedEmitters, m.kind == pack::MaterialKind::emitter && m.polarization > 0);
+  }
+  const bool lit = !scene.lights.empty() && (diffuse || glossy);
+  need(Effect::kPointLights, lit);
+  need(Effect::kShadows, lit && view.shadows);
+  need(Effect::kHighlights, lit && glossy);
+  need(Effect::kFill, diffuse && scene.environment.diffuseFill > 0);
+  need(Effect::kEnvironmentMap, scene.environment.size > 0);
+  need(Effect::kSky, scene.environment.skyDegree > 0);
+  return bits;
+}
+
+}  // namespace malus::render

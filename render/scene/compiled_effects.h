@@ -1,0 +1,14 @@
+// Which parts of the shaders a picture of a scene calls for: what Vulkan's variants and Embree's builds leave out.
+#pragma once
+
+#include <cstdint>
+
+#include "bake/pack/scene.h"
+#include "render/scene/view.h"
+
+namespace malus::render {
+
+// Bits of shaders::Effect; all of them where the view asks for every effect.
+std::uint32_t compiledEffects(const pack::Scene& scene, const View& view);
+
+}  // namespace malus::render

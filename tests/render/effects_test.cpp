@@ -1,0 +1,403 @@
+// What few scenes have (absorption, films, sheets, displays, a clear sky, textures, rough surfaces): closed forms on
+// every renderer, and the scenes of scenes/effects.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "bake/bake.h"
+#include "bake/effects/effects.h"
+#include "bake/scene_file/scene_file.h"
+#include "render/compare/picture_error.h"
+#include "render/embree/renderer.h"
+#include "render/reference/reference.h"
+#include "render/scene/effects_choice.h"
+#include "render/scene/methods.h"
+#include "render/vulkan/renderer.h"
+#include "tests/render/test_scene.h"
+
+namespace malus {
+namespace {
+
+namespace fs = std::filesystem;
+using pack::Material;
+using pack::MaterialKind;
+using render::Picture;
+using render::View;
+
+// S0..S3 of one colour of a pixel.
+using Stokes = std::array<double, 4>;
+Stokes stokesAt(const Picture& p, std::size_t pixel, std::size_t colour) {
+  Stokes s{};
+  for (std::size_t k = 0; k < 4; ++k) s[k] = p.pixels[pixel * p.channels + 3 + 3 * k + colour];
+  return s;
+}
+
+// The picture by every renderer that has Stokes vectors; the reference comes first.
+std::map<std::string, Picture> everywhere(const pack::Scene& scene) {
+  View view = render::viewOf(scene);
+  view.stokes = true;
+  const embree::Renderer embree(scene, 0);
+  vulkan::Renderer vulkan(scene, {});
+  std::map<std::string, Picture> pictures;
+  for (const char* method : {"stokes", "importance"})
+    pictures[std::string("vulkan ") + method] = vulkan.render(method, view);
+  view.checkNumerics = true;
+  pictures["reference"] = reference::render(scene, view, 0);
+  for (const char* method : {"stokes", "importance"})
+    pictures[std::string("embree ") + method] = embree.render(method, view);
+  for (const auto& [name, picture] : pictures) EXPECT_EQ(picture.faults.count, 0u) << name;
+  return pictures;
+}
+
+// The middle pixel's Stokes vector on all of them.
+void expectEverywhere(const pack::Scene& scene, std::size_t colour, const Stokes& truth, double tolerance) {
+  for (const auto& [name, picture] : everywhere(scene)) {
+    const Stokes s = stokesAt(picture, picture.pixels.size() / picture.channels / 2, colour);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(s[k], truth[k], tolerance) << name << ", S" << k;
+  }
+}
+
+// Looks along -z from z = 5.
+pack::Scene along(std::uint32_t depth) {
+  pack::Scene scene = test::emptyScene(depth);
+  test::look(scene, {0.013, 0.017, 5}, {0.013, 0.017, 0});
+  return scene;
+}
+
+Material sheet(MaterialKind kind, double axisDegrees) {
+  Material m;
+  m.name = "sheet";
+  m.kind = kind;
+  const double a = axisDegrees * std::numbers::pi / 180;
+  m.axis = {std::cos(a), std::sin(a), 0};
+  if (kind == MaterialKind::polarizer) m.across = glm::dvec3(0);
+  if (kind == MaterialKind::wavePlate) m.retardanceDegrees = glm::dvec3(90);
+  return m;
+}
+
+TEST(EffectClosedForms, MalusLaw) {
+  // Polarizers at 0 and 30 degrees, the second the nearer: half of the light, then cos^2 30.
+  pack::Scene scene = along(4);
+  scene.environment.radiance = glm::dvec3(1);
+  test::addSquare(scene, test::addMaterial(scene, sheet(MaterialKind::polarizer, 0)), {0, 0, 0}, {0, 0, 1}, 1);
+  test::addSquare(scene, test::addMaterial(scene, sheet(MaterialKind::polarizer, 30)), {0, 0, 1}, {0, 0, 1}, 1);
+  const double s0 = 0.5 * 0.75;
+  expectEverywhere(scene, 0, {s0, s0 * 0.5, s0 * std::sqrt(0.75), 0}, 1e-6);
+  // From behind they are the same sheets.
+  for (pack::Mesh& mesh : scene.meshes)
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+  expectEverywhere(scene, 0, {s0, s0 * 0.5, s0 * std::sqrt(0.75), 0}, 1e-6);
+}
+
+TEST(EffectClosedForms, QuarterWaveMakesCircularLight) {
+  // Light along x through a plate whose fast axis is at +45 degrees: in the plate's frame it has S2 = -1, which
+  // G turns into S3 = +1 (sin delta times -S2): right circular.
+  pack::Scene scene = along(4);
+  scene.environment.radiance = glm::dvec3(1);
+  test::addSquare(scene, test::addMaterial(scene, sheet(MaterialKind::polarizer, 0)), {0, 0, 0}, {0, 0, 1}, 1);
+  const std::uint32_t plate = test::addMaterial(scene, sheet(MaterialKind::wavePlate, 45));
+  test::addSquare(scene, plate, {0, 0, 1}, {0, 0, 1}, 1);
+  expectEverywhere(scene, 1, {0.5, 0, 0, 0.5}, 1e-6);
+  scene.materials[plate].retardanceDegrees = glm::dvec3(180);  // a half wave turns it to the y axis
+  expectEverywhere(scene, 1, {0.5, -0.5, 0, 0}, 1e-6);
+  // As the plate in front of a camera's filter (view.h), a third implementation: behind a quarter wave and a linear
+  // filter at 0, light from +45 degrees.
+  pack::Scene bare = along(4);
+  Material panel = test::emitter(glm::dvec3(1));
+  panel.axis = glm::normalize(glm::dvec3(1, 1, 0));
+  panel.polarization = 1;
+  test::addSquare(bare, test::addMaterial(bare, panel), {0, 0, -1}, {0, 0, 1}, 1);
+  pack::Scene withPlate = bare;
+  test::addSquare(withPlate, test::addMaterial(withPlate, sheet(MaterialKind::wavePlate, 20)), {0, 0, 1}, {0, 0, 1}, 1);
+  View view = render::viewOf(bare);
+  view.analyser = render::behindWavePlate(render::linearPolarizer(70), {20, 90});
+  const double filtered = reference::render(bare, view, 0).pixels[0];
+  view.analyser = render::linearPolarizer(70);
+  EXPECT_NEAR(reference::render(withPlate, view, 0).pixels[0], filtered, 1e-6);
+}
+
+TEST(EffectClosedForms, DisplayIsSeenAtItsAngleAndDegree) {
+  pack::Scene scene = along(2);
+  Material panel = test::emitter({3, 2, 1});
+  panel.axis = {std::cos(0.3), std::sin(0.3), 0};
+  panel.polarization = 0.75;
+  test::addSquare(scene, test::addMaterial(scene, panel), {0, 0, 0}, {0, 0, 1}, 1);
+  expectEverywhere(scene, 0, {3, 3 * 0.75 * std::cos(0.6), 3 * 0.75 * std::sin(0.6), 0}, 2e-6);
+  // Seen slantwise the field lies across the absorbing axis: that of a panel turned about its own field does not move.
+  test::look(scene, {4, 0, 4}, {0, 0, 0});
+  scene.materials[0].axis = {1, 0, 0};
+  expectEverywhere(scene, 0, {3, 3 * 0.75, 0, 0}, 2e-6);
+}
+
+TEST(EffectClosedForms, DisplayVanishesInAGlassTableAtBrewstersAngle) {
+  const double brewster = std::atan(1.5), s = std::sin(brewster), c = std::cos(brewster);
+  const auto image = [&](const glm::dvec3& axis) {
+    pack::Scene scene = test::emptyScene(1);
+    test::look(scene, {0, 3 * c, 3 * s}, {0, 0, 0});
+    test::addSquare(scene, test::addMaterial(scene, test::dielectric(MaterialKind::mirrorGlass, 1.5)), {0, 0, 0},
+                    {0, 1, 0}, 1);
+    Material panel = test::emitter(glm::dvec3(1));
+    panel.axis = axis;
+    panel.polarization = 1;
+    test::addSquare(scene, test::addMaterial(scene, panel), {0, 3 * c, -3 * s}, {0, -c, s}, 0.5);
+    return scene;
+  };
+  const double rs = std::pow((1 - 1.5 * 1.5) / (1 + 1.5 * 1.5), 2);
+  expectEverywhere(image({1, 0, 0}), 0, {rs, rs, 0, 0}, 1e-6);          // field along the table
+  expectEverywhere(image({0, s, c}), 0, {0, 0, 0, 0}, 1e-6);            // field in the plane of incidence
+  expectEverywhere(image({1, s, c}), 0, {rs / 2, rs / 2, 0, 0}, 2e-6);  // half and half
+}
+
+TEST(EffectClosedForms, SkyIsPolarizedAcrossTheSun) {
+  pack::Scene scene = along(0);
+  test::addSquare(scene, test::addMaterial(scene, {}), {0, 0, 100}, {0, 0, -1}, 1);  // behind the eye
+  scene.environment.radiance = {1, 2, 4};
+  scene.environment.skyDegree = 0.8;
+  // The sun to the right, at 90 degrees: the field is upright (S1 < 0); phase 3/4.
+  scene.environment.sun = {1, 0, 0};
+  expectEverywhere(scene, 2, {3, -3 * 0.8, 0, 0}, 3e-6);
+  // 60 degrees from the view, in the direction of +45 degrees of the picture: field at 135.
+  scene.environment.sun = {std::sin(std::numbers::pi / 3) * std::sqrt(0.5),
+                           std::sin(std::numbers::pi / 3) * std::sqrt(0.5), -0.5};
+  const double phase = 0.75 * 1.25, degree = 0.8 * 0.75 / 1.25;
+  expectEverywhere(scene, 0, {phase, 0, -phase * degree, 0}, 2e-6);
+  // Into the sun it is not polarized.
+  scene.environment.sun = {0, 0, -1};
+  expectEverywhere(scene, 0, {1.5, 0, 0, 0}, 2e-6);
+}
+
+TEST(EffectClosedForms, GlassTakesWhatBeerAndLambertSay) {
+  // A thick plate at normal incidence, lit from behind; depth 2 leaves the straight way alone.
+  pack::Scene scene = along(2);
+  Material glass = test::dielectric(MaterialKind::glass, 1.5);
+  glass.absorption = {0, 1, 10};
+  const std::uint32_t material = test::addMaterial(scene, glass);
+  test::addSquare(scene, material, {0, 0, 1}, {0, 0, 1}, 1);
+  test::addSquare(scene, material, {0, 0, 0.75}, {0, 0, -1}, 1);
+  scene.meshes[0].sheet = scene.meshes[1].sheet = true;
+  test::addSquare(scene, test::addMaterial(scene, test::emitter(glm::dvec3(1))), {0, 0, 0}, {0, 0, 1}, 1);
+  const double t = 0.96 * 0.96;
+  expectEverywhere(scene, 0, {t, 0, 0, 0}, 2e-6);
+  expectEverywhere(scene, 1, {t * std::exp(-0.25), 0, 0, 0}, 2e-6);
+  expectEverywhere(scene, 2, {t * std::exp(-2.5), 0, 0, 0}, 2e-6);
+  // The medium outside: 4 m from the eye to the plate, 0.75 m behind it.
+  scene.materials[0].absorption = glm::dvec3(0);
+  scene.materials[0].outsideAbsorption = scene.materials[1].outsideAbsorption = glm::dvec3(0.1);
+  expectEverywhere(scene, 0, {t * std::exp(-0.475), 0, 0, 0}, 2e-6);
+}
+
+TEST(EffectClosedForms, QuarterWaveCoatingTakesTheReflectionAway) {
+  // An index of sqrt(1.5) and a quarter of the green wavelength: nothing of it is reflected, all of it goes through.
+  pack::Scene scene = along(1);
+  scene.environment.radiance = glm::dvec3(1);
+  Material coated = test::dielectric(MaterialKind::mirrorGlass, 1.5);
+  coated.coating = {glm::dvec3(std::sqrt(1.5)), 532 / (4 * std::sqrt(1.5))};
+  test::addSquare(scene, test::addMaterial(scene, coated), {0, 0, 0}, {0, 0, 1}, 1);
+  expectEverywhere(scene, 1, {0, 0, 0, 0}, 1e-6);
+  // At another wavelength: Airy's formula for one angle, R = 4 r^2 cos^2(beta)/(1 + 2 r^2 cos(2 beta) + r^4).
+  const double n = std::sqrt(1.5), r2 = std::pow((n - 1) / (n + 1), 2), beta = std::numbers::pi / 2 * 532 / 465;
+  expectEverywhere(scene, 2,
+                   {4 * r2 * std::pow(std::cos(beta), 2) / (1 + 2 * r2 * std::cos(2 * beta) + r2 * r2), 0, 0, 0}, 1e-6);
+  // Through a coated pane, both faces coated: all of it.
+  pack::Scene pane = along(2);
+  coated.kind = MaterialKind::glass;
+  const std::uint32_t glass = test::addMaterial(pane, coated);
+  test::addSquare(pane, glass, {0, 0, 1}, {0, 0, 1}, 1);
+  test::addSquare(pane, glass, {0, 0, 0.75}, {0, 0, -1}, 1);
+  test::addSquare(pane, test::addMaterial(pane, test::emitter(glm::dvec3(1))), {0, 0, 0}, {0, 0, 1}, 1);
+  expectEverywhere(pane, 1, {1, 0, 0, 0}, 2e-6);
+}
+
+TEST(EffectClosedForms, TexturesAreWhatTheirPicturesSay) {
+  pack::Scene scene = along(0);
+  scene.environment.radiance = glm::dvec3(1);
+  scene.environment.diffuseFill = 1;
+  scene.environment.irradiance[0] = glm::dvec3(std::numbers::pi);
+  Material wall;
+  wall.albedo = {1, 0.5, 1};
+  wall.maps = {0, -1, -1, {-1, 1, 0}, {0.5, 0, 0}, {0, -0.5, 0}};  // the square, its upper left corner first
+  scene.textures = {{"", 2, 2, {{0.1f, 0.2f, 0.3f}, {0.4f, 0.5f, 0.6f}, {0.7f, 0.8f, 0.9f}, {1, 0, 0.25f}}}};
+  test::addSquare(scene, test::addMaterial(scene, wall), {0, 0, 0}, {0, 0, 1}, 1);
+  const auto lookAt = [&](double x, double y) { test::look(scene, {x, y, 5}, {x, y, 0}); };
+  lookAt(-0.5, 0.5);
+  expectEverywhere(scene, 0, {0.1, 0, 0, 0}, 2e-6);
+  expectEverywhere(scene, 1, {0.1, 0, 0, 0}, 2e-6);
+  lookAt(0.5, 0.5);
+  expectEverywhere(scene, 2, {0.6, 0, 0, 0}, 2e-6);
+  lookAt(-0.5, -0.5);
+  expectEverywhere(scene, 0, {0.7, 0, 0, 0}, 2e-6);
+  lookAt(0.013, 0.5);  // half way: bilinear
+  expectEverywhere(scene, 0, {0.25 + 0.013 * 0.3, 0, 0, 0}, 2e-6);
+  // A map of the index: Fresnel at normal incidence.
+  scene.depth = 1;
+  scene.materials[0] = test::dielectric(MaterialKind::mirrorGlass, 1.5);
+  scene.materials[0].maps = {-1, 0, -1, {-1, 1, 0}, {0.5, 0, 0}, {0, -0.5, 0}};
+  for (glm::vec3& t : scene.textures[0].texels) t = glm::vec3(1.5f);
+  scene.textures[0].texels[1] = glm::vec3(2);
+  lookAt(0.5, 0.5);
+  expectEverywhere(scene, 0, {1.0 / 9, 0, 0, 0}, 1e-6);
+  lookAt(-0.5, 0.5);
+  expectEverywhere(scene, 0, {0.04, 0, 0, 0}, 1e-6);
+}
+
+TEST(EffectClosedForms, RoughMirrorsKeepWhatTheyReflect) {
+  // In uniform light a mirror that reflects all gives back what its facets do not hide from each other: 0.8273 by the
+  // integral over directions (facets_test.cpp), 16 facets within 1 %.
+  pack::Scene scene = test::emptyScene(1);
+  test::look(scene, {0, 2, 3}, {0, 0, 0});
+  scene.environment.radiance = glm::dvec3(1);
+  Material mirror = test::metal(glm::dvec3(1e-3), glm::dvec3(1e3));
+  mirror.roughness = 0.3;
+  test::addSquare(scene, test::addMaterial(scene, mirror), {0, 0, 0}, {0, 1, 0}, 1);
+  const Stokes rough = stokesAt(reference::render(scene, render::viewOf(scene), 0), 0, 0);
+  EXPECT_NEAR(rough[0], 0.8273, 0.01);
+  expectEverywhere(scene, 0, rough, 3e-6);
+  // A nearly smooth one is the smooth one, its polarization too.
+  scene.materials[0] = test::dielectric(MaterialKind::mirrorGlass, 1.5);
+  const Stokes smooth = stokesAt(reference::render(scene, render::viewOf(scene), 0), 0, 0);
+  scene.materials[0].roughness = 1e-4;
+  expectEverywhere(scene, 0, smooth, 2e-5);
+  // A rough one is less polarized.
+  scene.materials[0].roughness = 0.5;
+  const Stokes dull = stokesAt(reference::render(scene, render::viewOf(scene), 0), 0, 0);
+  EXPECT_LT(dull[1] / dull[0], 0.95 * smooth[1] / smooth[0]);
+  expectEverywhere(scene, 0, dull, 3e-6);
+}
+
+// The scenes, and the effect that each is there for.
+struct EffectScene {
+  const char* effect;
+  double leastChange;  // relative RMS error of the picture without the effect
+};
+const std::map<std::string, EffectScene>& scenes() {
+  static const std::map<std::string, EffectScene> kScenes = {
+      {"textures", {"textures", 0.1}},
+      {"absorption", {"absorption", 0.1}},
+      {"polarized-sky", {"polarized-sky", 0.02}},
+      {"display", {"polarized-emitters", 0.02}},
+      {"polarizing-sheets", {"polarizing-sheets", 0.1}},
+      {"coating", {"coatings", 0.1}},
+      {"rough-reflection", {"rough-reflection", 0.05}},
+  };
+  return kScenes;
+}
+
+const pack::Scene& sceneNamed(const std::string& name) {
+  static std::map<std::string, pack::Scene> baked;
+  if (const auto found = baked.find(name); found != baked.end()) return found->second;
+  const fs::path file = fs::path(MALUS_SCENES) / "effects" / name / "scene.json";
+  pack::Scene scene = bake::bake(bake::readSceneFile(file), {}, [](std::string_view) {}).scene;
+  scene.height = scene.height * 160 / scene.width;
+  scene.width = 160;
+  return baked.emplace(name, std::move(scene)).first->second;
+}
+
+class EffectScenes : public testing::TestWithParam<std::string> {};
+
+TEST_P(EffectScenes, RenderersAgreeWithTheReference) {
+  const auto pictures = everywhere(sceneNamed(GetParam()));
+  const Picture& truth = pictures.at("reference");
+  for (const auto& [name, picture] : pictures) {
+    ASSERT_EQ(picture.pixels.size(), truth.pixels.size());
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < truth.pixels.size(); i += truth.channels) {
+      double largest = 0;
+      for (std::size_t k = 0; k < truth.channels; ++k)
+        largest = std::max(largest, static_cast<double>(std::abs(picture.pixels[i + k] - truth.pixels[i + k])));
+      if (largest > 1e-3) ++off;
+    }
+    EXPECT_LE(off, 3u) << name;  // at edges
+  }
+}
+
+TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
+  const pack::Scene& scene = sceneNamed(GetParam());
+  const EffectScene& expected = scenes().at(GetParam());
+  for (const auto& [name, other] : scenes())
+    EXPECT_EQ(bake::isOn(scene.effects, other.effect), name == GetParam()) << other.effect;
+  // Without it the picture is another.
+  const View view = render::viewOf(scene);
+  const Picture truth = reference::render(scene, view, 0),
+                without = reference::render(bake::withoutEffects(scene, {expected.effect}), view, 0);
+  EXPECT_GT(render::pictureError(without, truth, 0).relRms, expected.leastChange);
+  // What is forced off is warned of.
+  std::vector<std::string> kept;
+  for (const pack::Effect& e : scene.effects)
+    if (e.name != expected.effect) kept.push_back(e.name);
+  const bake::PictureRequest request{view.depth, view.analyser, false, false};
+  const auto choice = render::chooseEffects(kept, "stokes", scene, request);
+  ASSERT_EQ(choice.off, std::vector<std::string>{expected.effect});
+  ASSERT_EQ(choice.warnings.size(), 1u);
+  EXPECT_NE(choice.warnings[0].find(expected.effect), std::string::npos);
+}
+
+TEST_P(EffectScenes, AutoEqualsAll) {
+  const pack::Scene& scene = sceneNamed(GetParam());
+  const embree::Renderer embree(scene, 0);
+  vulkan::Renderer vulkan(scene, {});
+  View view = render::viewOf(scene);
+  for (const std::string& method : render::methodNames()) {
+    const auto expectEqual = [&](const auto& draw, const char* what) {
+      view.everyEffect = false;
+      const Picture some = draw();
+      view.everyEffect = true;
+      const Picture all = draw();
+      double largest = 0;
+      for (std::size_t i = 0; i < all.pixels.size(); ++i)
+        largest = std::max(largest, static_cast<double>(std::abs(all.pixels[i] - some.pixels[i])));
+      EXPECT_LT(largest, 2e-5) << what << ' ' << method;  // radiances of up to 4
+    };
+    expectEqual([&] { return embree.render(method, view); }, "embree");
+    if (method == "stokes" || method == "importance")
+      expectEqual([&] { return vulkan.render(method, view); }, "vulkan");
+  }
+}
+
+// A path that loses no more than the tolerance changes a pixel by no more than that of what there is to see; at 0
+// nothing is lost.
+TEST_P(EffectScenes, ToleranceBoundsTheError) {
+  const pack::Scene& scene = sceneNamed(GetParam());
+  const embree::Renderer embree(scene, 0);
+  View view = render::viewOf(scene);
+  const Picture exact = embree.render("importance", view);
+  const float most = *std::max_element(exact.pixels.begin(), exact.pixels.end());
+  std::uint64_t rays = exact.cost.rays;
+  for (const double tolerance : {1e-6, 1e-3, 0.05}) {
+    view.tolerance = tolerance;
+    const Picture picture = embree.render("importance", view);
+    EXPECT_LE(picture.cost.rays, rays);
+    rays = picture.cost.rays;
+    double largest = 0;
+    for (std::size_t i = 0; i < exact.pixels.size(); ++i)
+      largest = std::max(largest, static_cast<double>(std::abs(picture.pixels[i] - exact.pixels[i])));
+    EXPECT_LE(largest, (view.depth + 16) * tolerance * most) << tolerance;
+  }
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> list;
+  for (const auto& [name, expected] : scenes()) list.push_back(name);
+  return list;
+}
+INSTANTIATE_TEST_SUITE_P(All, EffectScenes, testing::ValuesIn(names()), [](const auto& given) {
+  std::string name = given.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST(EffectScene, EveryFolderIsListed) {
+  std::set<std::string> folders;
+  for (const auto& entry : fs::directory_iterator(fs::path(MALUS_SCENES) / "effects"))
+    folders.insert(entry.path().filename());
+  const std::vector<std::string> listed = names();
+  EXPECT_EQ(folders, (std::set<std::string>(listed.begin(), listed.end())));
+}
+
+}  // namespace
+}  // namespace malus

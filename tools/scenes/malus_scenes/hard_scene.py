@@ -1,5 +1,5 @@
-"""What the hard scenes share: small pictures with a pixel in their exact centre, and a README whose first
-line is the scene's title, the failure that it provokes."""
+"""What the hard scenes and those of effects share: small pictures with a pixel in their exact centre, and a README
+whose first line is the scene's title, the failure that it provokes or the effect that it shows."""
 import math
 
 from .scene import total, write_scene

@@ -1,0 +1,43 @@
+"""Small pictures that materials take their colours and indices from: PNG and EXR files without compression,
+the same bytes in every run and with every version of a library."""
+import struct
+import zlib
+
+
+def write_png(path, rows):
+    """rows: lists of (red, green, blue), 0 to 255, top row first."""
+    data = b"".join(b"\0" + bytes(c for pixel in row for c in pixel) for row in rows)
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + _chunk(b"IDAT", _stored(data)) +
+                     _chunk(b"IEND", b""))
+
+
+def write_exr(path, rows):
+    """rows: lists of numbers, top row first; each becomes a half in R, G and B."""
+    width, height = len(rows[0]), len(rows)
+    channels = b"".join(name + struct.pack("<xIIII", 1, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<iiii", 0, 0, width - 1, height - 1)
+    attributes = [(b"channels", b"chlist", channels), (b"compression", b"compression", b"\0"),
+                  (b"dataWindow", b"box2i", window), (b"displayWindow", b"box2i", window),
+                  (b"lineOrder", b"lineOrder", b"\0"), (b"pixelAspectRatio", b"float", struct.pack("<f", 1.0)),
+                  (b"screenWindowCenter", b"v2f", struct.pack("<ff", 0.0, 0.0)),
+                  (b"screenWindowWidth", b"float", struct.pack("<f", 1.0))]
+    head = struct.pack("<II", 20000630, 2)
+    head += b"".join(name + b"\0" + kind + b"\0" + struct.pack("<I", len(value)) + value
+                     for name, kind, value in attributes) + b"\0"
+    lines = [struct.pack("<iI", y, 6 * width) + 3 * struct.pack(f"<{width}e", *row) for y, row in enumerate(rows)]
+    first = len(head) + 8 * height
+    offsets = b"".join(struct.pack("<Q", first + y * len(lines[0])) for y in range(height))
+    path.write_bytes(head + offsets + b"".join(lines))
+
+
+def _chunk(kind, body):
+    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+
+def _stored(data):
+    """A zlib stream of blocks that are stored as they are."""
+    starts = range(0, len(data), 65535)
+    blocks = [struct.pack("<BHH", start == starts[-1], len(block), 65535 - len(block)) + block
+              for start, block in ((start, data[start:start + 65535]) for start in starts)]
+    return b"\x78\x01" + b"".join(blocks) + struct.pack(">I", zlib.adler32(data))

@@ -13,6 +13,8 @@
 #include "render/embree/renderer.h"
 #include "render/image/output.h"
 #include "render/reference/reference.h"
+#include "render/scene/compiled_effects.h"
+#include "render/scene/effects_choice.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
 
@@ -68,6 +70,44 @@ struct Group {
   std::vector<std::size_t> rows;
 };
 
+// Intensities of the pictures that the effects' table compares, while they are needed.
+class EffectsPictures {
+ public:
+  void add(std::size_t row, const Picture& picture) {
+    std::vector<float>& rgb = pictures_[row];
+    for (std::size_t i = 0; i < picture.pixels.size(); i += picture.channels)
+      rgb.insert(rgb.end(), {picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]});
+  }
+  double difference(std::size_t a, std::size_t b) const {
+    double largest = 0;
+    if (!pictures_.contains(a) || !pictures_.contains(b)) return largest;
+    for (std::size_t i = 0; i < pictures_.at(a).size(); ++i)
+      largest = std::max(largest, static_cast<double>(std::abs(pictures_.at(a)[i] - pictures_.at(b)[i])));
+    return largest;
+  }
+  double brightest(std::size_t row) const {
+    const auto found = pictures_.find(row);
+    return found == pictures_.end() ? 0 : *std::max_element(found->second.begin(), found->second.end());
+  }
+
+ private:
+  std::map<std::size_t, std::vector<float>> pictures_;
+};
+
+// The methods of a comparison, each with what the scene calls for, and `stokes` and `importance` once more with
+// everything.
+struct Draw {
+  std::string method;
+  bool everyEffect;
+};
+std::vector<Draw> drawsOf(const std::vector<std::string>& methods) {
+  std::vector<Draw> draws;
+  for (const std::string& method : methods) draws.push_back({method, false});
+  for (const char* method : {"stokes", "importance"})
+    if (std::find(methods.begin(), methods.end(), method) != methods.end()) draws.push_back({method, true});
+  return draws;
+}
+
 std::string stem(const std::string& scene, const View& view, const std::string& what) {
   return fmt::format("{}-{}x{}-d{}-{}", scene, view.width, view.height, view.depth, what);
 }
@@ -99,7 +139,9 @@ std::vector<View> viewsOf(const pack::Scene& scene, const ComparisonSettings& se
 // One render of a row, its times kept where `timed`.
 Picture renderRow(ComparisonRow& row, Group& group, bool timed) {
   const double cpuBefore = cpuMs();
-  Picture picture = group.renderers->render(row.renderer, row.method, group.view);
+  View view = group.view;
+  view.everyEffect = row.everyEffect;
+  Picture picture = group.renderers->render(row.renderer, row.method, view);
   const double cpu = cpuMs() - cpuBefore;
   if (timed) {
     row.samplesMs.push_back(picture.cost.traceMs);
@@ -131,10 +173,20 @@ void summarize(Comparison& comparison, const std::vector<Group>& groups) {
       for (const std::size_t j : group.rows) {
         const ComparisonRow& other = comparison.rows[j];
         if (other.renderer != row.renderer || !other.ok() || other.samplesMs.size() != row.samplesMs.size()) continue;
+        if (other.everyEffect) continue;
         if (other.method == "schlick") row.ratioToSchlick = ratioSpread(row.samplesMs, other.samplesMs);
-        if (i != j && indistinguishable(row.samplesMs, other.samplesMs)) row.indistinguishable.push_back(other.method);
+        if (i != j && !row.everyEffect && indistinguishable(row.samplesMs, other.samplesMs))
+          row.indistinguishable.push_back(other.method);
       }
     }
+  for (EffectsComparison& e : comparison.effects) {
+    const auto ratio = [&](std::size_t i) {
+      const std::vector<double>&a = comparison.rows[i].samplesMs, &b = comparison.rows[e.all].samplesMs;
+      return a.empty() || a.size() != b.size() ? Spread{} : ratioSpread(a, b);
+    };
+    if (e.automatic != EffectsComparison::kNoRow) e.automaticToAll = ratio(e.automatic);
+    if (e.importance != EffectsComparison::kNoRow) e.importanceToAll = ratio(e.importance);
+  }
 }
 
 }  // namespace
@@ -173,25 +225,45 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
       writePicture(folder / "pictures" / comparison.references.back().picture,
                    toImage(reference, pack, view, "reference", "reference"), 0);
       groups.push_back({&pack, view, renderers, {}});
-      for (const std::string& backend : settings.backends)
-        for (const std::string& method : settings.methods) {
+      const EffectsChoice cheapest =
+          chooseEffects({"auto"}, "stokes", pack.scene, {view.depth, view.analyser, false, false});
+      for (const std::string& backend : settings.backends) {
+        EffectsPictures pictures;
+        EffectsComparison effects;
+        effects.why = cheapest.why;
+        for (const auto& [method, everyEffect] : drawsOf(settings.methods)) {
           if (interrupted()) break;
-          progress(
-              fmt::format("{} {} x {}, depth {}: {} {}", name, view.width, view.height, view.depth, backend, method));
+          progress(fmt::format("{} {} x {}, depth {}: {} {}{}", name, view.width, view.height, view.depth, backend,
+                               method, everyEffect ? ", all effects" : ""));
           ComparisonRow row;
           row.scene = name;
           row.renderer = backend;
           row.method = method;
+          row.everyEffect = everyEffect;
           row.width = view.width;
           row.height = view.height;
           row.depth = view.depth;
-          row.payloadBytes = methodNamed(method).payloadBytes;
+          const MethodInfo& info = methodNamed(method);
+          row.payloadBytes = info.payloadBytes;
+          View drawn = view;
+          drawn.everyEffect = everyEffect;
+          if (info.isLoop)
+            row.stateBytes = info.pathBytes * (1 + waitingWays(compiledEffects(pack.scene, drawn), view.depth));
           try {
             const Picture picture = renderRow(row, groups.back(), false);
-            row.rays = renderers->countRays(backend, method, view, picture);
+            row.rays = renderers->countRays(backend, method, drawn, picture);
             row.error = pictureError(picture, reference, pack.scene.exposureEv);
-            row.picture = stem(name, view, backend + "-" + method) + ".exr";
-            writePicture(folder / "pictures" / row.picture, toImage(picture, pack, view, backend, method), 0);
+            if (!everyEffect) {
+              row.picture = stem(name, view, backend + "-" + method) + ".exr";
+              writePicture(folder / "pictures" / row.picture, toImage(picture, pack, view, backend, method), 0);
+            }
+            const std::size_t index = comparison.rows.size();
+            const bool isAll = everyEffect && method == "stokes", isAuto = !everyEffect && method == cheapest.method,
+                       isImportance = !everyEffect && method == "importance";
+            if (isAll) effects.all = index;
+            if (isAuto) effects.automatic = index;
+            if (isImportance) effects.importance = index;
+            if (isAll || isAuto || isImportance) pictures.add(index, picture);
             comparison.devices[backend] = renderers->device(backend);
           } catch (const Error& error) {
             row.status = error.what();
@@ -199,6 +271,12 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
           groups.back().rows.push_back(comparison.rows.size());
           comparison.rows.push_back(std::move(row));
         }
+        if (effects.all == EffectsComparison::kNoRow) continue;
+        effects.automaticDifference = pictures.difference(effects.automatic, effects.all);
+        effects.importanceDifference = pictures.difference(effects.importance, effects.all);
+        effects.brightest = pictures.brightest(effects.all);
+        comparison.effects.push_back(std::move(effects));
+      }
     }
   }
 

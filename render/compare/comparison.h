@@ -37,8 +37,10 @@ struct ComparisonSettings {
 // One method on one renderer with one view of one scene.
 struct ComparisonRow {
   std::string scene, renderer, method;
+  bool everyEffect = false;  // everything compiled in; else what the picture calls for
   std::uint32_t width = 0, height = 0, depth = 0;
   std::size_t payloadBytes = 0;
+  std::size_t stateBytes = 0;  // of a loop: the path at hand and those that may wait
   std::uint64_t rays = 0;
   std::vector<double> samplesMs;  // tracing alone, one a round; on Vulkan by the device's clock
   std::vector<double> wallMs, cpuMs, readBackMs;
@@ -58,11 +60,24 @@ struct ComparisonReference {
   std::string picture;
 };
 
+// What it saves to simulate only what a scene calls for: the exact intensity by `stokes` with everything compiled in,
+// by the cheapest exact method that the effects allow (--effects auto), and by `importance`. Rows of one renderer and
+// view, by their place in Comparison::rows; kNoRow where one is missing or failed.
+struct EffectsComparison {
+  static constexpr std::size_t kNoRow = ~std::size_t{0};
+  std::size_t all = kNoRow, automatic = kNoRow, importance = kNoRow;
+  std::string why;                         // why auto takes another method than `stokes`; empty: it does not
+  Spread automaticToAll, importanceToAll;  // ratios of times of the same rounds
+  double automaticDifference = 0, importanceDifference = 0;  // largest of any pixel and colour, against `all`
+  double brightest = 0;                                      // of any pixel and colour in `all`
+};
+
 struct Comparison {
   std::map<std::string, pack::Pack> packs;     // by scene name
   std::map<std::string, std::string> devices;  // by renderer
   std::vector<ComparisonReference> references;
   std::vector<ComparisonRow> rows;
+  std::vector<EffectsComparison> effects;
   nlohmann::json gpuModel = nlohmann::json::array();  // one entry a family, scene and method
   std::uint32_t rounds = 0;                           // finished ones
   bool interrupted = false;

@@ -17,10 +17,11 @@ json number(double value) { return std::isfinite(value) ? json(value) : json(); 
 double medianOf(const std::vector<double>& values) { return values.empty() ? 0 : spreadOf(values).median; }
 
 json toJson(const ComparisonRow& row) {
-  json result = {
-      {"scene", row.scene},  {"renderer", row.renderer}, {"method", row.method}, {"effects", "auto"},
-      {"width", row.width},  {"height", row.height},     {"depth", row.depth},   {"payloadBytes", row.payloadBytes},
-      {"status", row.status}};
+  json result = {{"scene", row.scene},           {"renderer", row.renderer},
+                 {"method", row.method},         {"effects", row.everyEffect ? "all" : "auto"},
+                 {"width", row.width},           {"height", row.height},
+                 {"depth", row.depth},           {"payloadBytes", row.payloadBytes},
+                 {"stateBytes", row.stateBytes}, {"status", row.status}};
   const bool drawn = row.ok(), timed = drawn && !row.samplesMs.empty();
   const auto when = [](bool known, json value) { return known ? std::move(value) : json(); };
   result["rays"] = when(drawn, row.rays);
@@ -44,14 +45,46 @@ json toJson(const ComparisonRow& row) {
                                  {"shareOver1Percent", row.error.shareOver1Percent},
                                  {"perceptual", row.error.perceptual},
                                  {"energyRatio", number(row.error.energyRatio)}});
-  result["picture"] = when(drawn, fmt::format("pictures/{}", row.picture));
+  result["picture"] = when(drawn && !row.picture.empty(), fmt::format("pictures/{}", row.picture));
   return result;
+}
+
+json spreadJson(const Spread& s) {
+  return s.median > 0 ? json{{"median", s.median}, {"low", s.low}, {"high", s.high}} : json();
+}
+
+// One row of the effects' table: the rows that it is made of are repeated, so that it stands alone.
+json toJson(const EffectsComparison& e, const Comparison& comparison) {
+  const auto rowOf = [&](std::size_t i) {
+    if (i == EffectsComparison::kNoRow) return json();
+    const ComparisonRow& r = comparison.rows[i];
+    return json{{"method", r.method},
+                {"medianMs", r.samplesMs.empty() ? json() : json(r.time.median)},
+                {"rays", r.rays},
+                {"payloadBytes", r.payloadBytes},
+                {"stateBytes", r.stateBytes}};
+  };
+  const ComparisonRow& all = comparison.rows[e.all];
+  json automatic = rowOf(e.automatic), importance = rowOf(e.importance);
+  if (!automatic.is_null()) {
+    automatic["ratioToAll"] = spreadJson(e.automaticToAll);
+    automatic["largestDifference"] = number(e.automaticDifference);
+    automatic["why"] = e.why;
+  }
+  if (!importance.is_null()) {
+    importance["ratioToAll"] = spreadJson(e.importanceToAll);
+    importance["largestDifference"] = number(e.importanceDifference);
+  }
+  return {{"scene", all.scene},   {"renderer", all.renderer}, {"width", all.width},
+          {"height", all.height}, {"depth", all.depth},       {"all", rowOf(e.all)},
+          {"auto", automatic},    {"importance", importance}, {"brightest", e.brightest}};
 }
 
 }  // namespace
 
 json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
-  json scenes = json::object(), references = json::array(), rows = json::array(), exposure = json::object();
+  json scenes = json::object(), references = json::array(), rows = json::array(), everything = json::array(),
+       effects = json::array(), exposure = json::object();
   for (const auto& [name, pack] : comparison.packs) {
     scenes[name] = {{"title", pack.scene.title},
                     {"vertices", pack.scene.vertexCount()},
@@ -66,7 +99,8 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
                           {"height", r.height},
                           {"depth", r.depth},
                           {"picture", fmt::format("pictures/{}", r.picture)}});
-  for (const ComparisonRow& row : comparison.rows) rows.push_back(toJson(row));
+  for (const ComparisonRow& row : comparison.rows) (row.everyEffect ? everything : rows).push_back(toJson(row));
+  for (const EffectsComparison& e : comparison.effects) effects.push_back(toJson(e, comparison));
   return {{"malus", MALUS_VERSION},
           {"commit", MALUS_COMMIT},
           {"compiler", fmt::format("{} {}", MALUS_COMPILER, __VERSION__)},
@@ -88,12 +122,15 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
           {"scenes", scenes},
           {"references", references},
           {"rows", rows},
+          {"rowsWithAllEffects", everything},
+          {"effects", effects},
           {"gpuModel", comparison.gpuModel}};
 }
 
 std::string toCsv(const Comparison& comparison) {
   std::string text =
-      "scene,renderer,method,width,height,depth,payloadBytes,rays,medianMs,lowMs,highMs,wallMs,cpuMs,buildMs,uploadMs,"
+      "scene,renderer,method,effects,width,height,depth,payloadBytes,stateBytes,rays,medianMs,lowMs,highMs,wallMs,"
+      "cpuMs,buildMs,uploadMs,"
       "compileMs,readBackMs,ratioToSchlick,ratioLow,ratioHigh,meanAbs,maxAbs,relRms,shareOver1Percent,perceptual,"
       "energyRatio,status\n";
   for (const ComparisonRow& r : comparison.rows) {
@@ -102,12 +139,13 @@ std::string toCsv(const Comparison& comparison) {
       if (c == '"') status.push_back('"');
       status.push_back(c);
     }
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"\n",
-                        r.scene, r.renderer, r.method, r.width, r.height, r.depth, r.payloadBytes, r.rays,
-                        r.time.median, r.time.low, r.time.high, medianOf(r.wallMs), medianOf(r.cpuMs), r.buildMs,
-                        r.uploadMs, r.compileMs, medianOf(r.readBackMs), r.ratioToSchlick.median, r.ratioToSchlick.low,
-                        r.ratioToSchlick.high, r.error.meanAbs, r.error.maxAbs, r.error.relRms,
-                        r.error.shareOver1Percent, r.error.perceptual, r.error.energyRatio, status);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"\n",
+                        r.scene, r.renderer, r.method, r.everyEffect ? "all" : "auto", r.width, r.height, r.depth,
+                        r.payloadBytes, r.stateBytes, r.rays, r.time.median, r.time.low, r.time.high,
+                        medianOf(r.wallMs), medianOf(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs,
+                        medianOf(r.readBackMs), r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high,
+                        r.error.meanAbs, r.error.maxAbs, r.error.relRms, r.error.shareOver1Percent, r.error.perceptual,
+                        r.error.energyRatio, status);
   }
   return text;
 }
@@ -115,6 +153,7 @@ std::string toCsv(const Comparison& comparison) {
 std::string toTable(const Comparison& comparison) {
   std::string text, heading;
   for (const ComparisonRow& r : comparison.rows) {
+    if (r.everyEffect) continue;
     const std::string group = fmt::format("{}, {} x {}, depth {}, {}", r.scene, r.width, r.height, r.depth, r.renderer);
     if (group != heading) {
       heading = group;
@@ -136,6 +175,23 @@ std::string toTable(const Comparison& comparison) {
                               : "-",
                         timed ? fmt::format("{:.1f}", static_cast<double>(r.rays) / r.time.median * 1e-3) : "-",
                         r.error.relRms, 100 * r.error.shareOver1Percent, r.error.energyRatio, same);
+  }
+  if (comparison.effects.empty()) return text;
+  text += fmt::format(
+      "\nexact intensity by stokes with all effects, by what the picture calls for, and by importance\n"
+      "  {:<34}{:>10}  {:<42}{}\n",
+      "", "all, ms", "auto: time over all, largest difference", "importance: the same");
+  for (const EffectsComparison& e : comparison.effects) {
+    const ComparisonRow& all = comparison.rows[e.all];
+    const auto cell = [&](std::size_t i, const Spread& ratio, double difference) {
+      if (i == EffectsComparison::kNoRow) return std::string("-");
+      return fmt::format("{} {:.3f} ({:.3f}-{:.3f}) {:.1e}", comparison.rows[i].method, ratio.median, ratio.low,
+                         ratio.high, difference);
+    };
+    text += fmt::format("  {:<34}{:>10.1f}  {:<42}{}\n",
+                        fmt::format("{} {} x {}, {}", all.scene, all.width, all.height, all.renderer), all.time.median,
+                        cell(e.automatic, e.automaticToAll, e.automaticDifference),
+                        cell(e.importance, e.importanceToAll, e.importanceDifference));
   }
   return text;
 }

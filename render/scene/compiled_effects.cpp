@@ -41,4 +41,10 @@ std::uint32_t compiledEffects(const pack::Scene& scene, const View& view) {
   return bits;
 }
 
+std::uint32_t waitingWays(std::uint32_t effects, std::uint32_t depth) {
+  std::uint32_t ways = (effects & shaders::bitOf(Effect::kGlass)) != 0 ? std::max(depth, 1u) : 1;
+  if ((effects & shaders::bitOf(Effect::kRoughness)) != 0) ways += gpu::kFacets;
+  return ways;
+}
+
 }  // namespace malus::render

@@ -11,4 +11,8 @@ namespace malus::render {
 // Bits of shaders::Effect; all of them where the view asks for every effect.
 std::uint32_t compiledEffects(const pack::Scene& scene, const View& view);
 
+// Ways of an eye path that may wait at once in a loop (shaders/loops/eye_path.h): one an interaction with glass, the
+// facets of a rough surface; one place at least.
+std::uint32_t waitingWays(std::uint32_t effects, std::uint32_t depth);
+
 }  // namespace malus::render

@@ -22,9 +22,7 @@ Variant variantFor(const pack::Scene& scene, std::string_view method, const rend
   const render::MethodInfo& info = render::methodNamed(method);
   if (!info.isLoop) return variant;
   variant.fourAnalysers = render::hasStokes(info, view);
-  // Without glass nothing waits; an array has one place at least.
-  variant.stackSize = has(variant, Effect::kGlass) ? std::max(view.depth, 1u) : 1;
-  if (has(variant, Effect::kRoughness)) variant.stackSize += gpu::kFacets;
+  variant.stackSize = render::waitingWays(variant.effects, view.depth);
   return variant;
 }
 

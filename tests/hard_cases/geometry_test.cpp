@@ -211,6 +211,20 @@ TEST_P(HardScenes, ImportanceIsTheIntensityOfTheReference) {
   }
 }
 
+// By four analysers the loop gives Stokes vectors. S1 to S3 are differences of two intensities of up to twice S0.
+TEST_P(HardScenes, ImportanceGivesTheStokesVectorsOfTheReference) {
+  const Expected& expected = scenes().at(GetParam());
+  const pack::Scene& scene = packOf(GetParam()).scene;
+  render::View view = checkedView(scene);
+  view.stokes = true;
+  const Picture picture = embree::Renderer(scene, 0).render("importance", view);
+  expectSound(picture, scene, GetParam() + ", importance");
+  const Picture& truth = picturesOf(GetParam()).reference;
+  ASSERT_EQ(picture.pixels.size(), truth.pixels.size());
+  double largest = 0;
+  EXPECT_LE(pixelsOff(picture, truth, expected.threshold, largest), expected.outliers) << largest;
+}
+
 std::string testName(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');

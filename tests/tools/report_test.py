@@ -67,6 +67,19 @@ def failed(renderer: str, method: str, reason: str) -> dict:
     return result
 
 
+def effect(renderer: str, **changes) -> dict:
+    ratio = {"median": 0.512, "low": 0.498, "high": 0.533}
+    base = {"scene": "tiny", "renderer": renderer, "width": kWidth, "height": kHeight, "depth": 3, "brightest": 2.0,
+            "all": {"method": "stokes", "medianMs": 20.0, "rays": 2468, "payloadBytes": 48, "stateBytes": 0},
+            "auto": {"method": "fresnel", "medianMs": 10.2, "rays": 1234, "payloadBytes": 12, "stateBytes": 0,
+                     "ratioToAll": ratio, "largestDifference": 3e-7, "why": "polarized light cannot <show>"},
+            "importance": {"method": "importance", "medianMs": 11.0, "rays": 1234, "payloadBytes": 0,
+                           "stateBytes": 388, "ratioToAll": {"median": 0.55, "low": 0.54, "high": 0.56},
+                           "largestDifference": 4e-7}}
+    base.update(changes)
+    return base
+
+
 def off(share: float, rms: float) -> dict:
     return {"meanAbs": 0.01, "maxAbs": 0.05, "relRms": rms, "shareOver1Percent": share, "perceptual": share / 2,
             "energyRatio": 1.02}
@@ -100,9 +113,20 @@ class Report(unittest.TestCase):
                          "effects": "auto", "exposureEv": {"tiny": 0}},
             "scenes": {"tiny": {"title": "A tiny <scene>", "vertices": 3, "triangles": 1, "packHash": "00ff",
                                 "exposureEv": 0}},
-            "rows": rows, "gpuModel": [],
+            "rows": rows, "gpuModel": [], "effects": [effect("vulkan"), effect("embree", importance=None)],
             "references": [{"scene": "tiny", "width": kWidth, "height": kHeight, "depth": 3,
                             "picture": "pictures/reference.exr"}]}
+
+    def test_effects(self):
+        page = self.page()
+        self.assertIn('id="effects"', page)
+        table = page[page.index('id="effects"'):page.index('id="paper"')]
+        for text in ("0.512", "0.498 to 0.533", "2,468", "388", "3.0 · 10⁻⁷", "not among the methods",
+                     "tiny: fresnel in place of stokes, polarized light cannot &lt;show&gt;."):
+            self.assertIn(text, table)
+        without = copy.deepcopy(self.results)
+        del without["effects"]
+        self.assertNotIn('id="effects"', self.page(without))
 
     def run_script(self, *arguments):
         return subprocess.run([sys.executable, str(kScript), *map(str, arguments)], capture_output=True, text=True,

@@ -60,6 +60,8 @@ class Unpacked:
 def bsdf(m: dict, colour: int) -> dict:
     """What a surface of material m does to light that meets the side of its normal."""
     outside = m["outsideEta"]
+    if m["type"] in ("polarizer", "wave-plate"):
+        raise ValueError(f"material '{m['name']}': sheets of type {m['type']} are not handed to Mitsuba")
     if m["type"] == "glass":  # no dispersion: the index at 532 nm in every colour
         return {"type": "dielectric", "int_ior": m["eta"][1], "ext_ior": outside}
     if m["type"] == "metal":
@@ -67,6 +69,11 @@ def bsdf(m: dict, colour: int) -> dict:
     if m["type"] == "mirror-glass":  # a conductor without k is a dielectric that only reflects
         return {"type": "conductor", "eta": m["eta"][1] / outside, "k": 0.0}
     return {"type": "diffuse", "reflectance": 0.0 if m["type"] == "emitter" else m["albedo"][colour]}
+
+
+# Keys that few materials have (bake/unpack.cpp).
+UNUSUAL = {"absorption": "absorption is", "outsideAbsorption": "absorption outside is", "coating": "the thin film is",
+           "roughness": "roughness is", "polarization": "polarization is", "maps": "textures are"}
 
 
 def unsaid(scene: Unpacked) -> list[str]:
@@ -77,8 +84,18 @@ def unsaid(scene: Unpacked) -> list[str]:
             said.append(f"Material '{m['name']}': the interface above the paint is left out; it is bare Lambert.")
         if m["type"] == "metal" and any(m["albedo"]):
             said.append(f"Material '{m['name']}': the diffuse light under the metal is left out.")
+        for key, what in UNUSUAL.items():
+            value = m.get(key)
+            if key == "coating" and value:
+                value = value["thicknessNm"]
+            if key == "maps" and value:
+                value = any(value[name] is not None for name in ("albedo", "eta", "k"))
+            if np.any(value):
+                said.append(f"Material '{m['name']}': {what} left out.")
         if m["highlight"]:
             said.append(f"Material '{m['name']}': the highlight is left out.")
+    if "sky" in scene.json["environment"]:
+        said.append("The polarization of the sky is left out.")
     if scene.json["environment"].get("diffuseFill", 0) > 0:
         said.append("The environment's light on diffuse surfaces (diffuseFill) is left out.")
     if scene.json["camera"]["mediumEta"] != 1:

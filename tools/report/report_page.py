@@ -11,6 +11,7 @@ import report_format
 from report_colours import (aolp_colours, difference_colours, difference_limit, dolp_colours, kSignificantDoLP,
                             linear_polarization, luminance, mapped, signed_difference, tone_mapped)
 from report_data import groups_of, number, pareto
+from report_effects import ratio_interval, reasons_of
 from report_errors import Wrongness, kOff, relative_error
 from report_findings import findings
 from report_gpu import gpu_sections
@@ -175,11 +176,13 @@ def page(folder: pathlib.Path, results: dict) -> str:
     groups = [view.group for views in scenes.values() for view in views]
     devices = results.get("devices") or {}
     model = results.get("gpuModel") or []
+    effects = results.get("effects") or []
     return environment.get_template("index.html.j2").render(
         results=results, devices=devices, settings=results.get("settings") or {}, driver=results.get("driver") or {},
         scenes=[(name, results["scenes"][name], views) for name, views in scenes.items()],
         findings=[{**f, "answer": [Markup(a) for a in f["answer"]]}
                   for f in findings(groups, wrongs, added, devices, model, results["rows"])],
+        effects=effects, reasons=reasons_of(effects), interval=ratio_interval,
         gpu=gpu_sections(model, results["rows"]), number=number, wheel=wheel(),
         dolp_gradient=gradient(mapped(numpy.linspace(0, 1, 32), "viridis")), least_dolp=kSignificantDoLP,
         picture_width=kPictureWidth, stokes_width=kStokesWidth,

@@ -1,0 +1,43 @@
+// Pictures by the Embree renderer for callgrind to count: one dump a picture, each from the renderer's call to its
+// return. Arguments: PACK METHOD OFF EFFECTS for each picture; OFF an effect to leave out or "-", EFFECTS "auto" or
+// "all". The method is drawn as it is named; DEPTH=n in the place of EFFECTS is auto at that depth.
+#include <valgrind/callgrind.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "bake/effects/effects.h"
+#include "bake/pack/reader.h"
+#include "meshprep/base/error.h"
+#include "render/embree/renderer.h"
+
+int main(int argc, char** argv) {
+  using namespace malus;
+  if (argc < 5 || argc % 4 != 1) {
+    std::fprintf(stderr, "usage: instructions_probe (PACK METHOD OFF auto|all|DEPTH=n)...\n");
+    return 2;
+  }
+  try {
+    for (int i = 1; i + 3 < argc; i += 4) {
+      const std::string pack = argv[i], method = argv[i + 1], off = argv[i + 2], effects = argv[i + 3];
+      pack::Scene scene = pack::read(pack).scene;
+      if (off != "-") scene = bake::withoutEffects(std::move(scene), {off});
+      render::View view = render::viewOf(scene);
+      view.height = std::max(1u, view.height * 24 / view.width);
+      view.width = 24;
+      view.region = {0, 0, view.width, view.height};
+      view.everyEffect = effects == "all";
+      if (effects.starts_with("DEPTH=")) view.depth = static_cast<std::uint32_t>(std::stoul(effects.substr(6)));
+      const embree::Renderer renderer(scene, 1);
+      renderer.render(method, view);  // the scheduler starts up
+      CALLGRIND_ZERO_STATS;
+      renderer.render(method, view);
+      CALLGRIND_DUMP_STATS_AT("picture");
+    }
+  } catch (const Error& error) {
+    std::fprintf(stderr, "instructions_probe: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -15,5 +15,6 @@
 #define word uint
 #define FN
 #define CONST const
+#define IN(T) T
 #define OUT(T) out T
 #define INOUT(T) inout T

@@ -84,10 +84,11 @@ FN real3 followEyePath(real3 direction, real behind0, real behind1, real behind2
 #if MALUS_EFFECT_PAINT || MALUS_EFFECT_METAL || MALUS_EFFECT_GLASS
       if (!source) {
         GlassWay way;
+        way.total = true;
+#if MALUS_EFFECT_COATINGS
         way.n1 = m.outsideEta;
         way.n2 = m.eta.y;
-        way.through = h.d;
-        way.total = true;
+#endif
         bool coloured = m.kind == kMetal;
         Factors f;
 #if MALUS_EFFECT_GLASS

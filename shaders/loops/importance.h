@@ -37,7 +37,7 @@ FN real carriedMost(Carried c) { return c.split ? maxR(c.r.w, maxR(c.g.w, c.b.w)
 FN mask rowIsPlain(Row r) { return r.q == R(0.0) && r.u == R(0.0) && r.v == R(0.0); }
 
 // A row whose polarization is at most `tolerance` of it loses it: what is wrong by that is at most as large a share of
-// the light that it meets. At tolerance 0 only what is 0 is lost.
+// the light that it meets.
 FN Row rowWithin(Row r, real tolerance) {
   real most = tolerance * r.w;
   if (r.q * r.q + r.u * r.u + r.v * r.v > most * most) return r;
@@ -47,6 +47,7 @@ FN Row rowWithin(Row r, real tolerance) {
   return r;
 }
 FN void carriedForget(INOUT(Carried) c, real tolerance) {
+  if (tolerance <= R(0.0)) return;
   c.r = rowWithin(c.r, tolerance);
   if (!c.split) return;
   c.g = rowWithin(c.g, tolerance);

@@ -3,6 +3,7 @@
 // namespace defines the types real, real2, real3 and mask (see optics.h).
 #define FN static inline           // a function
 #define CONST static constexpr     // a constant
+#define IN(T) const T&             // a large parameter that is read
 #define OUT(T) T&                  // a parameter that is written
 #define INOUT(T) T&                // a parameter that is read and written
 #define R(x) static_cast<real>(x)  // a literal

@@ -30,7 +30,7 @@ FN real3 slackOf(Stokes s) {
                maxR(polarizationExcess(s.s0.z, s.s1.z, s.s2.z, s.s3.z), R(0.0)) + eps * absR(s.s0.z));
 }
 
-FN void checkColour(Hit h, real s0, real s1, real s2, real s3, real slack, uint colour) {
+FN void checkColour(IN(Hit) h, real s0, real s1, real s2, real s3, real slack, uint colour) {
   uint kind = kNoFault;
   if (!isFinite(s0) || !isFinite(s1) || !isFinite(s2) || !isFinite(s3))
     kind = kNotFinite;

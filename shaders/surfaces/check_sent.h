@@ -1,7 +1,7 @@
 // The check of what a surface of a recursive method sends (check.h).
 
 // arriving: slack of the light that met the surface.
-FN void checkSent(Hit h, Payload sent, real3 arriving) {
+FN void checkSent(IN(Hit) h, Payload sent, real3 arriving) {
   Stokes s = payloadStokes(sent, h.d);
   real eps = R(8.0) * kUnitRoundoff;
   checkColour(h, s.s0.x, s.s1.x, s.s2.x, s.s3.x, arriving.x + eps * absR(s.s0.x), 0u);

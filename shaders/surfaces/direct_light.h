@@ -7,7 +7,7 @@ struct DirectLight {
 };
 
 // Transmittance of the material's interface, mean of s and p, for light at an angle with cosine c.
-FN real3 enteringTransmittance(Material m, uint index, real c) {
+FN real3 enteringTransmittance(IN(Material) m, uint index, real c) {
   if (m.kind == kPaint || m.kind == kMetal) return meanTransmittance(opaqueFactors(c, m, index));
   return splat3(R(1.0));
 }
@@ -26,7 +26,7 @@ FN real3 fillIrradiance(real3 n) {
   return e;
 }
 
-FN DirectLight directLight(Hit h, Material m, real3 mirror) {
+FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 mirror) {
   DirectLight sum;
   sum.diffuse = splat3(R(0.0));
   sum.highlight = splat3(R(0.0));

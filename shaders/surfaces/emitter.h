@@ -1,5 +1,5 @@
 // Gives off light on the side of its normal, unpolarized or, as a display does, linearly polarized; reflects nothing.
-FN Payload shadeEmitter(Hit h, Material m) {
+FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
   real3 none = splat3(R(0.0));
   real3 radiance = select3(h.outside, m.radiance, none);
 #if MALUS_EFFECT_ABSORPTION

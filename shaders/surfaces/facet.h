@@ -5,7 +5,7 @@
 #if MALUS_EFFECT_ROUGHNESS
 CONST real kBehindRough = R(0.25);
 
-FN bool isRough(Hit h) {
+FN bool isRough(IN(Hit) h) {
   real fraction = h.depth - floorR(h.depth);
   return extras[h.material].roughness > R(0.0) && fraction <= R(0.0);
 }
@@ -17,7 +17,7 @@ struct Facet {
   real weight;   // of its light in the sum; 0: it shows nothing
 };
 
-FN Facet facetOf(Hit h, uint index) {
+FN Facet facetOf(IN(Hit) h, uint index) {
   real alpha = extras[h.material].roughness;
   real3 toEye = h.d * R(-1.0);
   Facet f;

@@ -1,5 +1,5 @@
 // A clear glass interface: reflects and transmits, both branches followed.
-FN Payload shadeGlass(Hit h, Material m) {
+FN Payload shadeGlass(Hit h, IN(Material) m) {
   if (h.depth < R(0.5)) return payloadSource(splat3(R(0.0)));
   GlassWay way = glassWay(h, m);
   Factors f = glassFactors(h.c, way.n1, way.n2, h.material);

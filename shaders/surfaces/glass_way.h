@@ -8,7 +8,7 @@ struct GlassWay {
   bool total;     // total reflection: there is none
 };
 
-FN GlassWay glassWay(INOUT(Hit) h, Material m) {
+FN GlassWay glassWay(INOUT(Hit) h, IN(Material) m) {
   GlassWay way;
   way.n1 = h.outside ? m.outsideEta : m.eta.y;
   way.n2 = h.outside ? m.eta.y : m.outsideEta;

@@ -71,5 +71,5 @@ FN Hit missedHit(real3 d, real depth) {
 }
 
 // Origin of a ray that leaves on the side of the eye.
-FN real3 originAbove(Hit h) { return rayOrigin(h.start, h.error, h.face, kUnitRoundoff); }
-FN real3 originBelow(Hit h) { return rayOrigin(h.start, h.error, h.face * R(-1.0), kUnitRoundoff); }
+FN real3 originAbove(IN(Hit) h) { return rayOrigin(h.start, h.error, h.face, kUnitRoundoff); }
+FN real3 originBelow(IN(Hit) h) { return rayOrigin(h.start, h.error, h.face * R(-1.0), kUnitRoundoff); }

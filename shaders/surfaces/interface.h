@@ -4,7 +4,7 @@
 FN bool hasFilm(uint index) { return extras[index].filmEta.x > R(0.0); }
 #endif
 
-FN Factors paintFactors(real c, Material m, uint index) {
+FN Factors paintFactors(real c, IN(Material) m, uint index) {
 #if MALUS_EFFECT_COATINGS
   if (hasFilm(index))
     return filmFactors(c, m.outsideEta, extras[index].filmEta, extras[index].filmTurns, splat3(m.eta.y),
@@ -12,13 +12,13 @@ FN Factors paintFactors(real c, Material m, uint index) {
 #endif
   return dielectricFactors(c, m.outsideEta, m.eta.y);
 }
-FN Factors metalFactors(real c, Material m, uint index) {
+FN Factors metalFactors(real c, IN(Material) m, uint index) {
 #if MALUS_EFFECT_COATINGS
   if (hasFilm(index)) return filmFactors(c, m.outsideEta, extras[index].filmEta, extras[index].filmTurns, m.eta, m.k);
 #endif
   return conductorFactors(c, m.outsideEta, m.eta, m.k);
 }
-FN Factors opaqueFactors(real c, Material m, uint index) {
+FN Factors opaqueFactors(real c, IN(Material) m, uint index) {
 #if MALUS_EFFECT_METAL
   if (m.kind == kMetal) return metalFactors(c, m, index);
 #endif

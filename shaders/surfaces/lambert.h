@@ -1,5 +1,5 @@
 // Bare Lambert: unpolarized diffuse light, no interface.
-FN Payload shadeLambert(Hit h, Material m) {
+FN Payload shadeLambert(IN(Hit) h, IN(Material) m) {
   real3 diffuse = directLight(h, m, h.normal).diffuse;
 #if MALUS_EFFECT_ABSORPTION
   diffuse = diffuse * mediumTransmittance(h, m);

@@ -3,7 +3,7 @@
 
 #if MALUS_EFFECT_ROUGHNESS
 // Light that the facets reflect toward the eye, in the frame of the surface's s.
-FN Light facetLight(Hit h, Material m, real3 s, INOUT(real3) slack) {
+FN Light facetLight(IN(Hit) h, IN(Material) m, real3 s, INOUT(real3) slack) {
   Light sum = lightUnpolarized(splat3(R(0.0)));
   for (uint i = 0u; i < kFacets; ++i) {
     Facet facet = facetOf(h, i);
@@ -21,7 +21,7 @@ FN Light facetLight(Hit h, Material m, real3 s, INOUT(real3) slack) {
 }
 #endif
 
-FN Payload shadeOpaque(Hit h, Material m, Factors f) {
+FN Payload shadeOpaque(IN(Hit) h, IN(Material) m, Factors f) {
   real3 mirror = mirrorDirection(h.d, h.normal, h.c);
   DirectLight direct = directLight(h, m, mirror);
   Light toEye = lightLeave(f, direct.diffuse);

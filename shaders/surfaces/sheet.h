@@ -1,5 +1,5 @@
 // A polarizer sheet or a wave plate.
-FN Payload shadeSheet(Hit h, Material m) {
+FN Payload shadeSheet(IN(Hit) h, IN(Material) m) {
   if (h.depth < R(0.5)) return payloadSource(splat3(R(0.0)));
   real3 s = surfaceS(h.d, sheetNormal(h));
   Payload returned = traceRay(originBelow(h), h.d, h.depth - R(1.0));

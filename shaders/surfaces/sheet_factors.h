@@ -4,7 +4,7 @@
 // The normal whose s direction is that of the light that a polarizer passes: along its absorbing axis, which lies in
 // the sheet across the transmitting one. Source: Korger et al., The polarization properties of a tilted polarizer,
 // Optics Express 21, 2013. Of a wave plate alike: s is its fast axis, seen along the ray.
-FN real3 sheetNormal(Hit h) { return cross3(h.face, extras[h.material].axis); }
+FN real3 sheetNormal(IN(Hit) h) { return cross3(h.face, extras[h.material].axis); }
 
 // X = sqrt(T_s T_p) e^{-i delta} on (S2, S3): optics.h of the importance form, G.
 FN Reflectance sheetReflectance(real along, real across, real cosine, real sine) {

@@ -28,7 +28,7 @@ FN real3 textureAt(uint index, real u, real v) {
   return top * (R(1.0) - fy) + bottom * fy;
 }
 
-FN Material materialAt(Hit h) {
+FN Material materialAt(IN(Hit) h) {
   Material m = materials[h.material];
   MaterialExtra e = extras[h.material];
   if (e.albedoMap == kNoTexture && e.etaMap == kNoTexture && e.kMap == kNoTexture) return m;
@@ -41,5 +41,5 @@ FN Material materialAt(Hit h) {
   return m;
 }
 #else
-FN Material materialAt(Hit h) { return materials[h.material]; }
+FN Material materialAt(IN(Hit) h) { return materials[h.material]; }
 #endif

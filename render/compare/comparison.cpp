@@ -94,17 +94,21 @@ class EffectsPictures {
   std::map<std::size_t, std::vector<float>> pictures_;
 };
 
-// The methods of a comparison, each with what the scene calls for, and `stokes` and `importance` once more with
-// everything.
+// The methods of a comparison, each with what the scene calls for; the one that auto takes in place of `stokes`; and
+// `stokes` and `importance` once more with everything.
 struct Draw {
   std::string method;
   bool everyEffect;
 };
-std::vector<Draw> drawsOf(const std::vector<std::string>& methods) {
+std::vector<Draw> drawsOf(const std::vector<std::string>& methods, const std::string& cheapest) {
   std::vector<Draw> draws;
+  const auto named = [&](std::string_view name) {
+    return std::find(methods.begin(), methods.end(), name) != methods.end();
+  };
   for (const std::string& method : methods) draws.push_back({method, false});
+  if (named("stokes") && !named(cheapest)) draws.push_back({cheapest, false});
   for (const char* method : {"stokes", "importance"})
-    if (std::find(methods.begin(), methods.end(), method) != methods.end()) draws.push_back({method, true});
+    if (named(method)) draws.push_back({method, true});
   return draws;
 }
 
@@ -231,7 +235,7 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
         EffectsPictures pictures;
         EffectsComparison effects;
         effects.why = cheapest.why;
-        for (const auto& [method, everyEffect] : drawsOf(settings.methods)) {
+        for (const auto& [method, everyEffect] : drawsOf(settings.methods, cheapest.method)) {
           if (interrupted()) break;
           progress(fmt::format("{} {} x {}, depth {}: {} {}{}", name, view.width, view.height, view.depth, backend,
                                method, everyEffect ? ", all effects" : ""));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/bake.h"
+#include "bake/diff.h"
 #include "bake/info.h"
 #include "bake/materials/library.h"
 #include "bake/pack/reader.h"
@@ -88,7 +89,7 @@ void addBakeCommand(CLI::App& app) {
 
 void addInfoCommand(CLI::App& app) {
   struct Arguments {
-    std::string input;
+    std::string input, other;
     double tolerance = kInfoTolerance;
     bool verify = false, json = false;
   };
@@ -100,9 +101,20 @@ void addInfoCommand(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_flag("--verify", arguments->verify, "say that every hash, count and number was checked");
+  command->add_option("--diff", arguments->other,
+                      "another pack: tells which sections differ and how, and exits with 3 where any does");
   command->add_flag("--json", arguments->json, "print as JSON");
   command->callback([arguments] {
     const pack::Pack pack = pack::read(arguments->input);  // every check of the reader is made here
+    if (!arguments->other.empty()) {
+      const nlohmann::json difference = diffJson(pack, pack::read(arguments->other));
+      fmt::print("{}{}",
+                 arguments->json ? difference.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+                                 : diffText(difference),
+                 arguments->json ? "\n" : "");
+      if (!difference.at("equal")) throw PacksDiffer{};
+      return;
+    }
     if (arguments->json) {
       // Texts of a pack may be no UTF-8.
       fmt::print("{}\n",

@@ -1,12 +1,15 @@
 // The command lines of baking:
 //   malus bake SCENE.json -o OUT.pack [--position-bits N] [--normal-bits N] [--json]
-//   malus info PACK [--verify] [--json]
+//   malus info PACK [--verify] [--tolerance T] [--diff OTHER] [--json]
 //   malus unpack PACK -o FOLDER [--json]
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace malus::bake {
+
+// Thrown by info --diff where the packs differ: exit code 3.
+struct PacksDiffer {};
 
 void addBakeCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);

@@ -5,6 +5,7 @@
 #include "bake/effects/deepest_bounce.h"
 #include "bake/effects/effects.h"
 #include "bake/effects/polarization_bound.h"
+#include "bake/scene_json.h"
 
 namespace malus::bake {
 using nlohmann::json;
@@ -18,9 +19,13 @@ glm::dvec3 boundOf(const pack::Scene& scene) {
   return polarizationErrorBound(scene, request);
 }
 
-// The pack's effects, or those of today's rules where it has none.
+// The pack's effects; of one from before some of today's existed, those of today's rules.
 std::vector<pack::Effect> effectsOf(const pack::Scene& scene) {
-  return scene.effects.empty() ? findEffects(scene) : scene.effects;
+  std::vector<std::string> missing = effectNames();
+  const std::size_t known = missing.size();
+  for (const pack::Effect& e : scene.effects) std::erase(missing, e.name);
+  const bool older = !missing.empty() && missing.size() + scene.effects.size() == known;
+  return older ? findEffects(scene) : scene.effects;
 }
 }  // namespace
 
@@ -50,12 +55,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                         {"sizeBytes", s.sizeBytes},
                         {"hash", hex(s.hash)}});
   const glm::dvec3 bound = boundOf(scene);
-  // Provenance is JSON that a baker wrote; a pack may come from anywhere. What is nested deep is left out:
-  // printing it would overflow the stack.
-  constexpr int kMaxNesting = 32;
-  json provenance = json::parse(
-      scene.provenance, [](int depth, json::parse_event_t, const json&) { return depth <= kMaxNesting; }, false);
-  if (provenance.is_discarded()) provenance = nullptr;
+  const json provenance = provenanceJson(pack.scene);
   return {{"formatVersion", pack.formatVersion},
           {"hash", hex(pack.hash)},
           {"name", scene.name},

@@ -20,7 +20,7 @@
 
 namespace {
 
-enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kPicturesDiffer = 3, kInterrupted = 130 };
+enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kDiffer = 3, kInterrupted = 130 };
 
 int fail(const char* message) {
   malus::console::progressDone();
@@ -83,8 +83,10 @@ int main(int argc, char** argv) {
   try {
     if (malus::vulkan::gpuModelMain(argc, argv)) return kDone;  // the child of `compare --gpu-model`
     return run(argc, argv);
+  } catch (const malus::bake::PacksDiffer&) {
+    return finish() == kDone ? kDiffer : kFailed;
   } catch (const malus::render::PicturesDiffer&) {
-    return finish() == kDone ? kPicturesDiffer : kFailed;
+    return finish() == kDone ? kDiffer : kFailed;
   } catch (const malus::Interrupted&) {
     malus::console::progressDone();
     return kInterrupted;

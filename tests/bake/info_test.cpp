@@ -1,5 +1,7 @@
 #include "bake/info.h"
 
+#include "bake/effects/effects.h"
+
 #include "bake/pack/writer.h"
 #include "tests/bake/fixtures.h"
 #include "tests/bake/pack/raw_pack.h"
@@ -56,6 +58,18 @@ TEST(Info, TextNamesEverything) {
   for (const char* part : {"small", "8 vertices, 6 triangles, 2 lights, 64 x 48 pixels, depth 5", "tetrahedron", "gold",
                            "(sheet)", "there is gold", "GEOM", "PROV"})
     EXPECT_CONTAINS(text, part);
+}
+
+// A pack from before some of today's effects existed.
+TEST(Info, OlderEffectsAreFoundAnew) {
+  pack::Scene scene = test::smallScene();
+  scene.effects = {{"transmission", false, "said so"}, {"conductor", false, "said so"}};
+  const json effects = infoJson(packOf(scene)).at("effects");
+  ASSERT_EQ(effects.size(), effectNames().size());
+  for (const json& e : effects)
+    if (e.at("name") == "conductor") {
+      EXPECT_EQ(e.at("on"), true);
+    }
 }
 
 TEST(Info, ProvenanceThatIsNoJson) {

@@ -52,6 +52,12 @@ long peakMegabytes() {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// The sections that few scenes have.
+const std::vector<RawSection>& unusualSections() {
+  static const std::vector<RawSection> kSections = test::takenApart(serialize(bake::test::unusualScene(), {}).bytes);
+  return kSections;
+}
+
 TEST(CorruptPack, TheSmallPackIsGood) { EXPECT_EQ(parseError(smallPack()), ""); }
 
 TEST(CorruptPack, EveryTruncationIsAnError) {
@@ -110,6 +116,26 @@ TEST(CorruptPack, EveryFlippedBitBehindTheHashesIsHarmless) {
   EXPECT_GT(refused, 1000u);
   EXPECT_GT(taken, 1000u);  // a digit of a number changes nothing that can be told
   EXPECT_LT(peakMegabytes() - before, 512);
+}
+
+// The contents of two sections change places, their entries in the table stay: found before anything is decoded.
+TEST(CorruptPack, EveryPairOfSwappedSectionsIsAnError) {
+  const std::vector<RawSection>& whole = unusualSections();
+  for (std::size_t a = 0; a < whole.size(); ++a)
+    for (std::size_t b = a + 1; b < whole.size(); ++b) {
+      // With the hashes of their new places, so that it is the contents that give them away.
+      std::vector<RawSection> sections = whole;
+      std::swap(sections[a].bytes, sections[b].bytes);
+      EXPECT_TRUE(contains(parseError(test::putTogether(sections)), "file.pack")) << whole[a].id << ' ' << whole[b].id;
+      // With the table as it was: by the hashes.
+      Bytes bytes = test::putTogether(whole);
+      const std::size_t first = 40 + 40 * a + 32, second = 40 + 40 * b + 32;  // their hashes
+      const auto kept = test::numberAt<std::uint64_t>(bytes, first);
+      test::setNumber(bytes, first, test::numberAt<std::uint64_t>(bytes, second));
+      test::setNumber(bytes, second, kept);
+      test::fixHashes(bytes);
+      EXPECT_TRUE(contains(parseError(bytes), "is damaged")) << whole[a].id << ' ' << whole[b].id;
+    }
 }
 
 TEST(CorruptPack, RandomBytesBehindTheHashesAreHarmless) {
@@ -365,12 +391,6 @@ TEST(CorruptPack, MaterialOutOfBounds) {
 TEST(CorruptPack, EffectOutOfBounds) {
   const std::string error = errorWith("EFCT", 4 + 4 + 5, 2u);
   EXPECT_TRUE(contains(error, "state of an effect")) << error;
-}
-
-// The sections that few scenes have.
-const std::vector<RawSection>& unusualSections() {
-  static const std::vector<RawSection> kSections = test::takenApart(serialize(bake::test::unusualScene(), {}).bytes);
-  return kSections;
 }
 
 template <class T>

@@ -111,6 +111,17 @@ TEST(PackRoundTrip, WhatFewScenesHaveComesBack) {
   }
 }
 
+// A pack from before the sections of what few scenes have (and the effects that came with them) existed.
+TEST(PackRoundTrip, AnOlderPackStillOpens) {
+  const Pack pack = read(std::filesystem::path(MALUS_TEST_PACKS) / "before-surfaces.pack");
+  EXPECT_EQ(pack.scene.name, "paint-under-glass-in-brewster-mirror");
+  EXPECT_EQ(pack.scene.meshes.size(), 3u);
+  ASSERT_EQ(pack.scene.materials.size(), 2u);
+  for (const Material& m : pack.scene.materials) EXPECT_TRUE(m.isPlain());
+  EXPECT_EQ(pack.scene.effects.size(), 15u);
+  EXPECT_EQ(canonicalGeometryHash(pack.scene), 0x486e021ecfc24adfu);  // as its own malus told it
+}
+
 // A scene without them has no section for them, and every pack from before they existed is such a one.
 TEST(PackRoundTrip, WhatFewScenesHaveTakesNoRoomInOthers) {
   const Pack pack = parse(serialize(smallScene(), {}).bytes, "test");

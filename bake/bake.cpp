@@ -14,6 +14,7 @@
 #include "bake/environment/octahedral_map.h"
 #include "bake/image/image.h"
 #include "bake/pack/format.h"
+#include "bake/pack/reader.h"
 #include "bake/textures/texture.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
@@ -90,6 +91,38 @@ void requireClosedGlass(const MeshDescription& mesh, const pack::Material& mater
 
 }  // namespace
 
+std::string provenanceOf(const SceneDescription& d, const pack::WriteSettings& settings) {
+  nlohmann::json sources = nlohmann::json::array();
+  const auto add = [&](const std::filesystem::path& file, const std::string& name) {
+    sources.push_back({{"file", name}, {"xxh3", hashText(file)}});
+  };
+  const auto addRelative = [&](const std::filesystem::path& file) {
+    add(file, file.lexically_relative(d.file.parent_path()).string());
+  };
+  add(d.file, d.file.filename().string());
+  for (const MeshDescription& mesh : d.meshes) addRelative(mesh.file);
+  if (!d.environmentImage.empty()) addRelative(d.environmentImage);
+  for (const TextureDescription& texture : d.textures) addRelative(texture.file);
+  return nlohmann::json{
+      {"malus", MALUS_VERSION},
+      {"baker", kBakerRevision},
+      {"draco", std::string(draco::kDracoVersion)},
+      {"sources", sources},
+      {"settings", {{"positionBits", settings.positionBits}, {"normalBits", settings.normalBits}}},
+  }
+      .dump();
+}
+
+bool isUpToDate(const std::filesystem::path& pack, const std::string& provenance) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(pack, ignored)) return false;
+  try {
+    return pack::read(pack).scene.provenance == provenance;
+  } catch (const Error&) {  // damaged, or no pack: it is made anew
+    return false;
+  }
+}
+
 Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
            const std::function<void(std::string_view)>& progress) {
   Baked baked;
@@ -103,8 +136,6 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   scene.materials = d.materials;
 
   // Meshes in world space.
-  nlohmann::json sources = nlohmann::json::array();
-  sources.push_back({{"file", d.file.filename().string()}, {"xxh3", hashText(d.file)}});
   std::vector<prep::Mesh> world;
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const MeshDescription& mesh : d.meshes) {
@@ -120,8 +151,6 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     std::uint32_t material = 0;
     while (d.materials[material].name != mesh.material) ++material;
     requireClosedGlass(mesh, d.materials[material], report);
-    sources.push_back(
-        {{"file", mesh.file.lexically_relative(d.file.parent_path()).string()}, {"xxh3", hashText(mesh.file)}});
     baked.reports.push_back(std::move(report));
     for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
       world.push_back(placed(prepared, mesh.instances[i]));
@@ -155,8 +184,6 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     progress("baking the environment");
     bakeEnvironment(image::read(d.environmentImage), d.environmentImage.string(), d.environmentScale,
                     d.environmentRotationDegrees, scene.environment);
-    sources.push_back({{"file", d.environmentImage.lexically_relative(d.file.parent_path()).string()},
-                       {"xxh3", hashText(d.environmentImage)}});
   }
   scene.environment.sun = d.sun;
   scene.environment.skyDegree = d.skyDegree;
@@ -166,19 +193,11 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     const std::string name = texture.file.lexically_relative(d.file.parent_path()).string();
     progress(fmt::format("baking {}", name));
     scene.textures.push_back(bakeTexture(image::read(texture.file), texture, name));
-    sources.push_back({{"file", name}, {"xxh3", hashText(texture.file)}});
   }
   for (pack::Material& m : scene.materials) m.maps.origin -= m.maps.any() ? scene.origin : glm::dvec3(0.0);
   scene.effects = findEffects(scene);
 
-  scene.provenance =
-      nlohmann::json{
-          {"malus", MALUS_VERSION},
-          {"draco", std::string(draco::kDracoVersion)},
-          {"sources", sources},
-          {"settings", {{"positionBits", settings.positionBits}, {"normalBits", settings.normalBits}}},
-      }
-          .dump();
+  scene.provenance = provenanceOf(d, settings);
   return baked;
 }
 

@@ -2,7 +2,9 @@
 // environment, finds the effects. Writing the pack is bake/pack/writer.h.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,5 +23,15 @@ struct Baked {
 // progress is told what is being done. Throws Error.
 Baked bake(const SceneDescription& description, const pack::WriteSettings& settings,
            const std::function<void(std::string_view)>& progress);
+
+// What the baker makes of the same sources changes with this number: raise it where tests/bake/golden.json changes.
+inline constexpr int kBakerRevision = 2;
+
+// JSON with the versions, the settings and the hashes of every source: what a pack is made of. Throws Error for a
+// source that cannot be read.
+std::string provenanceOf(const SceneDescription& description, const pack::WriteSettings& settings);
+
+// Whether the pack is there, whole, and made of just that.
+bool isUpToDate(const std::filesystem::path& pack, const std::string& provenance);
 
 }  // namespace malus::bake

@@ -25,11 +25,21 @@ namespace {
 struct BakeArguments {
   std::string input, output;
   pack::WriteSettings settings;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 void runBake(const BakeArguments& arguments) {
   const SceneDescription description = readSceneFile(arguments.input);
+  if (!arguments.force && isUpToDate(arguments.output, provenanceOf(description, arguments.settings))) {
+    if (arguments.json)
+      fmt::print("{}\n",
+                 nlohmann::json{{"name", description.name}, {"output", arguments.output}, {"upToDate", true}}.dump(
+                     2, ' ', false, nlohmann::json::error_handler_t::replace));
+    else
+      fmt::print("{}: {} is up to date: sources and settings are those that it was made of\n", description.name,
+                 arguments.output);
+    return;
+  }
   const Baked baked = bake(description, arguments.settings, console::progress);
   console::progress("compressing");
   const pack::Written written = pack::write(arguments.output, baked.scene, arguments.settings);
@@ -53,6 +63,7 @@ void runBake(const BakeArguments& arguments) {
     for (const prep::Report& report : baked.reports) preparation.push_back(prep::toJson(report));
     const nlohmann::json result = {{"name", baked.scene.name},
                                    {"output", arguments.output},
+                                   {"upToDate", false},
                                    {"sizeBytes", written.bytes.size()},
                                    {"vertices", vertices},
                                    {"triangles", triangles},
@@ -83,6 +94,7 @@ void addBakeCommand(CLI::App& app) {
   command->add_option("--normal-bits", arguments->settings.normalBits, "bits of the normals")
       ->check(CLI::Range(6, 16))
       ->capture_default_str();
+  command->add_flag("--force", arguments->force, "bake although the pack is up to date");
   command->add_flag("--json", arguments->json, "print the result as JSON");
   command->callback([arguments] { runBake(*arguments); });
 }

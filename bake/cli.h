@@ -1,5 +1,5 @@
 // The command lines of baking:
-//   malus bake SCENE.json -o OUT.pack [--position-bits N] [--normal-bits N] [--json]
+//   malus bake SCENE.json -o OUT.pack [--position-bits N] [--normal-bits N] [--force] [--json]
 //   malus info PACK [--verify] [--tolerance T] [--diff OTHER] [--json]
 //   malus unpack PACK -o FOLDER [--json]
 #pragma once

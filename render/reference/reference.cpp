@@ -13,9 +13,9 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
 
 #include "render/embree/embree.h"
+#include "render/reference/surface.h"
 #include "render/scene/float_scene.h"
 #include "shaders/optics/optics.h"
 
@@ -23,122 +23,7 @@ namespace malus::reference {
 
 namespace {
 
-using glm::dmat4;
-using glm::dvec3;
-using glm::dvec4;
 using pack::MaterialKind;
-
-// Stokes vector (S0, S1, S2, S3) of each colour, in the frame of the light it belongs to.
-using Light = std::array<dvec4, 3>;
-using Mueller = std::array<dmat4, 3>;
-
-Light unpolarized(const dvec3& radiance) {
-  return {dvec4(radiance.x, 0, 0, 0), dvec4(radiance.y, 0, 0, 0), dvec4(radiance.z, 0, 0, 0)};
-}
-Light operator+(const Light& a, const Light& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Light operator*(const Mueller& m, const Light& l) { return {m[0] * l[0], m[1] * l[1], m[2] * l[2]}; }
-
-// Rows as one writes them; glm's constructor takes columns.
-dmat4 rows(const std::array<double, 16>& r) {
-  return glm::transpose(
-      dmat4(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9], r[10], r[11], r[12], r[13], r[14], r[15]));
-}
-
-// [[A, B, 0, 0], [B, A, 0, 0], [0, 0, Re X, -Im X], [0, 0, Im X, Re X]]
-dmat4 interfaceMatrix(double s, double p, double xRe, double xIm) {
-  const double a = (s + p) / 2, b = (s - p) / 2;
-  return rows({a, b, 0, 0, b, a, 0, 0, 0, 0, xRe, -xIm, 0, 0, xIm, xRe});
-}
-
-// A frame turned by f: (S1, S2) -> [[cos 2f, sin 2f], [-sin 2f, cos 2f]] (S1, S2).
-dmat4 turnMatrix(double cos2, double sin2) {
-  return rows({1, 0, 0, 0, 0, cos2, sin2, 0, 0, -sin2, cos2, 0, 0, 0, 0, 1});
-}
-
-// From the canonical frame of a ray in direction d to the frame whose x is a surface's s direction.
-dmat4 toSurface(const dvec3& d, const dvec3& s) {
-  dvec3 x, y;
-  double cos2, sin2;
-  f64::canonicalFrame(-d, x, y);
-  f64::turnTo(s, x, y, cos2, sin2);
-  return turnMatrix(cos2, sin2);
-}
-Light turned(const dmat4& turn, const Light& l) { return {turn * l[0], turn * l[1], turn * l[2]}; }
-
-struct Interface {
-  Mueller reflection;
-  Mueller transmission;  // T_s, T_p = 1 - R: of metals only their diffuse light's weight
-  dvec3 meanTransmittance;
-};
-
-// A material at a place, where pictures may tell its numbers.
-struct Surface {
-  const pack::Material* material = nullptr;
-  dvec3 eta{1.0}, k{0.0}, albedo{0.0};
-};
-
-Interface interfaceOf(const Surface& surface, double c, double n1, double n2) {
-  const pack::Material& m = *surface.material;
-  Interface result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int colour = static_cast<int>(i);
-    const bool metal = m.kind == MaterialKind::metal;
-    const double n3 = metal ? surface.eta[colour] : n2, k3 = metal ? surface.k[colour] : 0;
-    if (m.coating.thicknessNm > 0) {
-      const f64::Film film = f64::filmOf(c, n1, m.coating.eta[colour], render::filmTurns(m.coating)[colour], n3, k3);
-      result.reflection[i] =
-          interfaceMatrix(film.reflected.rs, film.reflected.rp, film.reflected.xRe, film.reflected.xIm);
-      result.transmission[i] = interfaceMatrix(film.through.rs, film.through.rp, film.through.xRe, film.through.xIm);
-      result.meanTransmittance[colour] = 1 - (film.reflected.rs + film.reflected.rp) / 2;
-      continue;
-    }
-    const f64::Reflectance r = metal ? f64::conductorReflectance(c, n1, n3, k3) : f64::dielectricReflectance(c, n1, n2);
-    const double cross = metal ? 0 : f64::dielectricTransmittance(c, n1, n2).x;
-    result.reflection[i] = interfaceMatrix(r.rs, r.rp, r.xRe, r.xIm);
-    result.transmission[i] = interfaceMatrix(1 - r.rs, 1 - r.rp, cross, 0);
-    result.meanTransmittance[colour] = 1 - (r.rs + r.rp) / 2;
-  }
-  return result;
-}
-
-// A polarizer or wave plate, in the frame whose x is its axis seen along the ray: [[A, B], [B, A]] of the two
-// transmittances, and their geometric mean times [[cos, sin], [-sin, cos]] of the retardance on (S2, S3).
-Mueller sheetMatrix(const pack::Material& m) {
-  Mueller result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int colour = static_cast<int>(i);
-    const double along = m.along[colour], across = m.across[colour], both = std::sqrt(along * across),
-                 retardance = m.retardanceDegrees[colour] * std::numbers::pi / 180;
-    result[i] = interfaceMatrix(along, across, both * std::cos(retardance), -both * std::sin(retardance));
-  }
-  return result;
-}
-
-dvec3 transmittanceOver(const dvec3& absorption, double distance) { return glm::exp(-absorption * distance); }
-
-Light scaled(const Light& l, const dvec3& scale) { return {l[0] * scale[0], l[1] * scale[1], l[2] * scale[2]}; }
-
-// Linear polarization of a degree along x.
-Light polarized(const dvec3& radiance, double degree) {
-  Light l = unpolarized(radiance);
-  for (std::size_t i = 0; i < 3; ++i) l[i][1] = l[i][0] * degree;
-  return l;
-}
-
-// Bilinear, repeated; (0, 0) is the upper left corner.
-dvec3 textureAt(const pack::Texture& t, double u, double v) {
-  const double x = (u - std::floor(u)) * t.width - 0.5, y = (v - std::floor(v)) * t.height - 0.5;
-  const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
-  const auto texel = [&](double column, double row) {
-    const auto wrapped = [](double at, std::uint32_t count) {
-      const double n = count;
-      return static_cast<std::size_t>(at < 0 ? at + n : at >= n ? at - n : at);
-    };
-    return dvec3(t.texels[wrapped(row, t.height) * t.width + wrapped(column, t.width)]);
-  };
-  return (texel(x0, y0) * (1 - fx) + texel(x0 + 1, y0) * fx) * (1 - fy) +
-         (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
-}
 
 struct Tracer {
   const pack::Scene& scene;
@@ -157,20 +42,6 @@ struct Tracer {
     Surface surface;
     std::uint32_t materialIndex;
   };
-
-  Surface surfaceAt(std::uint32_t index, const dvec3& p) const {
-    const pack::Material& m = scene.materials[index];
-    Surface s{&m, m.eta, m.k, m.albedo};
-    const auto map = [&](std::int32_t texture) {
-      const dvec3 from = p - m.maps.origin;
-      return textureAt(scene.textures[static_cast<std::size_t>(texture)], glm::dot(from, m.maps.u),
-                       glm::dot(from, m.maps.v));
-    };
-    if (m.maps.albedo >= 0) s.albedo *= map(m.maps.albedo);
-    if (m.maps.eta >= 0) s.eta = map(m.maps.eta);
-    if (m.maps.k >= 0) s.k = map(m.maps.k);
-    return s;
-  }
 
   bool intersect(const dvec3& origin, const dvec3& queryOrigin, const dvec3& d, Hit& hit) {
     ++rays;
@@ -198,7 +69,7 @@ struct Tracer {
     const double b0 = 1 - b1 - b2;
     hit.position = p0 * b0 + p1 * b1 + p2 * b2;
     hit.travelled = glm::length(hit.position - origin);
-    hit.surface = surfaceAt(mesh.material, hit.position);
+    hit.surface = surfaceAt(scene, mesh.material, hit.position);
     // The next query is made in float.
     hit.error =
         f64::hitPointError(p0, p1, p2, b0, b1, b2, 0x1p-24) + f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);

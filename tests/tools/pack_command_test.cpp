@@ -62,6 +62,40 @@ TEST(Packs, DiffTellsWhatChanged) {
   EXPECT_EQ(malus({"info", a, "--diff", scenes.folder / "none.pack"}).exitCode, 1);
 }
 
+TEST(Packs, AreMadeAnewWhereSomethingChangedAlone) {
+  TwoScenes scenes;
+  const std::string pack = scenes.folder / "out.pack";
+  const auto upToDate = [&](std::vector<std::string> options = {}) {
+    std::vector<std::string> command = {"bake", scenes.first, "-o", pack, "--json"};
+    command.insert(command.end(), options.begin(), options.end());
+    const Finished baked = malus(command);
+    EXPECT_EQ(baked.exitCode, 0) << baked.err;
+    return json::parse(baked.out).at("upToDate").get<bool>();
+  };
+  EXPECT_FALSE(upToDate());
+  const std::string bytes = textOf(pack);
+  EXPECT_TRUE(upToDate());
+  EXPECT_FALSE(upToDate({"--force"}));
+  EXPECT_EQ(textOf(pack), bytes);
+  EXPECT_FALSE(upToDate({"--normal-bits", "10"}));  // other settings
+  EXPECT_FALSE(upToDate());
+  // A touched source is not a changed one; a changed one is.
+  const std::string floor = scenes.folder / "floor.obj", text = textOf(floor);
+  writeText(floor, text);
+  EXPECT_TRUE(upToDate());
+  writeText(floor, "# a comment\n" + text);
+  EXPECT_FALSE(upToDate());
+  EXPECT_TRUE(upToDate());
+  // A damaged pack is none.
+  std::string damaged = textOf(pack);
+  damaged[damaged.size() / 2] ^= 1;
+  writeText(pack, damaged);
+  EXPECT_FALSE(upToDate());
+  // A source that is gone is an error although the pack is there.
+  std::filesystem::remove(floor);
+  expectRefusal(malus({"bake", scenes.first, "-o", pack}), "floor.obj");
+}
+
 // Killed at any moment: the old pack is there, or the new one, whole.
 TEST(Packs, SurviveBeingKilled) {
   TwoScenes scenes;

@@ -1,0 +1,14 @@
+// The mesh readers and the cleaning behind them; MALUS_EXTENSION names the format.
+#include "meshprep/base/error.h"
+#include "meshprep/prepare.h"
+#include "tests/fuzz/target.h"
+#include "tests/fuzz/temporary.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    malus::prep::Report report;
+    malus::prep::prepare(writeTemporary(data, size, MALUS_EXTENSION), {}, report);
+  } catch (const malus::Error&) {
+  }
+  return 0;
+}

@@ -1,0 +1,17 @@
+// A file for readers that take a path; one for the process.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+inline std::filesystem::path writeTemporary(const std::uint8_t* data, std::size_t size, const std::string& extension) {
+  static const std::filesystem::path kPath =
+      std::filesystem::temp_directory_path() / ("malus-fuzz-" + std::to_string(::getpid()) + extension);
+  std::ofstream(kPath, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  return kPath;
+}

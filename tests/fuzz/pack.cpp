@@ -1,4 +1,5 @@
-// The pack reader: the bytes as they are, and with hashes and sizes made right, so that what lies behind them is reached.
+// The pack reader: the bytes as they are, and with hashes and sizes made right, so that what lies behind them is
+// reached.
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -36,7 +37,7 @@ void repair(Bytes& bytes) {
     if (offset > bytes.size() || size > bytes.size() - offset) continue;
     test::setNumber(bytes, entry + 32,
                     hashOf(std::span<const std::byte>(bytes).subspan(static_cast<std::size_t>(offset),
-                                                                      static_cast<std::size_t>(size))));
+                                                                     static_cast<std::size_t>(size))));
   }
   if (kHeaderBytes + count * kEntryBytes <= bytes.size()) test::fixHashes(bytes);
 }

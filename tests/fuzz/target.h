@@ -1,5 +1,5 @@
-// What a fuzzing target is: bytes of a file from anywhere. An Error is an answer; anything else that it throws, a crash,
-// a hang or a huge allocation is a finding.
+// What a fuzzing target is: bytes of a file from anywhere. An Error is an answer; anything else that it throws, a
+// crash, a hang or a huge allocation is a finding.
 #pragma once
 
 #include <cstddef>

@@ -89,6 +89,21 @@ void requireClosedGlass(const MeshDescription& mesh, const pack::Material& mater
                   "a closed surface, or \"sheet\": true");
 }
 
+// Where the axis of a sheet or a display points along a face's normal, light has no direction across the ray.
+void requireAxisInPlane(const pack::Mesh& mesh, const pack::Material& material, const std::filesystem::path& file) {
+  if (material.axis == glm::dvec3(0.0)) return;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3& t = mesh.triangles[i];
+    const glm::dvec3 p0(mesh.positions[t.x]),
+        across = glm::cross(glm::dvec3(mesh.positions[t.y]) - p0, glm::dvec3(mesh.positions[t.z]) - p0);
+    const double length = glm::length(across);
+    if (length > 0 && std::abs(glm::dot(across / length, material.axis)) > 1 - 1e-6)
+      throw Error(file.string(),
+                  fmt::format("mesh '{}': face {} is at right angles to its material's axis", mesh.name, i),
+                  fmt::format("an axis of '{}' that lies across the normals of its faces", material.name));
+  }
+}
+
 }  // namespace
 
 std::string provenanceOf(const SceneDescription& d, const pack::WriteSettings& settings) {
@@ -170,6 +185,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     for (const glm::dvec3& p : world[i].positions) mesh.positions.emplace_back(p - scene.origin);
     mesh.normals = std::move(world[i].normals);
     mesh.triangles = std::move(world[i].triangles);
+    requireAxisInPlane(mesh, scene.materials[mesh.material], d.file);
   }
   scene.camera = cameraOf(d, scene.origin);
   for (const pack::PointLight& light : d.lights)
@@ -179,7 +195,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   scene.environment.diffuseFill = d.diffuseFill;
   if (d.environmentImage.empty()) {
     bakeConstantEnvironment(d.environmentRadiance, scene.environment);
-    if (d.skyDegree > 0) bakeRayleighIrradiance(d.sun, scene.environment);
+    if (d.sun != glm::dvec3(0.0)) bakeRayleighIrradiance(d.sun, scene.environment);
   } else {
     progress("baking the environment");
     bakeEnvironment(image::read(d.environmentImage), d.environmentImage.string(), d.environmentScale,

@@ -72,7 +72,7 @@ json sceneJson(const pack::Pack& pack) {
   const pack::Environment& e = scene.environment;
   json environment = {{"diffuseFill", e.diffuseFill}, {"irradiance", json::array()}};
   for (const glm::dvec3& c : e.irradiance) environment["irradiance"].push_back(vectorJson(c));
-  if (e.skyDegree > 0) environment["sky"] = {{"sun", vectorJson(e.sun)}, {"maxDegree", e.skyDegree}};
+  if (e.hasSun()) environment["sky"] = {{"sun", vectorJson(e.sun)}, {"maxDegree", e.skyDegree}};
   if (e.size == 0) {
     environment["radiance"] = vectorJson(e.radiance);
   } else {

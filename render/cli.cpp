@@ -134,6 +134,7 @@ void checkUsage(const RenderArguments& a) {
   if (!a.mosaic.empty() && (a.polarizer || !a.analyser.empty() || !a.wavePlate.empty()))
     fail("--mosaic", "has a polarizer in front of every pixel: no --polarizer, --analyser or --wave-plate");
   if (a.maxError && a.backend == "reference") fail("--max-error", "the reference has no error");
+  if (a.tolerance > 0 && a.maxError) fail("--tolerance", "excludes --max-error");
   if (a.intensity && a.stokes) fail("--intensity", "excludes --stokes");
   if (a.tolerance > 0 && (a.backend == "reference" || !methodNamed(a.method).isLoop))
     fail("--tolerance", fmt::format("needs a method that follows the eye's path (importance, fresnel-loop, "
@@ -248,7 +249,7 @@ pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, View& vie
 
 // The cheapest method that is good enough, and why, for a person.
 std::string chooseMethod(const RenderArguments& a, const pack::Pack& pack, const View& view) {
-  const bool needsStokes = !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
+  const bool needsStokes = view.stokes;
   std::unique_ptr<vulkan::Renderer> vulkan;
   std::unique_ptr<embree::Renderer> embree;
   if (a.backend == "vulkan")
@@ -281,10 +282,10 @@ void runRender(RenderArguments a) {
     throw CLI::ValidationError(
         "--mosaic", fmt::format("needs an even width and height (--width, --height), not {} x {}", view.region.width,
                                 view.region.height));
-  if (a.maxError) a.method = chooseMethod(a, pack, view);
-  warnOfMissingLight(a, view.analyser);
   view.tolerance = a.tolerance;
   view.stokes = a.stokes || !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
+  if (a.maxError) a.method = chooseMethod(a, pack, view);
+  warnOfMissingLight(a, view.analyser);
   const pack::Scene scene = applyEffects(a, pack.scene, view);
   if (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty())
     requireStokes(a, !a.mosaic.empty() ? "--mosaic" : a.dolp.empty() ? "--output-aolp" : "--output-dolp");

@@ -54,6 +54,7 @@ class OutputFolder {
 
 // The colour behind an analyser, from the Stokes channels of a rendered picture.
 image::Image behind(const Analyser& analyser, const Picture& picture) {
+  if (picture.channels != kStokesChannels) throw Error("malus sweep", "the picture has no Stokes vectors");
   image::Image result;
   result.width = static_cast<int>(picture.width);
   result.height = static_cast<int>(picture.height);
@@ -71,7 +72,8 @@ image::Image behind(const Analyser& analyser, const Picture& picture) {
 void runSweep(const SweepArguments& a) {
   requireStokes(a, "--method");
   const pack::Pack pack = pack::read(a.input);
-  const View view = viewFor(a, pack.scene);
+  View view = viewFor(a, pack.scene);
+  view.stokes = true;
   const fs::path folder = a.folder;
   const OutputFolder made(folder);
   const std::string method = a.backend == "reference" ? "reference" : a.method;

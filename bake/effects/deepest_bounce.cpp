@@ -17,8 +17,6 @@ using pack::MaterialKind;
 
 namespace {
 
-constexpr double kFlat = 4e-6;
-
 struct Face {
   std::array<glm::dvec3, 3> corners;
   glm::dvec3 normal;         // 0: without area
@@ -38,22 +36,22 @@ double reflectance(const Material& m, double c) {
 }
 
 // The most that a face reflects of light toward one of the points. The cosine's level sets are cones, so its least
-// value between two convex sets lies at corners; 0 where the points lie on both sides. Angles between that and normal
-// incidence are looked at in steps, because a metal's reflectance may dip and rise.
-double most(const Face& face, std::span<const glm::dvec3> points) {
+// value between two convex sets lies at corners; 0 where the points lie on both sides. Points no farther than `flat`
+// from the face's plane see nothing of it. Angles between that and normal incidence are looked at in steps, because a
+// metal's reflectance may dip and rise.
+double most(const Face& face, std::span<const glm::dvec3> points, double flat) {
   if (!face.material || face.normal == glm::dvec3(0.0)) return 1;
   double least = 1;
-  double before = 0, behind = 0, size = 0;
+  double before = 0, behind = 0;
   for (const glm::dvec3& p : points)
     for (const glm::dvec3& q : face.corners) {
       const double length = glm::length(p - q), height = glm::dot(p - q, face.normal);
       before = std::max(before, height);
       behind = std::max(behind, -height);
-      size = std::max(size, length);
       least = std::min(least, length > 0 ? std::abs(height) / length : 0);
     }
-  // In one plane they do not see each other; twice a step of a pack's grid bends it.
-  if (std::max(before, behind) <= kFlat * size) return 0;
+  // In one plane they do not see each other.
+  if (std::max(before, behind) <= flat) return 0;
   if (before > 0 && behind > 0) least = 0;
   constexpr int kSteps = 32;
   double result = 0;
@@ -87,12 +85,13 @@ std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, doubl
     }
   }
   if (faces.empty()) return 0;
+  const double flat = flatness(scene);
   if (!interfacesSeeEachOther(scene)) depth = std::min(depth, 1u);
 
   // Step 1: from the eye. Step 2: bounce by bounce, the best way to every face.
   const std::size_t count = faces.size();
   std::vector<double> share(count);
-  for (std::size_t j = 0; j < count; ++j) share[j] = most(faces[j], std::array{scene.camera.position});
+  for (std::size_t j = 0; j < count; ++j) share[j] = most(faces[j], std::array{scene.camera.position}, 0);
   std::vector<double> between;
   for (std::uint32_t bounce = 1; bounce <= depth; ++bounce) {
     if (*std::max_element(share.begin(), share.end()) <= tolerance) return bounce - 1;
@@ -102,7 +101,7 @@ std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, doubl
       for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = 0; j < count; ++j)
           // A flat face does not see itself.
-          between[i * count + j] = i == j && faces[i].material ? 0 : most(faces[j], faces[i].corners);
+          between[i * count + j] = i == j && faces[i].material ? 0 : most(faces[j], faces[i].corners, flat);
     }
     std::vector<double> next(count, 0);
     for (std::size_t i = 0; i < count; ++i)

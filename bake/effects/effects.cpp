@@ -84,7 +84,9 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
   addFor("absorption", namesWhere(scene, absorbs), "material with an absorbing medium");
   const bool coated = addFor("coatings", namesWhere(scene, isCoated), "material with a thin film");
   addFor("polarizing-sheets", namesWhere(scene, isSheet), "polarizer or wave plate");
-  const bool plates = !namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::wavePlate; }).empty();
+  const bool plates = !namesWhere(scene, [](const Material& m) {
+                         return isSheet(m) && m.retardanceDegrees != glm::dvec3(0.0);
+                       }).empty();
   const std::string rough = namesWhere(scene, [](const Material& m) { return m.roughness > 0; });
   if (deep)
     addFor("rough-reflection", rough, "rough surface");

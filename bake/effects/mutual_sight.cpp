@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace malus::bake {
@@ -43,6 +44,14 @@ bool allClosed(const pack::Scene& scene) {
 
 }  // namespace
 
+double flatness(const pack::Scene& scene) {
+  glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+  for (const pack::Mesh& mesh : scene.meshes)
+    for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  const glm::dvec3 extent = glm::dvec3(high) - glm::dvec3(low), far = glm::max(glm::abs(low), glm::abs(high));
+  return 2e-6 * std::max({0.0, extent.x, extent.y, extent.z}) + 2.5e-7 * std::max({0.0, far.x, far.y, far.z});
+}
+
 bool interfacesSeeEachOther(const pack::Scene& scene) {
   // Step 1: the faces and corners of interfaces.
   std::vector<glm::dvec3> corners;
@@ -50,7 +59,6 @@ bool interfacesSeeEachOther(const pack::Scene& scene) {
     glm::dvec3 point, normal;
   };
   std::vector<Face> faces;
-  double size = 0;
   for (const pack::Mesh& mesh : scene.meshes) {
     if (!isInterface(scene, mesh)) continue;
     const MaterialKind kind = scene.materials[mesh.material].kind;
@@ -60,8 +68,7 @@ bool interfacesSeeEachOther(const pack::Scene& scene) {
     for (const glm::uvec3& t : mesh.triangles) used[t.x] = used[t.y] = used[t.z] = true;
     for (std::size_t i = 0; i < used.size(); ++i) {
       if (!used[i]) continue;
-      const glm::dvec3& p = corners.emplace_back(mesh.positions[i]);
-      size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+      corners.emplace_back(mesh.positions[i]);
     }
     for (const glm::uvec3& t : mesh.triangles) {
       const glm::dvec3 p0(mesh.positions[t.x]),
@@ -73,8 +80,7 @@ bool interfacesSeeEachOther(const pack::Scene& scene) {
   // Step 2: whether a corner lies before a face.
   constexpr std::size_t kMostTests = 20'000'000;
   if (faces.empty() || faces.size() * corners.size() > kMostTests) return true;
-  // Twice the step of a pack's grid, which bends flat surfaces by as much.
-  const double tolerance = 4e-6 * size;
+  const double tolerance = flatness(scene);
   bool before = false, behind = false;
   for (const Face& face : faces)
     for (const glm::dvec3& corner : corners) {

@@ -10,4 +10,8 @@ namespace malus::bake {
 // or too much of it to tell.
 bool interfacesSeeEachOther(const pack::Scene& scene);
 
+// Height up to which corners count as in a face's plane: twice a step of a pack's grid (20 bits over the cube that
+// holds every vertex), which bends flat surfaces by as much, and what float leaves of the largest coordinate.
+double flatness(const pack::Scene& scene);
+
 }  // namespace malus::bake

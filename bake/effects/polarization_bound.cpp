@@ -27,8 +27,7 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
     if (m.kind == MaterialKind::emitter && m.radiance[colour] > 0)
       result.source = std::max(result.source, m.polarization);
     if (m.kind == MaterialKind::lambert || m.kind == MaterialKind::emitter) continue;
-    if (m.kind == MaterialKind::wavePlate) continue;  // shifts phases, takes from both alike
-    if (m.kind == MaterialKind::polarizer) {
+    if (m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate) {
       result.interaction = std::max(result.interaction, ratio(m.along[colour], m.across[colour]));
       continue;
     }

@@ -30,7 +30,8 @@ inline constexpr std::uint32_t kMaxResolution = 16384;
 inline constexpr std::uint32_t kMaxEnvironmentSize = 8192;
 inline constexpr std::uint32_t kMaxTextures = 256;
 inline constexpr std::uint32_t kMaxTextureSide = 8192;
-inline constexpr double kMaxAbsorption = 1e9;  // 1/m
+inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 28;  // of all textures
+inline constexpr double kMaxAbsorption = 1e9;                        // 1/m
 inline constexpr double kMaxThicknessNm = 1e5;
 inline constexpr double kMaxRetardanceDegrees = 1e5;
 

@@ -190,12 +190,15 @@ void readTextures(ByteReader r, std::vector<Texture>& textures) {
   const std::uint32_t count = r.count(24, "number of textures");
   if (count > kMaxTextures)
     r.fail("number of textures", fmt::format("at most {}", kMaxTextures), fmt::format("{}", count));
+  std::uint64_t total = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     Texture t;
     t.name = r.text();
     t.width = r.u32AtMost(kMaxTextureSide, "width of a texture");
     t.height = r.u32AtMost(kMaxTextureSide, "height of a texture");
     const std::uint64_t texels = std::uint64_t{t.width} * t.height;
+    total += texels;
+    if (total > kMaxTexels) r.fail("texels", fmt::format("at most {} in all", kMaxTexels), "more");
     if (texels == 0 || texels * 12 > r.left())
       r.fail(fmt::format("texels of texture '{}'", t.name), fmt::format("{} bytes, more than 0", texels * 12),
              fmt::format("{} left", r.left()));
@@ -218,13 +221,28 @@ void readSky(ByteReader r, Environment& environment) {
   r.end();
 }
 
-std::int32_t readMap(ByteReader& r, const std::vector<Texture>& textures, float low, float high) {
-  const std::uint32_t index = r.u32AtMost(static_cast<std::uint32_t>(textures.size()), "texture of a material");
-  if (index > 0)
-    for (const glm::vec3& t : textures[index - 1].texels)
-      if (std::min({t.x, t.y, t.z}) < low || std::max({t.x, t.y, t.z}) > high)
-        r.fail(fmt::format("texture '{}' of a material", textures[index - 1].name),
-               fmt::format("values from {:g} to {:g}", low, high), "others");
+// Smallest and largest number of a texture.
+struct Range {
+  float low = 0, high = 0;
+};
+std::vector<Range> rangesOf(const std::vector<Texture>& textures) {
+  std::vector<Range> ranges;
+  for (const Texture& texture : textures) {
+    Range range{texture.texels[0].x, texture.texels[0].x};
+    for (const glm::vec3& t : texture.texels) {
+      range.low = std::min({range.low, t.x, t.y, t.z});
+      range.high = std::max({range.high, t.x, t.y, t.z});
+    }
+    ranges.push_back(range);
+  }
+  return ranges;
+}
+
+std::int32_t readMap(ByteReader& r, const std::vector<Range>& ranges, float low, float high) {
+  const std::uint32_t index = r.u32AtMost(static_cast<std::uint32_t>(ranges.size()), "texture of a material");
+  if (index > 0 && (ranges[index - 1].low < low || ranges[index - 1].high > high))
+    r.fail(fmt::format("texture {} of a material", index), fmt::format("values from {:g} to {:g}", low, high),
+           fmt::format("{:g} to {:g}", ranges[index - 1].low, ranges[index - 1].high));
   return static_cast<std::int32_t>(index) - 1;
 }
 
@@ -232,6 +250,7 @@ void readSurfaces(ByteReader r, const std::vector<Texture>& textures, std::vecto
   const std::uint32_t count = r.count(276, "number of surfaces");
   if (count != materials.size())
     r.fail("number of surfaces", fmt::format("{}, as of materials", materials.size()), fmt::format("{}", count));
+  const std::vector<Range> ranges = rangesOf(textures);
   for (Material& m : materials) {
     const bool sheet = m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate;
     const bool opaque =
@@ -248,10 +267,10 @@ void readSurfaces(ByteReader r, const std::vector<Texture>& textures, std::vecto
     m.along = r.dvec3Between(0, 1, "transmittance of a sheet");
     m.across = r.dvec3Between(0, 1, "transmittance of a sheet");
     m.retardanceDegrees = r.dvec3Between(-kMaxRetardanceDegrees, kMaxRetardanceDegrees, "retardance");
-    m.maps.albedo = readMap(r, textures, 0, 1);
-    m.maps.eta = readMap(r, textures, m.kind == MaterialKind::metal ? 0 : static_cast<float>(kMinEta),
+    m.maps.albedo = readMap(r, ranges, 0, 1);
+    m.maps.eta = readMap(r, ranges, m.kind == MaterialKind::metal ? 0 : static_cast<float>(kMinEta),
                          static_cast<float>(kMaxEta));
-    m.maps.k = readMap(r, textures, static_cast<float>(kMinEta), static_cast<float>(kMaxEta));
+    m.maps.k = readMap(r, ranges, static_cast<float>(kMinEta), static_cast<float>(kMaxEta));
     if ((m.maps.eta >= 0 && !opaque) || (m.maps.k >= 0) != (m.maps.eta >= 0 && m.kind == MaterialKind::metal))
       r.fail(fmt::format("index map of material '{}'", m.name), "eta of an opaque interface, with k of a metal alone",
              "another");

@@ -100,12 +100,13 @@ struct Camera {
 // Light from infinity: constant, or an octahedral map with a border of one texel all around that repeats
 // what lies across the map's edges (size + 2 texels a side, row by row).
 struct Environment {
-  glm::dvec3 radiance{0.0};                // where size is 0
-  std::uint32_t size = 0;                  // texels a side without the border
-  std::vector<glm::vec3> texels;           // (size + 2)^2, each exactly a half float
-  double diffuseFill = 0.0;                // share of its irradiance that reaches diffuse surfaces
-  glm::dvec3 sun{0.0};                     // unit, toward the sun of a polarized sky
-  double skyDegree = 0;                    // its largest degree of polarization; 0: the light is unpolarized
+  glm::dvec3 radiance{0.0};       // where size is 0
+  std::uint32_t size = 0;         // texels a side without the border
+  std::vector<glm::vec3> texels;  // (size + 2)^2, each exactly a half float
+  double diffuseFill = 0.0;       // share of its irradiance that reaches diffuse surfaces
+  glm::dvec3 sun{0.0};            // unit, toward the sun of a Rayleigh sky; 0: none
+  double skyDegree = 0;           // its largest degree of polarization
+  bool hasSun() const { return sun != glm::dvec3(0.0); }
   std::array<glm::dvec3, 9> irradiance{};  // coefficients of irradiancePolynomial (shaders/optics/environment.h)
 };
 

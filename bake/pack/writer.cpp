@@ -216,7 +216,7 @@ Written serialize(const Scene& scene, const WriteSettings& settings) {
   if (!std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.isPlain(); }))
     bodies.push_back({kSurfaces, 0, surfaceBytes(scene.materials)});
   if (!scene.textures.empty()) bodies.push_back({kTextures, 0, textureBytes(scene.textures)});
-  if (scene.environment.skyDegree > 0) bodies.push_back({kSky, 0, skyBytes(scene.environment)});
+  if (scene.environment.hasSun()) bodies.push_back({kSky, 0, skyBytes(scene.environment)});
   bodies.push_back({kMeshes, 0, table.take()});
   bodies.push_back({kGeometry, 0, geometry.take()});
   bodies.push_back({kEffects, kOptional, effectBytes(scene.effects)});

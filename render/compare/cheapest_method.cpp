@@ -76,9 +76,9 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const View& 
   view.region = {0, 0, view.width, view.height};
   view.samples = 1;
   const std::string key =
-      fmt::format("malus {} pack {:016x} {} {}x{} depth {} analyser {} {} {} {} methods {}", MALUS_VERSION, pack.hash,
-                  device, view.width, view.height, view.depth, view.analyser[0], view.analyser[1], view.analyser[2],
-                  view.analyser[3], fmt::join(methodNames(), " "));
+      fmt::format("malus {} pack {:016x} {} {}x{} depth {} analyser {} {} {} {} stokes {} methods {}", MALUS_VERSION,
+                  pack.hash, device, view.width, view.height, view.depth, view.analyser[0], view.analyser[1],
+                  view.analyser[2], view.analyser[3], view.stokes, fmt::join(methodNames(), " "));
   const fs::path path = cacheFile(key);
   if (std::vector<MethodEstimate> known = load(path, key); !known.empty()) return known;
 

@@ -114,7 +114,7 @@ struct Tracer {
   // Light that leaves the scene's surroundings against d: S1 is across the plane of d and the sun.
   Light surroundings(const dvec3& d) const {
     const pack::Environment& e = scene.environment;
-    if (e.skyDegree == 0) return unpolarized(environment(d));
+    if (!e.hasSun()) return unpolarized(environment(d));
     const double cosine = glm::dot(d, e.sun);
     const dvec3 radiance = environment(d) * (e.size == 0 ? f64::rayleighPhase(cosine) : 1.0);
     return turned(glm::transpose(toSurface(d, f64::sDirection(d, e.sun))),

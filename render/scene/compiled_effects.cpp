@@ -37,7 +37,7 @@ std::uint32_t compiledEffects(const pack::Scene& scene, const View& view) {
   need(Effect::kHighlights, lit && glossy);
   need(Effect::kFill, diffuse && scene.environment.diffuseFill > 0);
   need(Effect::kEnvironmentMap, scene.environment.size > 0);
-  need(Effect::kSky, scene.environment.skyDegree > 0);
+  need(Effect::kSky, scene.environment.hasSun());
   return bits;
 }
 

@@ -141,6 +141,7 @@ Device::Device(const Instance& instance, const std::string& wanted, bool statist
   properties.pNext = &rayTracing_;
   vkGetPhysicalDeviceProperties2(physical, &properties);
   rayTracing_.pNext = nullptr;
+  maxStorageBufferBytes_ = properties.properties.limits.maxStorageBufferRange;
   scratchAlignment_ = std::max(1u, acceleration.minAccelerationStructureScratchOffsetAlignment);
 
   // A queue that computes; ray tracing needs no more.

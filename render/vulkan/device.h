@@ -35,6 +35,7 @@ class Device {
   VkDevice get() const { return device_; }
   const PhysicalDevice& physical() const { return physical_; }
   const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rayTracing() const { return rayTracing_; }
+  VkDeviceSize maxStorageBufferBytes() const { return maxStorageBufferBytes_; }
   std::uint32_t scratchAlignment() const { return scratchAlignment_; }
   double timestampPeriodNs() const { return timestampPeriodNs_; }  // 0: the queue has no timestamps
   bool hasRayQueries() const { return rayQueries_; }
@@ -61,6 +62,7 @@ class Device {
   PhysicalDevice physical_;
   VkPhysicalDeviceMemoryProperties memory_{};
   VkPhysicalDeviceRayTracingPipelinePropertiesKHR rayTracing_{};
+  VkDeviceSize maxStorageBufferBytes_ = 0;
   std::uint32_t scratchAlignment_ = 1;
   double timestampPeriodNs_ = 0;
   bool rayQueries_ = false;

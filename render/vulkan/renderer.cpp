@@ -63,7 +63,12 @@ class Bindings {
   VkDescriptorSetLayout layout() const { return layout_; }
   const VkDescriptorSet& set() const { return set_; }
 
+  // Throws Error where the device cannot bind all textures at once.
   void bind(Binding binding, const Buffer& buffer) {
+    if (binding == kTextureTexels && buffer.sizeBytes() > device_.maxStorageBufferBytes())
+      throw Error(fmt::format("device '{}'", device_.physical().name), "cannot hold the scene's textures in one buffer",
+                  fmt::format("at most {} bytes", device_.maxStorageBufferBytes()),
+                  fmt::format("{}", buffer.sizeBytes()));
     const VkDescriptorBufferInfo info{buffer.get(), 0, VK_WHOLE_SIZE};
     VkWriteDescriptorSet write = writeOf(binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     write.pBufferInfo = &info;

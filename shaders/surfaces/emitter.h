@@ -6,8 +6,11 @@ FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
   radiance = radiance * mediumTransmittance(h, m);
 #endif
 #if MALUS_EFFECT_POLARIZED_EMITTERS
-  real3 across = cross3(h.face, extras[h.material].axis);
-  Payload sent = payloadSend(lightPolarized(radiance, extras[h.material].degree), h.d, surfaceS(h.d, across));
+  // Without polarization the light has no direction across the ray, which the methods of the paper tell apart.
+  real degree = extras[h.material].degree;
+  Payload sent = payloadSource(radiance);
+  if (degree > R(0.0))
+    sent = payloadSend(lightPolarized(radiance, degree), h.d, surfaceS(h.d, cross3(h.face, extras[h.material].axis)));
   if (kCheckNumerics) checkSent(h, sent, radiance * (R(8.0) * kUnitRoundoff));
 #else
   Payload sent = payloadSource(radiance);

@@ -32,7 +32,7 @@ FN real3 skyRadiance(real3 d, OUT(real) degree) {
   real cosine = dot3(d, frame.sun);
   degree = rayleighDegree(cosine, frame.skyDegree);
   real3 radiance = environmentRadiance(d);
-  if (frame.environmentSize == 0 && frame.skyDegree > R(0.0)) radiance = radiance * rayleighPhase(cosine);
+  if (frame.environmentSize == 0 && dot3(frame.sun, frame.sun) > R(0.0)) radiance = radiance * rayleighPhase(cosine);
   return radiance;
 }
 #endif

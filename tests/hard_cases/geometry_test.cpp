@@ -184,6 +184,23 @@ TEST_P(HardScenes, AutoEqualsAll) {
   }
 }
 
+// Every method draws the same picture by the smallest build that will do and by the one that has everything.
+TEST_P(HardScenes, EveryMethodIsTheSameInEveryBuild) {
+  const pack::Scene& scene = packOf(GetParam()).scene;
+  const embree::Renderer renderer(scene, 0);
+  render::View view = render::viewOf(scene);
+  for (const std::string& method : render::methodNames()) {
+    view.everyEffect = false;
+    const Picture some = renderer.render(method, view);
+    view.everyEffect = true;
+    const Picture all = renderer.render(method, view);
+    double largest = 0;
+    for (std::size_t i = 0; i < all.pixels.size(); ++i)
+      largest = std::max(largest, std::abs(static_cast<double>(all.pixels[i] - some.pixels[i])));
+    EXPECT_LT(largest, 4e-6) << method;
+  }
+}
+
 TEST_P(HardScenes, ImportanceIsTheIntensityOfTheReference) {
   // Behind filters too, and on Vulkan at any depth: the loop does not recurse.
   const pack::Scene& scene = packOf(GetParam()).scene;

@@ -435,6 +435,34 @@ TEST(Render, ChecksItsNumbers) {
   }
 }
 
+TEST(Render, SweepByFourAnalysers) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const auto sweep = [&](const char* method) {
+    const Finished done = malus({"sweep", folder / "tiny.pack", "-o", folder / method, "--backend", "embree",
+                                 "--method", method, "--frames", "2"});
+    EXPECT_EQ(done.exitCode, 0) << done.err;
+    return std::string(folder / method) + "/frame-001.png";
+  };
+  const Finished compared = malus({"compare-images", sweep("stokes"), sweep("importance"), "--fail-over", "0.005"});
+  EXPECT_EQ(compared.exitCode, 0) << compared.out;
+}
+
+TEST(Render, MaxErrorKeepsWhatIsAskedOfThePicture) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const Finished stokes = malus(
+      {"render", folder / "tiny.pack", "--backend", "embree", "--max-error", "10", "--stokes", "-o", folder / "a.exr"});
+  EXPECT_EQ(stokes.exitCode, 0) << stokes.err;
+  EXPECT_TRUE(contains(stokes.out, "stokes") || contains(stokes.out, "importance")) << stokes.out;
+  EXPECT_EQ(malus({"render", folder / "tiny.pack", "--backend", "embree", "--max-error", "10", "--tolerance", "0.1",
+                   "-o", folder / "a.exr"})
+                .exitCode,
+            2);
+}
+
 TEST(Render, Effects) {
   const Folder folder;
   writeTinyScene(folder.path());

@@ -177,6 +177,31 @@ TEST(Effects, PolarizedSourcesAreTheFirstOfTwoDiattenuators) {
   EXPECT_DOUBLE_EQ(polarizationErrorBound(scene, request).x, 1);
 }
 
+// The renderers go by a sheet's numbers, not by its name; so does the analysis.
+TEST(Effects, SheetsCountByTheirNumbers) {
+  Material turner = material(MaterialKind::polarizer);
+  turner.retardanceDegrees = glm::dvec3(90);
+  EXPECT_TRUE(effectsOf(sceneOf({turner}, 4)).at("circular-polarization"));
+  turner.retardanceDegrees = glm::dvec3(0);
+  EXPECT_FALSE(effectsOf(sceneOf({turner}, 4)).at("circular-polarization"));
+  Material plate = material(MaterialKind::wavePlate);
+  plate.across = glm::dvec3(0);
+  EXPECT_DOUBLE_EQ(polarizationErrorBound(sceneOf({plate}, 2), {2, {1, 0, 0, 0}, false, false}).x, 1);
+}
+
+// Far from the origin two facing mirrors are as near to each other as anywhere.
+TEST(Effects, MirrorsFarFromTheOriginSeeEachOther) {
+  pack::Scene scene = sceneOf({material(MaterialKind::mirrorGlass)}, 4);
+  scene.meshes.resize(2, scene.meshes[0]);
+  for (int i = 0; i < 2; ++i) {
+    pack::Mesh& mesh = scene.meshes[static_cast<std::size_t>(i)];
+    const float x = 1e5f + 0.5f * static_cast<float>(i);
+    mesh.positions = {{x, 0, 0}, {x, 1, 0}, {x, 1, 1}};
+    mesh.triangles = {i == 0 ? glm::uvec3(0, 1, 2) : glm::uvec3(0, 2, 1)};
+  }
+  EXPECT_TRUE(effectsOf(scene).at("linear-polarization"));
+}
+
 TEST(Effects, DeepestBounce) {
   // Two square mirrors of side 1 that face each other at distance 1: the most grazing way from corner to corner has a
   // cosine of 1/sqrt(3).
@@ -202,6 +227,12 @@ TEST(Effects, DeepestBounce) {
   EXPECT_EQ(deepestBounce(facing(MaterialKind::mirrorGlass, 1e-3), 20, 1e-3), 20u);  // grazing ways
   EXPECT_EQ(deepestBounce(facing(MaterialKind::glass, 1), 20, 1e-3), 20u);           // transmits
   EXPECT_EQ(deepestBounce(sceneOf({material(MaterialKind::lambert, 0.5)}, 20), 20, 1e-3), 0u);
+  // A wide mirror under a low eye.
+  pack::Scene water = glass;
+  water.meshes.pop_back();
+  for (glm::vec3& p : water.meshes[0].positions) p = (p - glm::vec3(0.5f, 0.5f, 0)) * 2e5f;
+  water.camera.position = {0, 0, 0.5};
+  EXPECT_EQ(deepestBounce(water, 20, 1e-3), 1u);
   pack::Scene alone = glass;
   alone.meshes.pop_back();
   EXPECT_EQ(deepestBounce(alone, 20, 1e-3), 1u);  // a flat mirror does not see itself

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -233,7 +234,14 @@ pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& of
   }
   if (isOff("textures")) scene.textures.clear();
   if (isOff("point-lights")) scene.lights.clear();
-  if (isOff("polarized-sky")) scene.environment.skyDegree = 0;
+  if (pack::Environment& sky = scene.environment; isOff("polarized-sky")) {
+    sky.skyDegree = 0;
+    sky.sun = glm::dvec3(0.0);
+    if (sky.size == 0) {
+      sky.irradiance = {};
+      sky.irradiance[0] = sky.radiance * std::numbers::pi;
+    }
+  }
   if (isOff("environment")) scene.environment = {};
   return scene;
 }

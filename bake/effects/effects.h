@@ -29,7 +29,7 @@ std::vector<std::string> effectNames();
 
 // The scene without some of its effects, by name: what the effect needs is taken away (lights, highlights, albedo,
 // radiance, surroundings; glass becomes a glass mirror, a metal or a painted surface what lies under it, a polarizer or
-// wave plate a grey sheet, a polarized sky an unpolarized one of the same radiance).
+// wave plate a grey sheet, a polarized sky the picture or the constant under it).
 // linear-polarization, circular-polarization, filter and shadows are the renderer's to leave out. Throws Error for a
 // name that is none, or one that is no effect of its own (tir, which belongs to dielectric).
 pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& off);

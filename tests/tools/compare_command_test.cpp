@@ -60,7 +60,7 @@ TEST_F(Compare, EveryMethodOnBothRenderers) {
   // Fairness: every method sends the same rays.
   for (const auto& [renderer, counts] : rays) EXPECT_EQ(counts.size(), 1u) << renderer;
   EXPECT_TRUE(contains(finished.out, "ratio to schlick"));
-  EXPECT_TRUE(contains(textOf(report() + "/results.csv"), "tiny,embree,stokes-half,32,24,4,24,"));
+  EXPECT_TRUE(contains(textOf(report() + "/results.csv"), "tiny,embree,stokes-half,auto,32,24,4,24,"));
 }
 
 TEST_F(Compare, SizesAndDepths) {

@@ -105,6 +105,7 @@ std::vector<Draw> drawsOf(const std::vector<std::string>& methods, const std::st
   const auto named = [&](std::string_view name) {
     return std::find(methods.begin(), methods.end(), name) != methods.end();
   };
+  draws.reserve(methods.size() + 3);
   for (const std::string& method : methods) draws.push_back({method, false});
   if (named("stokes") && !named(cheapest)) draws.push_back({cheapest, false});
   for (const char* method : {"stokes", "importance"})
@@ -259,7 +260,7 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
             row.rays = renderers->countRays(backend, method, drawn, picture);
             row.error = pictureError(picture, reference, pack.scene.exposureEv);
             if (!everyEffect) {
-              row.picture = stem(name, view, backend + "-" + method) + ".exr";
+              row.picture = stem(name, view, fmt::format("{}-{}", backend, method)) + ".exr";
               writePicture(folder / "pictures" / row.picture, toImage(picture, pack, view, backend, method), 0);
             }
             const std::size_t index = comparison.rows.size();

@@ -230,9 +230,8 @@ pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, View& vie
   }
   view.everyEffect = a.effects == "all";
   // The reference carries everything, always.
-  EffectsChoice choice =
+  const EffectsChoice choice =
       chooseEffects(effects, a.backend == "reference" ? "stokes" : a.method, scene, requestOf(a, view));
-  if (a.effects == "auto") choice.method = worthTaking(a.backend, a.method, choice.method);
   // The reference keeps its polarized light whatever is left out.
   for (const std::string& warning : choice.warnings)
     if (a.backend != "reference" || warning.find("-polarization") == std::string::npos) console::warn(warning);

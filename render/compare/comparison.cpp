@@ -230,14 +230,13 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
       writePicture(folder / "pictures" / comparison.references.back().picture,
                    toImage(reference, pack, view, "reference", "reference"), 0);
       groups.push_back({&pack, view, renderers, {}});
-      const EffectsChoice choice =
+      const EffectsChoice cheapest =
           chooseEffects({"auto"}, "stokes", pack.scene, {view.depth, view.analyser, false, false});
       for (const std::string& backend : settings.backends) {
-        const std::string cheapest = worthTaking(backend, "stokes", choice.method);
         EffectsPictures pictures;
         EffectsComparison effects;
-        if (cheapest != "stokes") effects.why = choice.why;
-        for (const auto& [method, everyEffect] : drawsOf(settings.methods, cheapest)) {
+        effects.why = cheapest.why;
+        for (const auto& [method, everyEffect] : drawsOf(settings.methods, cheapest.method)) {
           if (interrupted()) break;
           progress(fmt::format("{} {} x {}, depth {}: {} {}{}", name, view.width, view.height, view.depth, backend,
                                method, everyEffect ? ", all effects" : ""));
@@ -264,7 +263,7 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
               writePicture(folder / "pictures" / row.picture, toImage(picture, pack, view, backend, method), 0);
             }
             const std::size_t index = comparison.rows.size();
-            const bool isAll = everyEffect && method == "stokes", isAuto = !everyEffect && method == cheapest,
+            const bool isAll = everyEffect && method == "stokes", isAuto = !everyEffect && method == cheapest.method,
                        isImportance = !everyEffect && method == "importance";
             if (isAll) effects.all = index;
             if (isAuto) effects.automatic = index;

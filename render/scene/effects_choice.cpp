@@ -72,8 +72,4 @@ EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::st
   return choice;
 }
 
-std::string worthTaking(std::string_view backend, const std::string& asked, const std::string& chosen) {
-  return backend == "embree" && asked == "stokes" && chosen == "stokes-linear" ? asked : chosen;
-}
-
 }  // namespace malus::render

@@ -25,8 +25,4 @@ struct EffectsChoice {
 EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::string& method, const pack::Scene& scene,
                             const bake::PictureRequest& request);
 
-// Of the method that was asked for and the exact one that auto chose, the one to take on a renderer: Embree's
-// `stokes-linear` takes longer than its `stokes` (as `malus compare` shows), so it stands in for nothing there.
-std::string worthTaking(std::string_view backend, const std::string& asked, const std::string& chosen);
-
 }  // namespace malus::render

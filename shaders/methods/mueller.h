@@ -51,20 +51,14 @@ FN real3 surfaceS(real3 d, real3 n) { return sDirection(d, n); }
 
 // From the canonical frame of a ray in direction d to the frame of a surface with s direction s, and back.
 FN Stokes stokesToSurface(Stokes a, real3 d, real3 s) {
-  real3 x;
-  real3 y;
   real cos2;
   real sin2;
-  canonicalFrame(d * R(-1.0), x, y);
-  turnTo(s, x, y, cos2, sin2);
+  canonicalTurn(d, s, cos2, sin2);
   return stokesTurn(a, cos2, sin2);
 }
 FN Stokes stokesFromSurface(Stokes a, real3 d, real3 s) {
-  real3 x;
-  real3 y;
   real cos2;
   real sin2;
-  canonicalFrame(d * R(-1.0), x, y);
-  turnTo(s, x, y, cos2, sin2);
+  canonicalTurn(d, s, cos2, sin2);
   return stokesTurn(a, cos2, R(0.0) - sin2);
 }

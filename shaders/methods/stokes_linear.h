@@ -1,46 +1,99 @@
 // Method `stokes-linear`: S0 to S2 per colour in the ray's canonical frame; circular light is dropped at
-// every surface. Exact where no circular light matters. 36 bytes.
+// every surface. Exact where no circular light matters. 36 bytes. Light at a surface has no S3 either: what mueller.h
+// does, without it.
 
-#include "shaders/methods/mueller.h"
+#include "shaders/methods/mueller_factors.h"
 
 CONST int kPayloadBytes = 36;
 CONST int kHasStokes = 1;
 
-struct Payload {
+struct Light {
   real3 s0;
   real3 s1;
   real3 s2;
 };
+struct Payload {
+  Light light;
+};
 
-FN real payloadDepth(Payload p) { return p.s0.x; }
-FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.s0.x = depth; }
+FN real payloadDepth(Payload p) { return p.light.s0.x; }
+FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.light.s0.x = depth; }
+
+// Linear polarization of a degree from -1 to 1 along s.
+FN Light lightPolarized(real3 radiance, real degree) {
+  Light l;
+  l.s0 = radiance;
+  l.s1 = radiance * degree;
+  l.s2 = splat3(R(0.0));
+  return l;
+}
+FN Light lightUnpolarized(real3 radiance) { return lightPolarized(radiance, R(0.0)); }
+FN Light lightAdd(Light a, Light b) {
+  Light l;
+  l.s0 = a.s0 + b.s0;
+  l.s1 = a.s1 + b.s1;
+  l.s2 = a.s2 + b.s2;
+  return l;
+}
+FN Light lightScale(Light a, real3 scale) {
+  Light l;
+  l.s0 = a.s0 * scale;
+  l.s1 = a.s1 * scale;
+  l.s2 = a.s2 * scale;
+  return l;
+}
+FN Light lightThrough(Light a, real3 rs, real3 rp, real3 x) {
+  real3 mean = (rs + rp) * R(0.5);
+  real3 difference = (rs - rp) * R(0.5);
+  Light l;
+  l.s0 = mean * a.s0 + difference * a.s1;
+  l.s1 = difference * a.s0 + mean * a.s1;
+  l.s2 = x * a.s2;
+  return l;
+}
+FN Light lightReflect(Factors f, Light l) { return lightThrough(l, f.rs, f.rp, f.xRe); }
+FN Light lightTransmit(Factors f, Light l) {
+  real3 ts = splat3(R(1.0)) - f.rs;
+  real3 tp = splat3(R(1.0)) - f.rp;
+  real3 product = ts * tp;
+  return lightThrough(l, ts, tp, make3(sqrtR(product.x), sqrtR(product.y), sqrtR(product.z)));
+}
+FN Light lightLeave(Factors f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
+
+FN real3 surfaceS(real3 d, real3 n) { return sDirection(d, n); }
+
+FN Light lightTurn(Light a, real cos2, real sin2) {
+  Light l;
+  l.s0 = a.s0;
+  l.s1 = a.s1 * cos2 + a.s2 * sin2;
+  l.s2 = a.s2 * cos2 - a.s1 * sin2;
+  return l;
+}
+FN Light lightReceive(Payload p, real3 d, real3 s) {
+  real cos2;
+  real sin2;
+  canonicalTurn(d, s, cos2, sin2);
+  return lightTurn(p.light, cos2, sin2);
+}
+FN Payload payloadSend(Light l, real3 d, real3 s) {
+  real cos2;
+  real sin2;
+  canonicalTurn(d, s, cos2, sin2);
+  Payload p;
+  p.light = lightTurn(l, cos2, R(0.0) - sin2);
+  return p;
+}
 
 FN Payload payloadSource(real3 radiance) {
   Payload p;
-  p.s0 = radiance;
-  p.s1 = splat3(R(0.0));
-  p.s2 = splat3(R(0.0));
+  p.light = lightUnpolarized(radiance);
   return p;
 }
 FN Stokes payloadStokes(Payload p, real3 d) {
   Stokes s;
-  s.s0 = p.s0;
-  s.s1 = p.s1;
-  s.s2 = p.s2;
+  s.s0 = p.light.s0;
+  s.s1 = p.light.s1;
+  s.s2 = p.light.s2;
   s.s3 = splat3(R(0.0));
   return s;
-}
-
-FN Light lightReceive(Payload p, real3 d, real3 s) {
-  Light l;
-  l.stokes = stokesToSurface(payloadStokes(p, d), d, s);
-  return l;
-}
-FN Payload payloadSend(Light l, real3 d, real3 s) {
-  Stokes sent = stokesFromSurface(l.stokes, d, s);
-  Payload p;
-  p.s0 = sent.s0;
-  p.s1 = sent.s1;
-  p.s2 = sent.s2;
-  return p;
 }

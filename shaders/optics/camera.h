@@ -6,11 +6,8 @@ FN real3 cameraDirection(real3 right, real3 up, real3 forward, real tanX, real t
 
 // The camera's frame of a ray: x = cross(d, up), per ray, so that angles are those seen along that ray.
 FN void cameraFrameTurn(real3 d, real3 up, OUT(real) cos2, OUT(real) sin2) {
-  real3 x;
-  real3 y;
-  canonicalFrame(d * R(-1.0), x, y);
   // Up takes the part of a normal: the camera's x is perpendicular to it and to the ray.
-  turnTo(sDirection(d, up), x, y, cos2, sin2);
+  canonicalTurn(d, sDirection(d, up), cos2, sin2);
 }
 
 // Intensity behind an analyser with row (a0, a1, a2, a3) of its Mueller matrix.

@@ -40,3 +40,11 @@ FN void turnTo(real3 s, real3 x, real3 y, OUT(real) cos2, OUT(real) sin2) {
   cos2 = selectR(none, R(1.0), (a - b) * (a + b) * inverse);
   sin2 = selectR(none, R(0.0), R(2.0) * a * b * inverse);
 }
+
+// Twice the angle from the canonical frame of the light against a ray in direction d to a unit s direction across it.
+FN void canonicalTurn(real3 d, real3 s, OUT(real) cos2, OUT(real) sin2) {
+  real3 x;
+  real3 y;
+  canonicalFrame(d * R(-1.0), x, y);
+  turnTo(s, x, y, cos2, sin2);
+}

@@ -13,6 +13,7 @@
 #include "shaders/surfaces/glass_way.h"
 #include "shaders/surfaces/sheet_factors.h"
 #include "shaders/surfaces/facet.h"
+#include "shaders/surfaces/send.h"
 
 layout(location = 0) rayPayloadInEXT Payload result;
 hitAttributeEXT vec2 barycentric;

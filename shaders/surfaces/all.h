@@ -2,6 +2,7 @@
 // clang-format off
 #include "shaders/surfaces/common.h"
 #include "shaders/surfaces/check_sent.h"
+#include "shaders/surfaces/send.h"
 #include "shaders/surfaces/opaque.h"
 #include "shaders/surfaces/lambert.h"
 #include "shaders/surfaces/paint.h"

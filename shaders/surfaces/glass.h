@@ -25,10 +25,5 @@ FN Payload shadeGlass(Hit h, IN(Material) m) {
       fromBelow = lightTransmit(f, fromBelow);
     toEye = lightAdd(toEye, fromBelow);
   }
-#if MALUS_EFFECT_ABSORPTION
-  toEye = lightScale(toEye, mediumTransmittance(h, m));
-#endif
-  Payload sent = payloadSend(toEye, h.d, s);
-  if (kCheckNumerics) checkSent(h, sent, slack);
-  return sent;
+  return sendToEye(h, m, toEye, s, slack);
 }

@@ -42,10 +42,5 @@ FN Payload shadeOpaque(IN(Hit) h, IN(Material) m, Factors f) {
       toEye = lightAdd(toEye, lightReflect(f, arriving));
     }
   }
-#if MALUS_EFFECT_ABSORPTION
-  toEye = lightScale(toEye, mediumTransmittance(h, m));
-#endif
-  Payload sent = payloadSend(toEye, h.d, s);
-  if (kCheckNumerics) checkSent(h, sent, slack);
-  return sent;
+  return sendToEye(h, m, toEye, s, slack);
 }

@@ -6,10 +6,5 @@ FN Payload shadeSheet(IN(Hit) h, IN(Material) m) {
   real3 slack = splat3(R(0.0));
   if (kCheckNumerics) slack = slackOf(payloadStokes(returned, h.d));
   Light toEye = lightReflect(sheetFactors(h.material), lightReceive(returned, h.d, s));
-#if MALUS_EFFECT_ABSORPTION
-  toEye = lightScale(toEye, mediumTransmittance(h, m));
-#endif
-  Payload sent = payloadSend(toEye, h.d, s);
-  if (kCheckNumerics) checkSent(h, sent, slack);
-  return sent;
+  return sendToEye(h, m, toEye, s, slack);
 }

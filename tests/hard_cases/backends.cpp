@@ -18,6 +18,7 @@ namespace {
 
 const char* lightFile(std::string_view method) {
   if (method == "schlick" || method == "fresnel") return "light_colour.h";
+  if (method == "stokes-linear") return "light_linear.h";
   return method.starts_with("sp") ? "light_powers.h" : "light_mueller.h";
 }
 

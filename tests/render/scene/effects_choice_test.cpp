@@ -75,12 +75,5 @@ TEST(EffectsChoice, AListLeavesOutTheRestAndSaysWhatThatCosts) {
   }
 }
 
-TEST(EffectsChoice, TakesNothingThatIsSlowerThere) {
-  EXPECT_EQ(worthTaking("embree", "stokes", "stokes-linear"), "stokes");
-  EXPECT_EQ(worthTaking("vulkan", "stokes", "stokes-linear"), "stokes-linear");
-  EXPECT_EQ(worthTaking("embree", "stokes", "fresnel"), "fresnel");
-  EXPECT_EQ(worthTaking("embree", "importance", "fresnel-loop"), "fresnel-loop");
-}
-
 }  // namespace
 }  // namespace malus::render

@@ -1,0 +1,88 @@
+// `malus render` and `malus sweep`: what a picture is asked for, and what it says of it.
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/command.h"
+
+namespace malus::test {
+namespace {
+
+using nlohmann::json;
+
+TEST(Render, ChecksItsNumbers) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  for (const char* backend : {"embree", "reference"}) {
+    const Finished checked = malus({"render", folder / "tiny.pack", "-o", folder / "a.exr", "--backend", backend,
+                                    "--method", "stokes", "--check-numerics"});
+    EXPECT_EQ(checked.exitCode, 0) << checked.err;
+    EXPECT_TRUE(contains(checked.out, "every value is finite and physical")) << checked.out;
+  }
+}
+
+TEST(Render, SweepByFourAnalysers) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const auto sweep = [&](const char* method) {
+    const Finished done = malus({"sweep", folder / "tiny.pack", "-o", folder / method, "--backend", "embree",
+                                 "--method", method, "--frames", "2"});
+    EXPECT_EQ(done.exitCode, 0) << done.err;
+    return std::string(folder / method) + "/frame-001.png";
+  };
+  const Finished compared = malus({"compare-images", sweep("stokes"), sweep("importance"), "--fail-over", "0.005"});
+  EXPECT_EQ(compared.exitCode, 0) << compared.out;
+}
+
+TEST(Render, MaxErrorKeepsWhatIsAskedOfThePicture) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const Finished stokes = malus(
+      {"render", folder / "tiny.pack", "--backend", "embree", "--max-error", "10", "--stokes", "-o", folder / "a.exr"});
+  EXPECT_EQ(stokes.exitCode, 0) << stokes.err;
+  EXPECT_TRUE(contains(stokes.out, "stokes") || contains(stokes.out, "importance")) << stokes.out;
+  EXPECT_EQ(malus({"render", folder / "tiny.pack", "--backend", "embree", "--max-error", "10", "--tolerance", "0.1",
+                   "-o", folder / "a.exr"})
+                .exitCode,
+            2);
+}
+
+TEST(Render, Effects) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"render", folder / "tiny.pack", "--backend", "embree", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return malus(arguments);
+  };
+  // At depth 0 nothing is reflected: the intensity of stokes is that of fresnel, and it is said.
+  const Finished cheaper = render({"-o", folder / "a.png", "--method", "stokes", "--depth", "0"});
+  ASSERT_EQ(cheaper.exitCode, 0) << cheaper.err;
+  const json document = json::parse(cheaper.out);
+  EXPECT_EQ(document.at("method"), "fresnel");
+  EXPECT_TRUE(contains(document.at("inPlaceOf").get<std::string>(), "in place of stokes: ")) << cheaper.out;
+  // A file of Stokes vectors keeps them, --intensity does without.
+  EXPECT_EQ(json::parse(render({"-o", folder / "a.exr", "--method", "stokes", "--depth", "0"}).out).at("method"),
+            "stokes-linear");
+  EXPECT_EQ(json::parse(render({"-o", folder / "b.exr", "--method", "stokes", "--depth", "0", "--intensity"}).out)
+                .at("method"),
+            "fresnel");
+  EXPECT_TRUE(json::parse(render({"-o", folder / "a.png", "--method", "stokes", "--effects", "all"}).out)
+                  .at("inPlaceOf")
+                  .is_null());
+  // Forced off: rendered as asked, with a warning.
+  const Finished less =
+      render({"-o", folder / "a.png", "--method", "stokes", "--effects", "diffuse,dielectric,conductor"});
+  ASSERT_EQ(less.exitCode, 0) << less.err;
+  EXPECT_TRUE(contains(less.err, "leaves out linear-polarization, which this scene needs")) << less.err;
+  EXPECT_TRUE(contains(less.err, "leaves out point-lights")) << less.err;
+  expectRefusal(render({"-o", folder / "c.png", "--effects", "magic"}), "linear-polarization");
+  EXPECT_EQ(
+      render({"-o", folder / "c.exr", "--method", "stokes", "--intensity", "--output-dolp", folder / "d.png"}).exitCode,
+      2);
+}
+
+}  // namespace
+}  // namespace malus::test

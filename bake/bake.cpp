@@ -160,7 +160,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     options.sheet = mesh.sheet;
     options.asIs = mesh.asIs;
     options.creaseDegrees = mesh.creaseDegrees;
-    options.weldTolerance = mesh.weldTolerance;
+    options.steps.weldTolerance = mesh.weldTolerance;
     prep::Report report;
     const prep::Mesh prepared = prep::prepare(mesh.file, options, report);
     std::uint32_t material = 0;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -17,10 +20,25 @@ namespace malus::prep {
 
 namespace {
 
+// Steps that --skip leaves out.
+const std::vector<std::pair<std::string, bool Cleaning::*>> kSteps = {
+    {"weld", &Cleaning::weld},
+    {"degenerate", &Cleaning::degenerate},
+    {"duplicates", &Cleaning::duplicates},
+    {"unreferenced", &Cleaning::unreferenced},
+    {"orient", &Cleaning::orient},
+    {"fans", &Cleaning::fans},
+};
+
+const std::map<std::string, Normals> kNormals = {
+    {"crease", Normals::crease}, {"smoothing", Normals::smoothing}, {"authored", Normals::authored}};
+
 struct Arguments {
   std::string input;
   std::string output;
   std::string reportFile;
+  std::vector<std::string> skipped;
+  std::string certify;
   bool json = false;
   Options options;
   int positionBits = 20;
@@ -40,10 +58,31 @@ double toFloat(const Mesh& mesh, compress::TriangleMesh& result) {
   return moved;
 }
 
+void tell(const Arguments& arguments, const Report& report) {
+  const std::string json = toJson(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  if (!arguments.reportFile.empty()) writeFile(arguments.reportFile, std::string_view(json));
+  fmt::print("{}", arguments.json ? json : toText(report));
+}
+
+// What is no glass is told in full, and not delivered.
+void requireCertificate(const Arguments& arguments, const Report& report) {
+  if (!report.certificate.checked || report.certificate.holds()) return;
+  tell(arguments, report);
+  const Problem& first = report.certificate.problems.front();
+  throw Error(arguments.input, fmt::format("is not certified as glass: component {}: {}", first.component, first.what),
+              first.repair, first.where);
+}
+
 void runPrep(const Arguments& arguments) {
   // Step 1: clean.
   Report report;
-  const Mesh mesh = prepare(arguments.input, arguments.options, report);
+  Options options = arguments.options;
+  for (const auto& [name, step] : kSteps)
+    if (std::find(arguments.skipped.begin(), arguments.skipped.end(), name) != arguments.skipped.end())
+      options.steps.*step = false;
+  options.certifyGlass = arguments.certify == "glass";
+  const Mesh mesh = prepare(arguments.input, options, report);
+  requireCertificate(arguments, report);
 
   // Step 2: compress, on a grid of the mesh's own.
   compress::TriangleMesh source;
@@ -59,9 +98,7 @@ void runPrep(const Arguments& arguments) {
 
   // Step 3: write, then tell.
   writeFile(arguments.output, encoded.bytes);
-  const std::string json = toJson(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  if (!arguments.reportFile.empty()) writeFile(arguments.reportFile, std::string_view(json));
-  fmt::print("{}", arguments.json ? json : toText(report));
+  tell(arguments, report);
 }
 
 }  // namespace
@@ -75,15 +112,46 @@ void addPrepCommand(CLI::App& app) {
       ->type_name("FILE");
   prep->add_option("--report", arguments->reportFile, "Also write the report as JSON")->type_name("FILE");
   prep->add_flag("--json", arguments->json, "Print the report as JSON");
+  std::vector<std::string> steps;
+  for (const auto& [name, step] : kSteps) steps.push_back(name);
+  prep->add_option("--skip", arguments->skipped,
+                   "Steps of cleaning to leave out: " + fmt::format("{}", fmt::join(steps, ", ")))
+      ->delimiter(',')
+      ->check(CLI::IsMember(steps))
+      ->type_name("STEP,...");
+  prep->add_option(
+          "--certify", arguments->certify,
+          "glass: fail, and say why and where, unless the mesh can be a body of glass (with --sheet: a pair of "
+          "interfaces)")
+      ->check(CLI::IsMember({"glass"}))
+      ->type_name("glass");
+  prep->add_flag("--intersections", arguments->options.findIntersections,
+                 "Tell faces that cross, touch or lie on each other");
+  prep->add_flag("--drop-opposite", arguments->options.steps.dropOpposite,
+                 "Of two faces back to back, drop the later one");
+  prep->add_option("--fill-holes", arguments->options.steps.fillHoles, "Fill holes of at most so many edges")
+      ->check(CLI::Range(3, 1000000))
+      ->type_name("EDGES");
+  prep->add_option(
+          "--normals", arguments->options.normals,
+          "crease: smooth but for sharp edges; smoothing: by the file's smoothing groups; authored: the file's")
+      ->transform(CLI::CheckedTransformer(kNormals))
+      ->type_name("KIND")
+      ->default_str("crease");
   prep->add_flag("--flat", arguments->options.flat, "Normals are those of the faces; no vertex is split");
   prep->add_flag("--sheet", arguments->options.sheet, "An open surface on purpose: its side is kept");
   prep->add_option("--crease", arguments->options.creaseDegrees, "Edges sharper than this get two normals")
       ->check(CLI::Range(0.0, 180.0))
       ->type_name("DEGREES")
       ->capture_default_str();
-  prep->add_option("--weld", arguments->options.weldTolerance, "Vertices no farther apart than this become one")
+  prep->add_option("--weld", arguments->options.steps.weldTolerance, "Vertices no farther apart than this become one")
       ->check(CLI::NonNegativeNumber)
       ->type_name("METRES")
+      ->capture_default_str();
+  prep->add_option("--weld-relative", arguments->options.weldRelative,
+                   "The same as a share of the diagonal of the mesh's box; the larger of the two holds")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("SHARE")
       ->capture_default_str();
   prep->add_option("--position-bits", arguments->positionBits, "Steps of the grid along an axis: 2^N - 1")
       ->check(CLI::Range(1, 22))

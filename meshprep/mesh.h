@@ -8,15 +8,20 @@
 
 namespace malus::prep {
 
+inline constexpr std::uint32_t kNoSource = 0xffffffffu;
+
 struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> normals;     // unit length, one a vertex; empty where the mesh is flat
   std::vector<glm::uvec3> triangles;  // counter-clockwise seen from outside
 
-  // Where they come from: the vertex of the file, from 0, that each vertex is, and the face of the file that each
-  // triangle is cut from. Empty where nobody keeps count: a mesh made in memory.
+  // Where they come from: the vertex of the file, from 0, that each vertex is (the first of those that became it;
+  // kNoSource for a new one), the face of the file that each triangle is cut from, and the vertices of the file that
+  // it names. Empty where nobody keeps count: a mesh made in memory.
   std::vector<std::uint32_t> sourceVertices;
   std::vector<std::uint32_t> sourceFaces;
+  std::vector<glm::uvec3> sourceCorners;
+  std::vector<char> turned;  // 1 for triangles that lie the other way around than in the file
 
   // What the file says about a triangle; empty where it says nothing.
   std::vector<glm::vec3> cornerNormals;        // three a triangle, as written; zero where a corner has none

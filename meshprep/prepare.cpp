@@ -1,19 +1,25 @@
 #include "meshprep/prepare.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "meshprep/base/error.h"
-#include "meshprep/clean/degenerate_faces.h"
-#include "meshprep/clean/duplicate_faces.h"
-#include "meshprep/clean/orient.h"
+#include "meshprep/certify/glass.h"
+#include "meshprep/clean/intersections.h"
+#include "meshprep/clean/junctions.h"
+#include "meshprep/clean/rounds.h"
+#include "meshprep/clean/select.h"
 #include "meshprep/clean/triangulate.h"
-#include "meshprep/clean/unreferenced_vertices.h"
-#include "meshprep/clean/weld.h"
+#include "meshprep/normals/authored_normals.h"
 #include "meshprep/normals/crease_normals.h"
+#include "meshprep/normals/smoothing_normals.h"
 #include "meshprep/read/read_mesh.h"
 
 namespace malus::prep {
@@ -23,8 +29,11 @@ namespace {
 void checkOptions(const Options& options) {
   if (!(options.creaseDegrees >= 0 && options.creaseDegrees <= 180))
     throw Error("prep", "a crease angle out of bounds", "0 to 180 degrees", fmt::to_string(options.creaseDegrees));
-  if (!(options.weldTolerance >= 0) || !std::isfinite(options.weldTolerance))
-    throw Error("prep", "a weld tolerance out of bounds", "0 or more metres", fmt::to_string(options.weldTolerance));
+  const double tolerance = options.steps.weldTolerance;
+  if (!(tolerance >= 0) || !std::isfinite(tolerance))
+    throw Error("prep", "a weld tolerance out of bounds", "0 or more metres", fmt::to_string(tolerance));
+  if (!(options.weldRelative >= 0 && options.weldRelative <= 1))
+    throw Error("prep", "a relative weld tolerance out of bounds", "0 to 1", fmt::to_string(options.weldRelative));
 }
 
 // The file's own normals, made unit.
@@ -41,74 +50,194 @@ std::vector<glm::vec3> authoredNormals(const Polygons& polygons, const std::stri
   return normals;
 }
 
+// The steps, each with its entry in the report.
+class Preparation {
+ public:
+  Preparation(Mesh mesh, const Options& options, Report& report)
+      : mesh_(std::move(mesh)), options_(options), report_(report) {}
+
+  Mesh run() {
+    nameSources();
+    cleanUp();
+    look();
+    addNormals();
+    report_.output.vertices = mesh_.positions.size();
+    report_.output.triangles = mesh_.triangles.size();
+    return std::move(mesh_);
+  }
+
+ private:
+  void step(std::string name, std::uint64_t count) { report_.steps.push_back({std::move(name), count, {}}); }
+  void step(std::string name, Findings findings) {
+    report_.steps.push_back({std::move(name), findings.count, std::move(findings.first)});
+  }
+
+  // A mesh in memory is its own source.
+  void nameSources() {
+    if (mesh_.sourceVertices.empty()) {
+      mesh_.sourceVertices.resize(mesh_.positions.size());
+      std::iota(mesh_.sourceVertices.begin(), mesh_.sourceVertices.end(), 0u);
+    }
+    if (mesh_.sourceFaces.empty()) {
+      mesh_.sourceFaces.resize(mesh_.triangles.size());
+      std::iota(mesh_.sourceFaces.begin(), mesh_.sourceFaces.end(), 0u);
+    }
+    mesh_.sourceCorners.clear();
+    for (const glm::uvec3& t : mesh_.triangles)
+      mesh_.sourceCorners.emplace_back(mesh_.sourceVertices[t.x], mesh_.sourceVertices[t.y], mesh_.sourceVertices[t.z]);
+    mesh_.turned.assign(mesh_.triangles.size(), 0);
+  }
+
+  double weldTolerance() const {
+    if (options_.weldRelative == 0 || mesh_.positions.empty()) return options_.steps.weldTolerance;
+    glm::dvec3 low = mesh_.positions.front(), high = low;
+    for (const glm::dvec3& p : mesh_.positions) low = glm::min(low, p), high = glm::max(high, p);
+    return std::max(options_.steps.weldTolerance, options_.weldRelative * glm::distance(low, high));
+  }
+
+  void cleanUp() {
+    Cleaning steps = options_.steps;
+    steps.sheet = options_.sheet;
+    steps.weldTolerance = weldTolerance();
+    Cleaned done = cleanInRounds(mesh_, steps);
+    if (mesh_.triangles.empty())
+      throw Error(report_.source.empty() ? "mesh" : report_.source, "nothing is left after cleaning",
+                  "a triangle with area");
+    step("vertices-welded", std::move(done.welded.joined));
+    step("welds-refused", std::move(done.welded.refused));
+    step("faces-dropped-repeated-corner", std::move(done.degenerate.repeatedCorner));
+    step("faces-dropped-zero-area", std::move(done.degenerate.zeroArea));
+    step("faces-cut-beside-zero-area", std::move(done.degenerate.neighboursCut));
+    step("faces-dropped-duplicate", std::move(done.duplicates.same));
+    step(steps.dropOpposite ? "faces-dropped-opposite" : "faces-opposite", std::move(done.duplicates.opposite));
+    step("vertices-dropped-unreferenced", std::move(done.unreferenced));
+    step("edges-taken-apart", std::move(done.fans.edges));
+    step("vertices-split", std::move(done.fans.vertices));
+    step("edges-cut", done.fans.cutEdges);
+    step("holes", std::move(done.holes));
+    step("holes-filled", std::move(done.filled.filled));
+    step("holes-left", std::move(done.filled.left));
+    step("rounds-ran-out", done.settled ? 0 : 1);
+    sides_ = std::move(done.sides);
+    tellSides();
+  }
+
+  void tellSides() {
+    step("edges-boundary", sides_.boundaryEdges);
+    step("edges-non-manifold", sides_.nonManifoldEdges);
+    step("components-not-orientable", sides_.notOrientable);
+    step("components-without-volume", sides_.withoutVolume);
+    step("components-nested", sides_.nested);
+    step("components-nesting-unchecked", sides_.nestingUnchecked);
+    Findings flipped;
+    for (Component& c : sides_.components) c.flipped = 0;
+    for (std::size_t i = 0; i < mesh_.turned.size(); ++i) {
+      if (mesh_.turned[i] == 0) continue;
+      flipped.add([&] { return findingAt(mesh_, centroid(mesh_, i), {i}); });
+      ++sides_.components[sides_.componentOf[i]].flipped;
+    }
+    step("faces-turned-over", std::move(flipped));
+    report_.components = sides_.components;
+  }
+
+  // What is told and left.
+  void look() {
+    Junctions junctions = findJunctions(mesh_);
+    step("t-junctions", std::move(junctions.found));
+    step("t-junctions-unchecked", junctions.complete ? 0 : 1);
+    const bool wanted = options_.findIntersections || (options_.certifyGlass && !options_.sheet);
+    const Intersections intersections = wanted ? findIntersections(mesh_) : Intersections{};
+    step("faces-crossing", describePairs(mesh_, intersections.crossing));
+    step("faces-coincident", describePairs(mesh_, intersections.coincident));
+    step("faces-crossing-unchecked", intersections.complete ? 0 : 1);
+    if (options_.certifyGlass) report_.certificate = certifyGlass(mesh_, options_.sheet, {sides_, intersections});
+  }
+
+  void addNormals() {
+    NormalCounts counts;
+    Findings against;
+    std::uint64_t missing = 0;
+    if (options_.flat) {
+      mesh_.normals.clear();
+    } else if (options_.normals == Normals::authored) {
+      if (mesh_.cornerNormals.empty()) throw Error(report_.source, "has no normals", "normals, or --normals crease");
+      AuthoredNormals authored = addAuthoredNormals(mesh_, options_.creaseDegrees);
+      counts = authored.counts;
+      against = std::move(authored.against);
+      missing = authored.missing;
+    } else if (options_.normals == Normals::smoothing) {
+      if (mesh_.smoothingGroups.empty())
+        throw Error(report_.source, "has no smoothing groups", "'s' statements, or --normals crease");
+      counts = addSmoothingNormals(mesh_);
+    } else {
+      counts = addCreaseNormals(mesh_, options_.creaseDegrees);
+    }
+    step("vertices-added-at-creases", counts.added);
+    step("normals-undefined", counts.undefined);
+    step("normals-missing", missing);
+    step("normals-against-their-face", std::move(against));
+  }
+
+  Mesh mesh_;
+  const Options& options_;
+  Report& report_;
+  OrientResult sides_;
+};
+
+// Where in the file the findings are.
+void addPlaces(const Polygons& polygons, Report& report) {
+  const auto place = [&](const std::vector<std::uint64_t>& places,
+                         const std::vector<std::uint32_t>& ids) -> std::string {
+    if (ids.empty() || ids.front() >= places.size()) return {};
+    return polygons.placesAreBytes ? fmt::format("{}, byte {}", report.source, places[ids.front()])
+                                   : fmt::format("{}:{}", report.source, places[ids.front()]);
+  };
+  for (Step& step : report.steps)
+    for (Finding& finding : step.findings) {
+      finding.place = place(polygons.facePlaces, finding.faces);
+      if (finding.place.empty()) finding.place = place(polygons.vertexPlaces, finding.vertices);
+    }
+}
+
 }  // namespace
 
 Mesh clean(Mesh mesh, const Options& options, Report& report) {
   checkOptions(options);
-  const auto step = [&](std::string name, std::uint64_t count) { report.steps.push_back({std::move(name), count}); };
-
-  // Step 1: one vertex a place, then triangles that cover something, once.
-  step("vertices-welded", weld(mesh, options.weldTolerance));
-  const DegenerateCounts degenerate = dropDegenerateFaces(mesh);
-  step("faces-dropped-repeated-corner", degenerate.repeatedCorner);
-  step("faces-dropped-zero-area", degenerate.zeroArea);
-  const DuplicateCounts duplicate = dropDuplicateFaces(mesh, options.sheet);
-  step("faces-dropped-duplicate", duplicate.same);
-  step("faces-dropped-opposite", duplicate.opposite);
-  step("vertices-dropped-unreferenced", dropUnreferencedVertices(mesh));
-  if (mesh.triangles.empty())
-    throw Error(report.source.empty() ? "mesh" : report.source, "nothing is left after cleaning",
-                "a triangle with area");
-
-  // Step 2: sides.
-  const OrientResult sides = orient(mesh, options.sheet);
-  step("edges-boundary", sides.boundaryEdges);
-  step("edges-non-manifold", sides.nonManifoldEdges);
-  step("components-not-orientable", sides.notOrientable);
-  step("components-without-volume", sides.withoutVolume);
-  step("components-nested", sides.nested);
-  step("components-nesting-unchecked", sides.nestingUnchecked);
-  step("faces-turned-over", sides.flipped);
-  report.components = sides.components;
-
-  // Step 3: normals.
-  NormalCounts normals;
-  if (!options.flat) normals = addCreaseNormals(mesh, options.creaseDegrees);
-  step("vertices-added-at-creases", normals.added);
-  step("normals-undefined", normals.undefined);
-
-  report.output.vertices = mesh.positions.size();
-  report.output.triangles = mesh.triangles.size();
-  return mesh;
+  return Preparation(std::move(mesh), options, report).run();
 }
 
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report) {
   checkOptions(options);
-  report = {};
-  report.source = source.string();
+  return prepare(readMesh(source), source.string(), options, report);
+}
 
-  // Step 1: read.
-  const Polygons polygons = readMesh(source);
+Mesh prepare(const Polygons& polygons, const std::string& source, const Options& options, Report& report) {
+  checkOptions(options);
+  report = {};
+  report.source = source;
+  report.notes = polygons.notes;
   report.input.vertices = polygons.positions.size();
   report.input.faces = polygons.faceCount();
 
-  // Step 2: triangles.
+  // Step 1: triangles.
   TriangulateCounts counts;
   Mesh mesh = triangulate(polygons, counts);
-  report.steps.push_back({"polygons-triangulated", counts.polygons});
-  report.steps.push_back({"polygons-concave", counts.concave});
-  report.steps.push_back({"polygons-non-planar", counts.nonPlanar});
-  report.steps.push_back({"polygons-self-crossing", counts.crossing});
-  report.steps.push_back({"polygon-corners-repeated", counts.repeatedCorners});
+  report.steps.push_back({"polygons-triangulated", counts.polygons, {}});
+  report.steps.push_back({"polygons-concave", counts.concave, {}});
+  report.steps.push_back({"polygons-non-planar", counts.nonPlanar, {}});
+  report.steps.push_back({"polygons-self-crossing", counts.crossing, {}});
+  report.steps.push_back({"polygon-corners-repeated", counts.repeatedCorners, {}});
 
-  // Step 3: everything else, or nothing.
+  // Step 2: everything else, or nothing.
   if (options.asIs) {
     if (!options.flat) mesh.normals = authoredNormals(polygons, report.source);
     report.output.vertices = mesh.positions.size();
     report.output.triangles = mesh.triangles.size();
     return mesh;
   }
-  return clean(std::move(mesh), options, report);
+  mesh = clean(std::move(mesh), options, report);
+  addPlaces(polygons, report);
+  return mesh;
 }
 
 }  // namespace malus::prep

@@ -1,6 +1,8 @@
 #include "meshprep/report.h"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,20 +13,65 @@ std::uint64_t Report::count(std::string_view step) const {
   return found == steps.end() ? 0 : found->count;
 }
 
+namespace {
+
+nlohmann::json findingJson(const Finding& finding) {
+  nlohmann::json json{{"at", {finding.at.x, finding.at.y, finding.at.z}}};
+  if (!finding.vertices.empty()) json["vertices"] = finding.vertices;
+  if (!finding.faces.empty()) json["faces"] = finding.faces;
+  if (!finding.what.empty()) json["what"] = finding.what;
+  if (!finding.place.empty()) json["place"] = finding.place;
+  return json;
+}
+
+std::string listed(std::string_view one, std::string_view many, const std::vector<std::uint32_t>& ids) {
+  constexpr std::size_t kShown = 4;
+  const std::span<const std::uint32_t> shown = std::span(ids).first(std::min(ids.size(), kShown));
+  return fmt::format("{} {}{}", ids.size() == 1 ? one : many, fmt::join(shown, ", "),
+                     ids.size() > kShown ? ", ..." : "");
+}
+
+}  // namespace
+
+std::string describe(const Finding& finding) {
+  std::vector<std::string> parts;
+  if (!finding.what.empty()) parts.push_back(finding.what);
+  if (!finding.faces.empty()) parts.push_back(listed("face", "faces", finding.faces));
+  if (!finding.vertices.empty()) parts.push_back(listed("vertex", "vertices", finding.vertices));
+  std::string text =
+      fmt::format("{} at ({:.6g}, {:.6g}, {:.6g})", fmt::join(parts, ", "), finding.at.x, finding.at.y, finding.at.z);
+  if (!finding.place.empty()) text += fmt::format(", {}", finding.place);
+  return text;
+}
+
 nlohmann::json toJson(const Report& report) {
   nlohmann::json json;
   json["source"] = report.source;
+  json["notes"] = report.notes;
   json["input"] = {{"vertices", report.input.vertices}, {"faces", report.input.faces}};
   json["output"] = {{"vertices", report.output.vertices}, {"triangles", report.output.triangles}};
   json["steps"] = nlohmann::json::array();
-  for (const Step& step : report.steps) json["steps"].push_back({{"name", step.name}, {"count", step.count}});
+  for (const Step& step : report.steps) {
+    nlohmann::json entry{{"name", step.name}, {"count", step.count}};
+    for (const Finding& finding : step.findings) entry["findings"].push_back(findingJson(finding));
+    json["steps"].push_back(std::move(entry));
+  }
   json["components"] = nlohmann::json::array();
   for (const Component& c : report.components)
     json["components"].push_back({{"triangles", c.triangles},
                                   {"closed", c.closed},
                                   {"orientable", c.orientable},
                                   {"flipped", c.flipped},
-                                  {"signedVolume", c.signedVolume}});
+                                  {"signedVolume", c.signedVolume},
+                                  {"hasVolume", c.hasVolume},
+                                  {"at", {c.at.x, c.at.y, c.at.z}},
+                                  {"firstFace", c.firstFace}});
+  if (report.certificate.checked) {
+    json["certificate"] = {{"holds", report.certificate.holds()}, {"problems", nlohmann::json::array()}};
+    for (const Problem& p : report.certificate.problems)
+      json["certificate"]["problems"].push_back(
+          {{"component", p.component}, {"what", p.what}, {"where", p.where}, {"repair", p.repair}});
+  }
   if (report.compression.bytes > 0) {
     json["errors"] = {{"positionMax", report.errors.positionMax}, {"normalMaxDegrees", report.errors.normalMaxDegrees}};
     json["compression"] = {{"method", report.compression.method}, {"bytes", report.compression.bytes}};
@@ -41,7 +88,12 @@ std::string toText(const Report& report) {
 
   // Step 2: what was found and done.
   for (const Step& step : report.steps)
-    if (step.count > 0) text += fmt::format("  {:<34}{:>12}\n", step.name, step.count);
+    if (step.count > 0)
+      text += fmt::format("  {:<34}{:>12}{}\n", step.name, step.count,
+                          step.findings.empty() ? ""
+                                                : fmt::format("  {}{}", step.count > 1 ? "first: " : "",
+                                                              describe(step.findings.front())));
+  for (const std::string& note : report.notes) text += fmt::format("  left out: {}\n", note);
 
   // Step 3: components, in numbers.
   const auto count = [&](auto which) {
@@ -52,7 +104,14 @@ std::string toText(const Report& report) {
   text += fmt::format("  {:<34}{:>12}\n", "  with turned triangles",
                       count([](const Component& c) { return c.flipped > 0; }));
 
-  // Step 4: compression.
+  // Step 4: the certificate.
+  if (report.certificate.checked) {
+    text += fmt::format("  {:<34}{:>12}\n", "certificate", report.certificate.holds() ? "holds" : "refused");
+    for (const Problem& p : report.certificate.problems)
+      text += fmt::format("    component {}: {}; {}; {}\n", p.component, p.what, p.where, p.repair);
+  }
+
+  // Step 5: compression.
   if (report.compression.bytes > 0) {
     text +=
         fmt::format("  {:<34}{:>12} bytes, {}\n", "compressed", report.compression.bytes, report.compression.method);

@@ -1,5 +1,6 @@
-// What preparation did to a mesh: counts before and after, one count for every step, the connected
-// components and the errors that compression adds. Lengths in metres, angles in degrees.
+// What preparation did to a mesh: counts before and after, one entry for every step with what it found and where, the
+// connected components, what a certificate says, and the errors that compression adds. Lengths in metres, angles in
+// degrees.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +10,47 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meshprep/findings.h"
+
 namespace malus::prep {
 
-// One thing that was found or done, and how often. Names are stable: see prepare.cpp, where they are given.
+// One thing that was found or done, how often, and the first of them. Names are stable: see prepare.cpp, where they
+// are given.
 struct Step {
   std::string name;
   std::uint64_t count = 0;
+  std::vector<Finding> findings;  // at most kListed; empty for steps that only count
 };
 
 // Triangles connected through edges that exactly two triangles share.
 struct Component {
   std::uint64_t triangles = 0;
-  bool closed = false;        // every edge is shared by two triangles
-  bool orientable = true;     // the two sides can be told apart
-  std::uint64_t flipped = 0;  // triangles that were turned over
-  double signedVolume = 0;    // cubic metres after orientation; 0 unless closed and orientable
+  bool closed = false;          // every edge is shared by two triangles
+  bool orientable = true;       // the two sides can be told apart
+  std::uint64_t flipped = 0;    // triangles that were turned over
+  double signedVolume = 0;      // cubic metres after orientation; 0 unless closed and orientable
+  bool hasVolume = false;       // closed, orientable, and more than a fold of nothing; never told of a sheet
+  glm::dvec3 at{0};             // a point of it
+  std::uint32_t firstFace = 0;  // of the source file
+};
+
+// A reason why a mesh is no body of glass, or no pair of sheets.
+struct Problem {
+  std::uint32_t component = 0;  // index into Report::components
+  std::string what;             // "3 open edges"
+  std::string where;            // the first of them
+  std::string repair;           // what to do about it
+};
+
+struct Certificate {
+  bool checked = false;           // whether anyone asked
+  std::vector<Problem> problems;  // empty: it holds
+  bool holds() const { return checked && problems.empty(); }
 };
 
 struct Report {
   std::string source;
+  std::vector<std::string> notes;  // what the file holds and reading left out
   struct {
     std::uint64_t vertices = 0;
     std::uint64_t faces = 0;
@@ -38,6 +61,7 @@ struct Report {
   } output;
   std::vector<Step> steps;
   std::vector<Component> components;
+  Certificate certificate;
 
   // Set where the mesh was compressed: bytes > 0.
   struct {
@@ -53,12 +77,19 @@ struct Report {
   std::uint64_t count(std::string_view step) const;
 };
 
-// {source, input{vertices, faces}, output{vertices, triangles}, steps[{name, count}],
-//  components[{triangles, closed, orientable, flipped, signedVolume}], errors{positionMax, normalMaxDegrees},
-//  compression{method, bytes}}; errors and compression only where the mesh was compressed.
+// {source, notes[], input{vertices, faces}, output{vertices, triangles},
+//  steps[{name, count, findings[{vertices, faces, at, what, place}]}],
+//  components[{triangles, closed, orientable, flipped, signedVolume, hasVolume, at, firstFace}],
+//  certificate{holds, problems[{component, what, where, repair}]}, errors{positionMax, normalMaxDegrees},
+//  compression{method, bytes}}; certificate only where it was asked for, errors and compression only where the mesh
+// was compressed, findings and their parts only where there are any.
 nlohmann::json toJson(const Report& report);
 
-// A table for a terminal, ending in a line break. Steps that found nothing are left out.
+// A table for a terminal, ending in a line break. Steps that found nothing are left out; of the others the first
+// finding is shown.
 std::string toText(const Report& report);
+
+// "vertices 3, 4 at (1, 2, 3) in model.obj:17", as far as it is known.
+std::string describe(const Finding& finding);
 
 }  // namespace malus::prep

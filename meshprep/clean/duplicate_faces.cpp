@@ -2,39 +2,74 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cstdint>
+#include <vector>
+
+#include "meshprep/clean/select.h"
 
 namespace malus::prep {
 
-DuplicateCounts dropDuplicateFaces(Mesh& mesh, bool keepOpposite) {
-  // Which ways around a set of three vertices has been seen.
-  struct Seen {
-    bool even = false;
-    bool odd = false;
-  };
-  std::map<std::array<std::uint32_t, 3>, Seen> faces;
-  DuplicateCounts counts;
-  std::erase_if(mesh.triangles, [&](const glm::uvec3& t) {
-    std::array<std::uint32_t, 3> key{t.x, t.y, t.z};
-    std::sort(key.begin(), key.end());
-    // Turning a triangle keeps its way around: smallest corner first, then compare.
-    const bool even =
-        (t.x == key[0] && t.y == key[1]) || (t.y == key[0] && t.z == key[1]) || (t.z == key[0] && t.x == key[1]);
-    Seen& seen = faces[key];
-    bool& mine = even ? seen.even : seen.odd;
-    const bool other = even ? seen.odd : seen.even;
-    if (mine) {
-      ++counts.same;
-      return true;
-    }
-    if (other && !keepOpposite) {
-      ++counts.opposite;
-      return true;
-    }
-    mine = true;
-    return false;
+namespace {
+
+// A triangle by its vertices, smallest first.
+struct Face {
+  std::array<std::uint32_t, 3> vertices{};
+  std::uint32_t triangle = 0;
+  bool even = false;  // the way around: smallest, middle, largest
+};
+
+std::vector<Face> sortedFaces(const Mesh& mesh) {
+  std::vector<Face> faces;
+  faces.reserve(mesh.triangles.size());
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3& t = mesh.triangles[i];
+    Face face{{t.x, t.y, t.z}, i, false};
+    std::sort(face.vertices.begin(), face.vertices.end());
+    const auto& [a, b, c] = face.vertices;
+    face.even = (t.x == a && t.y == b) || (t.y == a && t.z == b) || (t.z == a && t.x == b);
+    faces.push_back(face);
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+    return a.vertices != b.vertices ? a.vertices < b.vertices : a.triangle < b.triangle;
   });
-  return counts;
+  return faces;
+}
+
+}  // namespace
+
+DuplicateFaces dropDuplicateFaces(Mesh& mesh, bool dropOpposite) {
+  // Step 1: for every triangle, the first one that it repeats, the same way around or the other.
+  constexpr std::uint32_t kNone = kNoSource;
+  const std::vector<Face> faces = sortedFaces(mesh);
+  std::vector<std::uint32_t> same(mesh.triangles.size(), kNone), opposite(mesh.triangles.size(), kNone);
+  for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
+    std::array<std::uint32_t, 2> first{kNone, kNone};  // of each way around
+    for (; end < faces.size() && faces[end].vertices == faces[begin].vertices; ++end) {
+      const Face& face = faces[end];
+      std::uint32_t& mine = first[face.even ? 1 : 0];
+      if (mine != kNone) {
+        same[face.triangle] = mine;
+      } else {
+        mine = face.triangle;
+        opposite[face.triangle] = first[face.even ? 0 : 1];
+      }
+    }
+  }
+
+  // Step 2: in the order of the mesh.
+  DuplicateFaces result;
+  std::vector<char> keep(mesh.triangles.size(), 1);
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    if (same[i] != kNone) {
+      result.same.add([&] { return findingAt(mesh, centroid(mesh, i), {i, same[i]}); });
+      keep[i] = 0;
+    } else if (opposite[i] != kNone) {
+      result.opposite.add([&] { return findingAt(mesh, centroid(mesh, i), {i, opposite[i]}); });
+      keep[i] = dropOpposite ? 0 : 1;
+    }
+  }
+  keepTriangles(mesh, [&](std::size_t i) { return keep[i] != 0; });
+  return result;
 }
 
 }  // namespace malus::prep

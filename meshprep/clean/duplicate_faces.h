@@ -1,18 +1,17 @@
-// Drops triangles that name the same three vertices as an earlier one. The same way around is a copy; the
-// other way around is the back of a wall without thickness, which a sheet may want to keep.
+// Drops triangles that name the same three vertices as an earlier one, the same way around: copies. One that names
+// them the other way around is the back of a wall without thickness, or a face that two bodies share: it stays, and
+// is told, unless its dropping is asked for.
 #pragma once
 
-#include <cstdint>
-
-#include "meshprep/mesh.h"
+#include "meshprep/findings.h"
 
 namespace malus::prep {
 
-struct DuplicateCounts {
-  std::uint64_t same = 0;      // dropped, the same way around as an earlier one
-  std::uint64_t opposite = 0;  // dropped, the other way around; always 0 with keepOpposite
+struct DuplicateFaces {
+  Findings same;      // dropped: the same way around as an earlier one
+  Findings opposite;  // the other way around: dropped with dropOpposite, else left
 };
 
-DuplicateCounts dropDuplicateFaces(Mesh& mesh, bool keepOpposite);
+DuplicateFaces dropDuplicateFaces(Mesh& mesh, bool dropOpposite);
 
 }  // namespace malus::prep

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "meshprep/clean/edges.h"
+#include "meshprep/clean/select.h"
 #include "meshprep/clean/shell_nesting.h"
 
 namespace malus::prep {
@@ -29,6 +30,7 @@ struct Part {
   std::vector<std::uint32_t> triangles;
   bool orientable = true;
   bool closed = true;
+  bool hasVolume = false;  // closed, orientable, and with an inside
 };
 
 class Orienter {
@@ -153,13 +155,14 @@ class Orienter {
     std::vector<std::size_t> partOfShell;
     std::vector<double> volumes;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const Part& part = parts_[i];
+      Part& part = parts_[i];
       if (!part.orientable || !part.closed) continue;
       const double volume = signedVolume(part);
       if (!hasVolume(part, volume)) {
         ++result_.withoutVolume;
         continue;
       }
+      part.hasVolume = true;
       Shell shell;
       shell.volume = std::abs(volume);
       for (const std::uint32_t t : part.triangles) shell.triangles.push_back(triangle(t));
@@ -191,14 +194,21 @@ class Orienter {
       component.triangles = part.triangles.size();
       component.closed = part.closed;
       component.orientable = part.orientable;
+      component.hasVolume = part.hasVolume;
+      component.at = mesh_.positions[mesh_.triangles[part.triangles.front()].x];
+      component.firstFace = sourceFace(mesh_, part.triangles.front());
       for (const std::uint32_t t : part.triangles) component.flipped += turned_[t] != 0 ? 1u : 0u;
       if (part.closed && part.orientable) component.signedVolume = signedVolume(part);
-      result_.flipped += component.flipped;
       result_.notOrientable += part.orientable ? 0u : 1u;
       result_.components.push_back(component);
     }
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) mesh_.triangles[t] = triangle(t);
-    return result_;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (turned_[t] == 0) continue;
+      result_.flipped.add([&] { return findingAt(mesh_, centroid(mesh_, t), {t}); });
+      turnOver(mesh_, t);
+    }
+    result_.componentOf = std::move(partOf_);
+    return std::move(result_);
   }
 
   Mesh& mesh_;

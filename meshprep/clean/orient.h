@@ -18,20 +18,21 @@
 #include <cstdint>
 #include <vector>
 
-#include "meshprep/mesh.h"
+#include "meshprep/findings.h"
 #include "meshprep/report.h"
 
 namespace malus::prep {
 
 struct OrientResult {
-  std::vector<Component> components;   // in the order of their first triangles
-  std::uint64_t flipped = 0;           // triangles turned over
-  std::uint64_t nested = 0;            // components kept with the one around them
-  std::uint64_t notOrientable = 0;     // components without two sides
-  std::uint64_t withoutVolume = 0;     // closed components whose outside cannot be told
-  std::uint64_t boundaryEdges = 0;     // edges of one triangle
-  std::uint64_t nonManifoldEdges = 0;  // edges of three or more
-  std::uint64_t nestingUnchecked = 0;  // closed components where there are too many to compare
+  std::vector<Component> components;       // in the order of their first triangles
+  std::vector<std::uint32_t> componentOf;  // of every triangle
+  Findings flipped;                        // triangles turned over
+  std::uint64_t nested = 0;                // components kept with the one around them
+  std::uint64_t notOrientable = 0;         // components without two sides
+  std::uint64_t withoutVolume = 0;         // closed components whose outside cannot be told
+  std::uint64_t boundaryEdges = 0;         // edges of one triangle
+  std::uint64_t nonManifoldEdges = 0;      // edges of three or more
+  std::uint64_t nestingUnchecked = 0;      // closed components where there are too many to compare
 };
 
 // Triangles must have three different vertices. Order is kept; a turned triangle keeps its first vertex.

@@ -1,13 +1,11 @@
 // Drops vertices that no triangle names. Order of the others is kept.
 #pragma once
 
-#include <cstdint>
-
-#include "meshprep/mesh.h"
+#include "meshprep/findings.h"
 
 namespace malus::prep {
 
-// Returns how many were dropped.
-std::uint64_t dropUnreferencedVertices(Mesh& mesh);
+// Returns those that were dropped.
+Findings dropUnreferencedVertices(Mesh& mesh);
 
 }  // namespace malus::prep

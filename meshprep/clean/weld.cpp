@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -12,12 +13,15 @@
 #include <glm/geometric.hpp>
 
 #include "meshprep/base/error.h"
+#include "meshprep/clean/edges.h"
+#include "meshprep/clean/select.h"
 
 namespace malus::prep {
 
 namespace {
 
 constexpr double kMaxCell = 9007199254740992.0;  // 2^53: whole numbers that a double holds
+constexpr int kRounds = 32;                      // of taking vertices apart again; then all of them
 
 using Cell = std::array<std::int64_t, 3>;
 
@@ -91,29 +95,87 @@ class Places {
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
 };
 
-}  // namespace
-
-std::uint64_t weld(Mesh& mesh, double tolerance) {
-  // Step 1: keep the first vertex of every place.
+// The first vertex of every place, for each vertex.
+std::vector<std::uint32_t> firstOfPlace(const Mesh& mesh, double tolerance, const std::vector<char>& counts) {
   Places places(tolerance);
   std::vector<glm::dvec3> kept;
-  std::vector<std::uint32_t> newIndex(mesh.positions.size());
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    std::uint32_t index = places.find(mesh.positions[i], kept);
-    if (index == Places::kNone) {
-      index = static_cast<std::uint32_t>(kept.size());
-      places.add(mesh.positions[i], index);
-      kept.push_back(mesh.positions[i]);
+  std::vector<std::uint32_t> keptVertex, first(mesh.positions.size());
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    first[i] = i;
+    if (counts[i] == 0) continue;
+    const std::uint32_t index = places.find(mesh.positions[i], kept);
+    if (index != Places::kNone) {
+      first[i] = keptVertex[index];
+      continue;
     }
-    newIndex[i] = index;
+    places.add(mesh.positions[i], static_cast<std::uint32_t>(kept.size()));
+    kept.push_back(mesh.positions[i]);
+    keptVertex.push_back(i);
+  }
+  return first;
+}
+
+// The vertices of edges with more than two triangles, where vertex v stands for become[v].
+std::vector<char> onCrowdedEdges(const Mesh& mesh, const std::vector<std::uint32_t>& become) {
+  std::vector<glm::uvec3> triangles;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::uvec3 now{become[t.x], become[t.y], become[t.z]};
+    if (now.x != now.y && now.y != now.z && now.z != now.x) triangles.push_back(now);
+  }
+  std::vector<char> crowded(mesh.positions.size(), 0);
+  forEachEdge(edgeUses(triangles), [&](std::span<const EdgeUse> edge) {
+    if (edge.size() > 2) crowded[edge[0].low] = crowded[edge[0].high] = 1;
+  });
+  return crowded;
+}
+
+}  // namespace
+
+Weld weld(Mesh& mesh, double tolerance) {
+  // Step 1: what is at the same place, then what is near.
+  const std::size_t count = mesh.positions.size();
+  const std::vector<std::uint32_t> same = firstOfPlace(mesh, 0, std::vector<char>(count, 1));
+  std::vector<std::uint32_t> become = same;
+  Weld result;
+  if (tolerance > 0) {
+    std::vector<char> isFirst(count, 0);
+    for (std::uint32_t i = 0; i < count; ++i) isFirst[i] = same[i] == i ? 1 : 0;
+    std::vector<std::uint32_t> near = firstOfPlace(mesh, tolerance, isFirst);
+
+    // Step 2: apart again where an edge got a third triangle by it. What stays apart may free or crowd other edges.
+    const std::vector<char> crowdedBefore = onCrowdedEdges(mesh, same);
+    bool changed = true;
+    for (int round = 0; changed; ++round) {
+      changed = false;
+      for (std::uint32_t i = 0; i < count; ++i) become[i] = near[same[i]];
+      const std::vector<char> crowded = onCrowdedEdges(mesh, become);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t to = near[i];
+        const bool byTolerance = crowded[to] != 0 && (crowdedBefore[i] == 0 || crowdedBefore[to] == 0);
+        if (isFirst[i] == 0 || to == i || !(byTolerance || round == kRounds)) continue;
+        result.refused.add([&] { return findingAt(mesh, mesh.positions[i], {}, {i, to}); });
+        near[i] = i;
+        changed = true;
+      }
+    }
   }
 
-  // Step 2: let the triangles name the kept ones. Normals belong to the old vertices.
-  const std::uint64_t joined = mesh.positions.size() - kept.size();
-  for (glm::uvec3& t : mesh.triangles) t = {newIndex[t.x], newIndex[t.y], newIndex[t.z]};
-  mesh.positions = std::move(kept);
-  mesh.normals.clear();
-  return joined;
+  // Step 3: let the triangles name the kept ones. Normals belong to the old vertices.
+  std::vector<std::uint32_t> kept, newIndex(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (become[i] == i) {
+      newIndex[i] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(i);
+      continue;
+    }
+    result.joined.add([&] { return findingAt(mesh, mesh.positions[i], {}, {i, become[i]}); });
+    newIndex[i] = newIndex[become[i]];  // an earlier vertex
+  }
+  if (kept.size() < count) {
+    mesh.normals.clear();
+    takeVertices(mesh, kept, newIndex);
+  }
+  return result;
 }
 
 }  // namespace malus::prep

@@ -14,8 +14,10 @@ Report example() {
   report.input.faces = 12;
   report.output.vertices = 24;
   report.output.triangles = 11;
-  report.steps = {{"vertices-welded", 28}, {"faces-dropped-duplicate", 1}, {"faces-turned-over", 0}};
-  report.components = {{12, true, true, 0, 1.5}};
+  report.steps = {{"vertices-welded", 28, {}},
+                  {"faces-dropped-duplicate", 1, {{{}, {7, 3}, {1, 2, 3}, "", "a.obj:9"}}},
+                  {"faces-turned-over", 0, {}}};
+  report.components = {{12, true, true, 0, 1.5, true, {}, 0}};
   return report;
 }
 
@@ -32,6 +34,18 @@ TEST(Report, JsonHasEveryField) {
   EXPECT_EQ(json["components"][0]["closed"], true);
   EXPECT_EQ(json["components"][0]["signedVolume"], 1.5);
   EXPECT_FALSE(json.contains("errors"));
+  EXPECT_FALSE(json.contains("certificate"));
+  EXPECT_FALSE(json["steps"][0].contains("findings"));
+  const nlohmann::json finding = json["steps"][1]["findings"][0];
+  EXPECT_EQ(finding["faces"], (std::vector<int>{7, 3}));
+  EXPECT_EQ(finding["at"], (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(finding["place"], "a.obj:9");
+
+  report.certificate = {true, {{2, "3 open edges", "first at a", "close it"}}};
+  json = toJson(report);
+  EXPECT_EQ(json["certificate"]["holds"], false);
+  EXPECT_EQ(json["certificate"]["problems"][0]["component"], 2);
+  EXPECT_TRUE(test::contains(toText(report), "component 2: 3 open edges; first at a; close it"));
 
   report.compression = {"edgebreaker", 321};
   report.errors = {1e-6, 0.05};
@@ -46,6 +60,7 @@ TEST(Report, TextShowsBeforeAndAfterAndLeavesOutWhatWasNotFound) {
   EXPECT_TRUE(test::contains(text, "vertices                                    36          24"));
   EXPECT_TRUE(test::contains(text, "faces-dropped-duplicate"));
   EXPECT_FALSE(test::contains(text, "faces-turned-over"));
+  EXPECT_TRUE(test::contains(text, "faces 7, 3 at (1, 2, 3), a.obj:9"));
   EXPECT_EQ(text.back(), '\n');
 }
 

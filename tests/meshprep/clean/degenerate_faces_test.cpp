@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meshprep/clean/edges.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -11,9 +12,13 @@ TEST(DegenerateFaces, CountsBothKindsAndKeepsTheRestInOrder) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 0}};
   mesh.triangles = {{0, 1, 3}, {0, 0, 3}, {0, 1, 2}, {1, 2, 3}, {3, 1, 3}, {0, 4, 3}};
-  const DegenerateCounts counts = dropDegenerateFaces(mesh);
-  EXPECT_EQ(counts.repeatedCorner, 2u);
-  EXPECT_EQ(counts.zeroArea, 2u);
+  mesh.sourceFaces = {10, 11, 12, 13, 14, 15};
+  const DegenerateFaces counts = dropDegenerateFaces(mesh);
+  EXPECT_EQ(counts.zeroArea.first[0].faces, std::vector<std::uint32_t>{12});
+  EXPECT_EQ(counts.zeroArea.first[1].faces, std::vector<std::uint32_t>{15});
+  EXPECT_EQ(mesh.sourceFaces, (std::vector<std::uint32_t>{10, 13}));
+  EXPECT_EQ(counts.repeatedCorner.count, 2u);
+  EXPECT_EQ(counts.zeroArea.count, 2u);
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 3}, {1, 2, 3}}));
   EXPECT_EQ(mesh.positions.size(), 5u);
 }
@@ -30,7 +35,50 @@ TEST(DegenerateFaces, CollinearUpToRounding) {
   Mesh mesh;
   mesh.positions = {{0.1, 0.2, 0.3}, {0.1 + 1.0 / 3, 0.2 + 2.0 / 3, 0.3 + 1}, {0.1 + 2.0 / 3, 0.2 + 4.0 / 3, 2.3}};
   mesh.triangles = {{0, 1, 2}};
-  EXPECT_EQ(dropDegenerateFaces(mesh).zeroArea, 1u);
+  EXPECT_EQ(dropDegenerateFaces(mesh).zeroArea.count, 1u);
+}
+
+// A cube whose edge 0-1 has two more vertices on it, that only faces without area join to the rest on one side.
+Mesh cubeWithFlatFaces() {
+  Mesh mesh = test::cube();
+  mesh.positions.emplace_back(0.25, 0, 0);  // 8
+  mesh.positions.emplace_back(0.5, 0, 0);   // 9
+  // {0, 1, 5} becomes a fan from 5 over both; the face below, {0, 3, 1}, still has the whole edge.
+  mesh.triangles[4] = {0, 8, 5};
+  mesh.triangles.emplace_back(8, 9, 5);
+  mesh.triangles.emplace_back(9, 1, 5);
+  mesh.triangles.emplace_back(0, 1, 9);
+  mesh.triangles.emplace_back(0, 9, 8);
+  return mesh;
+}
+
+double signedVolume(const Mesh& mesh) {
+  double volume = 0;
+  for (const glm::uvec3& t : mesh.triangles)
+    volume += glm::dot(mesh.positions[t.x], glm::cross(mesh.positions[t.y], mesh.positions[t.z])) / 6;
+  return volume;
+}
+
+TEST(DegenerateFaces, ASurfaceThatTheyCloseStaysClosed) {
+  Mesh mesh = cubeWithFlatFaces();
+  ASSERT_EQ(mesh.triangles.size(), 16u);
+  const DegenerateFaces result = dropDegenerateFaces(mesh);
+  EXPECT_EQ(result.zeroArea.count, 2u);
+  EXPECT_EQ(result.neighboursCut.count, 2u);
+  EXPECT_EQ(mesh.triangles.size(), 16u);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3& t = mesh.triangles[i];
+    EXPECT_GT(
+        glm::length(glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x])),
+        0.1)
+        << i;
+  }
+  forEachEdge(edgeUses(mesh.triangles), [](std::span<const EdgeUse> edge) {
+    ASSERT_EQ(edge.size(), 2u);
+    EXPECT_NE(edge[0].forward, edge[1].forward);
+  });
+  EXPECT_NEAR(signedVolume(mesh), 1, 1e-12);
+  EXPECT_EQ(dropDegenerateFaces(mesh).zeroArea.count, 0u);
 }
 
 }  // namespace

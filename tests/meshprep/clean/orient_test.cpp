@@ -28,7 +28,7 @@ TEST(Orient, OutwardCubeIsUntouched) {
   Mesh mesh = cube();
   const OrientResult result = orient(mesh, false);
   EXPECT_EQ(mesh.triangles, cube().triangles);
-  EXPECT_EQ(result.flipped, 0u);
+  EXPECT_EQ(result.flipped.count, 0u);
   ASSERT_EQ(result.components.size(), 1u);
   EXPECT_TRUE(result.components[0].closed);
   EXPECT_TRUE(result.components[0].orientable);
@@ -39,7 +39,7 @@ TEST(Orient, OutwardCubeIsUntouched) {
 
 TEST(Orient, InwardCubeIsTurnedEvenFarFromTheOrigin) {
   Mesh mesh = turnedOver(cube(1e-3, {1e4, -1e4, 1e4}));
-  EXPECT_EQ(orient(mesh, false).flipped, 12u);
+  EXPECT_EQ(orient(mesh, false).flipped.count, 12u);
   EXPECT_EQ(mesh.triangles, cube().triangles);
 }
 
@@ -47,7 +47,7 @@ TEST(Orient, FewTurnedTrianglesFollowTheRest) {
   Mesh mesh = cube();
   for (const std::size_t i : {0u, 5u, 9u})
     mesh.triangles[i] = {mesh.triangles[i].x, mesh.triangles[i].z, mesh.triangles[i].y};
-  EXPECT_EQ(orient(mesh, false).flipped, 3u);
+  EXPECT_EQ(orient(mesh, false).flipped.count, 3u);
   EXPECT_EQ(mesh.triangles, cube().triangles);
 }
 
@@ -60,7 +60,7 @@ TEST(Orient, OpenSurfaceTakesTheMajoritysSide) {
   expected.triangles.resize(10);
   expected = turnedOver(expected);
   const OrientResult result = orient(mesh, false);
-  EXPECT_EQ(result.flipped, 3u);
+  EXPECT_EQ(result.flipped.count, 3u);
   EXPECT_EQ(mesh.triangles, expected.triangles);
   EXPECT_FALSE(result.components[0].closed);
   EXPECT_EQ(result.boundaryEdges, 4u);
@@ -76,35 +76,35 @@ TEST(Orient, TieKeepsTheFirstTriangle) {
 TEST(Orient, ASheetIsNeverTurnedAsAWhole) {
   Mesh mesh = turnedOver(cube());
   mesh.triangles[3] = cube().triangles[3];
-  EXPECT_EQ(orient(mesh, true).flipped, 1u);
+  EXPECT_EQ(orient(mesh, true).flipped.count, 1u);
   EXPECT_EQ(mesh.triangles, turnedOver(cube()).triangles);
 }
 
 TEST(Orient, CavityStaysACavity) {
   Mesh mesh = joined(cube(4), turnedOver(cube(1, {1, 1, 1})));
   const OrientResult result = orient(mesh, false);
-  EXPECT_EQ(result.flipped, 0u);
+  EXPECT_EQ(result.flipped.count, 0u);
   EXPECT_EQ(result.nested, 1u);
   EXPECT_LT(result.components[1].signedVolume, 0);
 }
 
 TEST(Orient, CavityOfATurnedBodyIsTurnedWithIt) {
   Mesh mesh = joined(turnedOver(cube(4)), cube(1, {1, 1, 1}));
-  EXPECT_EQ(orient(mesh, false).flipped, 24u);
+  EXPECT_EQ(orient(mesh, false).flipped.count, 24u);
   EXPECT_NEAR(signedVolume(mesh, 0, 12), 64, 1e-9);
   EXPECT_NEAR(signedVolume(mesh, 12, 12), -1, 1e-9);
 }
 
 TEST(Orient, BodyInACavityPointsOutward) {
   Mesh mesh = joined(joined(cube(9), turnedOver(cube(5, {2, 2, 2}))), turnedOver(cube(1, {4, 4, 4})));
-  EXPECT_EQ(orient(mesh, false).flipped, 12u);
+  EXPECT_EQ(orient(mesh, false).flipped.count, 12u);
   EXPECT_GT(signedVolume(mesh, 24, 12), 0);
 }
 
 TEST(Orient, BodiesThatPokeIntoEachOtherAreNotNested) {
   Mesh mesh = joined(cube(4), turnedOver(cube(2, {3, 1, 1})));
   const OrientResult result = orient(mesh, false);
-  EXPECT_EQ(result.flipped, 12u);
+  EXPECT_EQ(result.flipped.count, 12u);
   EXPECT_EQ(result.nested, 0u);
 }
 
@@ -145,7 +145,7 @@ TEST(Orient, CubesThatShareAnEdgeAreClosedEach) {
     EXPECT_TRUE(component.closed);
     EXPECT_NEAR(component.signedVolume, 1, 1e-12);
   }
-  EXPECT_EQ(result.flipped, 12u);
+  EXPECT_EQ(result.flipped.count, 12u);
 }
 
 TEST(Orient, FinOnACubeIsAComponentOfItsOwn) {

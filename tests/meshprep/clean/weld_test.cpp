@@ -15,7 +15,7 @@ TEST(Weld, EqualPositionsBecomeTheFirstOfThem) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
-  EXPECT_EQ(weld(mesh, 0), 2u);
+  EXPECT_EQ(weld(mesh, 0).joined.count, 2u);
   EXPECT_EQ(mesh.positions, (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {1, 3, 2}}));
 }
@@ -23,21 +23,21 @@ TEST(Weld, EqualPositionsBecomeTheFirstOfThem) {
 TEST(Weld, NegativeZeroIsZero) {
   Mesh mesh;
   mesh.positions = {{0.0, 1, 2}, {-0.0, 1, 2}};
-  EXPECT_EQ(weld(mesh, 0), 1u);
+  EXPECT_EQ(weld(mesh, 0).joined.count, 1u);
 }
 
 TEST(Weld, TheNextDoubleIsAnotherPlace) {
   Mesh mesh;
   mesh.positions = {{1, 0, 0}, {std::nextafter(1.0, 2.0), 0, 0}};
-  EXPECT_EQ(weld(mesh, 0), 0u);
-  EXPECT_EQ(weld(mesh, 1e-12), 1u);
+  EXPECT_EQ(weld(mesh, 0).joined.count, 0u);
+  EXPECT_EQ(weld(mesh, 1e-12).joined.count, 1u);
 }
 
 TEST(Weld, ToleranceReachesAcrossCellsAndTakesTheNearest) {
   Mesh mesh;
   mesh.positions = {{0.99, 0, 0}, {2.2, 0, 0}, {1.8, 0, 0}, {-1e-9, -1e-9, -1e-9}, {1e-9, 1e-9, 1e-9}};
   mesh.triangles = {{2, 3, 4}};
-  EXPECT_EQ(weld(mesh, 0.98), 2u);
+  EXPECT_EQ(weld(mesh, 0.98).joined.count, 2u);
   // The third joined the second (0.4 away), not the first (0.81 away); the last two met over a cell's corner.
   EXPECT_EQ(mesh.positions.size(), 3u);
   EXPECT_EQ(mesh.triangles[0], glm::uvec3(1, 2, 2));
@@ -46,7 +46,7 @@ TEST(Weld, ToleranceReachesAcrossCellsAndTakesTheNearest) {
 TEST(Weld, ChainsDoNotCollapse) {
   Mesh mesh;
   for (int i = 0; i < 11; ++i) mesh.positions.emplace_back(i * 0.6, 0, 0);
-  EXPECT_EQ(weld(mesh, 1.0), 5u);
+  EXPECT_EQ(weld(mesh, 1.0).joined.count, 5u);
   for (std::size_t i = 1; i < mesh.positions.size(); ++i) EXPECT_GT(mesh.positions[i].x - mesh.positions[i - 1].x, 1.0);
 }
 
@@ -56,10 +56,42 @@ TEST(Weld, RefusesAToleranceBelowTheRoundingOfCoordinates) {
   EXPECT_TRUE(test::contains(errorOf([&] { weld(mesh, 1e-9); }), "too small"));
 }
 
+TEST(Weld, AThinWallIsNotWeldedIntoOne) {
+  // Two plates of two triangles, a nanometre apart, each with a neighbour that goes its own way: joined they would put
+  // four triangles on an edge.
+  Mesh mesh;
+  for (const double z : {0.0, 1e-9}) {
+    mesh.positions.emplace_back(0, 0, z);
+    mesh.positions.emplace_back(1, 0, z);
+    mesh.positions.emplace_back(0.5, 1, z > 0 ? 1.0 : -1.0);
+    mesh.positions.emplace_back(0.5, -1, z > 0 ? 1.0 : -1.0);
+  }
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {4, 5, 6}, {5, 4, 7}};
+  const Mesh before = mesh;
+  const Weld result = weld(mesh, 1e-6);
+  EXPECT_EQ(result.joined.count, 0u);
+  EXPECT_EQ(result.refused.count, 2u);
+  EXPECT_EQ(result.refused.first[0].vertices, (std::vector<std::uint32_t>{4, 0}));
+  EXPECT_EQ(mesh.triangles, before.triangles);
+  EXPECT_EQ(mesh.positions, before.positions);
+}
+
+TEST(Weld, RefusesOnlyWhereItMust) {
+  // The same wall, and a seam of two other vertices that the tolerance may close.
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0},     {1, 0, 0}, {0.5, 1, 1}, {0.5, -1, 1}, {0, 0, 1e-9}, {1, 0, 1e-9}, {0.5, 1, -1},
+                    {0.5, -1, -1}, {9, 0, 0}, {9, 1, 0},   {8, 0, 0},    {9, 0, 1e-9}, {9, 1, 1e-9}, {10, 0, 0}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {4, 5, 6}, {5, 4, 7}, {8, 9, 10}, {12, 11, 13}};
+  const Weld result = weld(mesh, 1e-6);
+  EXPECT_EQ(result.refused.count, 2u);
+  EXPECT_EQ(result.joined.count, 2u);
+  EXPECT_EQ(mesh.positions.size(), 12u);
+}
+
 TEST(Weld, CleanMeshIsUntouched) {
   Mesh mesh = test::sphere(5, 8);
   const Mesh before = mesh;
-  EXPECT_EQ(weld(mesh, 0), 0u);
+  EXPECT_EQ(weld(mesh, 0).joined.count, 0u);
   EXPECT_EQ(mesh.positions, before.positions);
   EXPECT_EQ(mesh.triangles, before.triangles);
 }

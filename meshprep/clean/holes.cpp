@@ -1,0 +1,139 @@
+#include "meshprep/clean/holes.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "meshprep/base/error.h"
+#include "meshprep/clean/edges.h"
+#include "meshprep/clean/places.h"
+#include "meshprep/clean/select.h"
+#include "meshprep/clean/triangulate.h"
+
+namespace malus::prep {
+
+namespace {
+
+Finding describeHole(const Mesh& mesh, const Loop& loop, std::string_view also) {
+  Finding finding;
+  double around = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    finding.at += mesh.positions[loop[i]] / static_cast<double>(loop.size());
+    around += glm::distance(mesh.positions[loop[i]], mesh.positions[loop[(i + 1) % loop.size()]]);
+    if (sourceVertex(mesh, loop[i]) != kNoSource) finding.vertices.push_back(sourceVertex(mesh, loop[i]));
+  }
+  finding.what = fmt::format("{} edges, {:.4g} m around{}", loop.size(), around, also);
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Loop> findHoles(const Mesh& mesh) {
+  // Step 1: where each boundary edge leads, against the way that its triangle runs along it.
+  std::unordered_map<std::uint32_t, std::uint32_t> next;
+  std::vector<std::uint32_t> starts;
+  forEachEdge(edgeUses(mesh.triangles), [&](std::span<const EdgeUse> edge) {
+    if (edge.size() != 1) return;
+    const std::uint32_t from = edge[0].forward ? edge[0].high : edge[0].low;
+    next.emplace(from, edge[0].forward ? edge[0].low : edge[0].high);
+    starts.push_back(from);
+  });
+
+  // Step 2: follow them from the smallest vertex on.
+  std::sort(starts.begin(), starts.end());
+  std::vector<Loop> loops;
+  for (const std::uint32_t start : starts) {
+    Loop loop;
+    std::uint32_t at = start;
+    for (auto found = next.find(at); found != next.end(); found = next.find(at)) {
+      loop.push_back(at);
+      at = found->second;
+      next.erase(found);
+    }
+    if (at == start && loop.size() > 2) loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+Findings describeHoles(const Mesh& mesh, const std::vector<Loop>& loops) {
+  Findings holes;
+  for (const Loop& loop : loops) holes.add([&] { return describeHole(mesh, loop, ""); });
+  return holes;
+}
+
+FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t maxEdges) {
+  // Step 1: a face beside each hole, by the hole's first vertex.
+  std::unordered_map<std::uint32_t, std::size_t> beside;
+  for (const Loop& loop : loops) beside.emplace(loop.front(), 0);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (const auto found = beside.find(mesh.triangles[i][k]); found != beside.end()) found->second = i;
+
+  // Step 2: the edges and faces that are there, by place: a lid must not lie on a face, nor have one of its inner edges
+  // where there is one.
+  const std::vector<std::uint32_t> place = placeOfVertices(mesh);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  std::set<std::array<std::uint32_t, 3>> faces;
+  const auto facePlaces = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    std::array<std::uint32_t, 3> places{place[a], place[b], place[c]};
+    std::sort(places.begin(), places.end());
+    return places;
+  };
+  for (const glm::uvec3& t : mesh.triangles) {
+    faces.insert(facePlaces(t.x, t.y, t.z));
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t from = place[t[k]], to = place[t[(k + 1) % 3]];
+      edges.emplace(std::min(from, to), std::max(from, to));
+    }
+  }
+  const auto isFree = [&](const Loop& loop, const Mesh& lid) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> inner;
+    forEachEdge(edgeUses(lid.triangles), [&](std::span<const EdgeUse> edge) {
+      const std::uint32_t low = place[loop[edge[0].low]], high = place[loop[edge[0].high]];
+      if (edge.size() == 2) inner.emplace_back(std::min(low, high), std::max(low, high));
+    });
+    for (const auto& edge : inner)
+      if (edges.contains(edge)) return false;
+    for (const glm::uvec3& t : lid.triangles)
+      if (faces.contains(facePlaces(loop[t.x], loop[t.y], loop[t.z]))) return false;
+    edges.insert(inner.begin(), inner.end());
+    for (const glm::uvec3& t : lid.triangles) faces.insert(facePlaces(loop[t.x], loop[t.y], loop[t.z]));
+    return true;
+  };
+
+  // Step 3: triangles of each loop, as of a polygon.
+  FilledHoles result;
+  for (const Loop& loop : loops) {
+    Polygons polygon;
+    for (const std::uint32_t v : loop) {
+      polygon.corners.push_back(static_cast<std::uint32_t>(polygon.positions.size()));
+      polygon.positions.push_back(mesh.positions[v]);
+    }
+    polygon.closeFace();
+    TriangulateCounts counts;
+    Mesh lid;
+    bool simple = loop.size() <= maxEdges;
+    if (simple) try {
+        lid = triangulate(polygon, counts);
+      } catch (const Error&) {  // more corners than triangulate() takes
+        simple = false;
+      }
+    const bool free = simple && counts.crossing == 0 && counts.repeatedCorners == 0 && isFree(loop, lid);
+    if (!free) {
+      result.left.add([&] { return describeHole(mesh, loop, loop.size() > maxEdges ? "" : ", cannot be filled"); });
+      continue;
+    }
+    result.filled.add([&] { return describeHole(mesh, loop, ""); });
+    for (const glm::uvec3& t : lid.triangles)
+      addTriangle(mesh, {loop[t.x], loop[t.y], loop[t.z]}, beside.at(loop.front()));
+  }
+  return result;
+}
+
+}  // namespace malus::prep

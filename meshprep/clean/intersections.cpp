@@ -1,0 +1,112 @@
+#include "meshprep/clean/intersections.h"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <glm/common.hpp>
+
+#include "meshprep/clean/box_pairs.h"
+#include "meshprep/clean/places.h"
+#include "meshprep/clean/select.h"
+
+namespace malus::prep {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+constexpr std::uint64_t kCandidatesEach = 64;  // of a triangle, on average; a fine mesh has about 14
+constexpr std::uint64_t kCandidatesMore = 1u << 20u;
+
+// A triangle with the numbers of its places, turned as its test needs it.
+struct Corners {
+  std::array<Kernel::Point_3, 3> point;
+  std::array<std::uint32_t, 3> place{};
+  Kernel::Triangle_3 triangle() const { return {point[0], point[1], point[2]}; }
+  Kernel::Segment_3 acrossFrom(std::size_t corner) const { return {point[(corner + 1) % 3], point[(corner + 2) % 3]}; }
+};
+
+Corners cornersOf(const Mesh& mesh, const std::vector<std::uint32_t>& place, std::uint32_t i) {
+  Corners corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t v = mesh.triangles[i][static_cast<int>(k)];
+    const glm::dvec3& p = mesh.positions[v];
+    corners.point[k] = {p.x, p.y, p.z};
+    corners.place[k] = place[v];
+  }
+  return corners;
+}
+
+enum class Contact { none, crossing, coincident };
+
+Contact contactOf(const Corners& a, const Corners& b) {
+  // Step 1: corners that both have.
+  std::array<std::size_t, 3> ofA{}, ofB{};
+  std::size_t shared = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      if (a.place[i] == b.place[j]) {
+        ofA[shared] = i;
+        ofB[shared] = j;
+        ++shared;
+      }
+
+  // Step 2: the test for each case.
+  bool crosses = false;
+  if (shared == 3) return Contact::coincident;
+  if (shared == 2) {
+    // Over their common edge they only meet again where one is folded onto the other.
+    const Kernel::Point_3 &p = a.point[ofA[0]], &q = a.point[ofA[1]];
+    const Kernel::Point_3 &r = a.point[3 - ofA[0] - ofA[1]], &s = b.point[3 - ofB[0] - ofB[1]];
+    crosses = CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
+  } else if (shared == 1) {
+    crosses = CGAL::do_intersect(a.acrossFrom(ofA[0]), b.triangle()) ||
+              CGAL::do_intersect(b.acrossFrom(ofB[0]), a.triangle());
+  } else {
+    crosses = CGAL::do_intersect(a.triangle(), b.triangle());
+  }
+  return crosses ? Contact::crossing : Contact::none;
+}
+
+}  // namespace
+
+Intersections findIntersections(const Mesh& mesh) {
+  // Step 1: boxes.
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 &p = mesh.positions[t.x], &q = mesh.positions[t.y], &r = mesh.positions[t.z];
+    boxes.push_back({glm::min(p, glm::min(q, r)), glm::max(p, glm::max(q, r))});
+  }
+
+  // Step 2: the exact test where boxes meet.
+  Intersections result;
+  std::mutex lock;
+  const std::vector<std::uint32_t> place = placeOfVertices(mesh);
+  result.complete = forOverlappingBoxes(
+      boxes, boxes, 2 * kCandidatesEach * boxes.size() + kCandidatesMore, [&](std::uint32_t i, std::uint32_t j) {
+        if (i >= j) return;
+        const Contact contact = contactOf(cornersOf(mesh, place, i), cornersOf(mesh, place, j));
+        if (contact == Contact::none) return;
+        const std::lock_guard guard(lock);
+        (contact == Contact::crossing ? result.crossing : result.coincident).emplace_back(i, j);
+      });
+
+  // Step 3: in an order that does not depend on the threads.
+  std::sort(result.crossing.begin(), result.crossing.end());
+  std::sort(result.coincident.begin(), result.coincident.end());
+  return result;
+}
+
+Findings describePairs(const Mesh& mesh, const std::vector<Intersections::Pair>& pairs) {
+  Findings findings;
+  for (const auto& [a, b] : pairs)
+    findings.add([&, first = a, second = b] {
+      return findingAt(mesh, (centroid(mesh, first) + centroid(mesh, second)) * 0.5, {first, second});
+    });
+  return findings;
+}
+
+}  // namespace malus::prep

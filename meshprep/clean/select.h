@@ -1,0 +1,81 @@
+// Keeps some of a mesh's triangles or vertices, in their order, with everything that is kept beside them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "meshprep/mesh.h"
+
+namespace malus::prep {
+
+inline glm::dvec3 centroid(const Mesh& mesh, std::size_t triangle) {
+  const glm::uvec3& t = mesh.triangles[triangle];
+  return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0;
+}
+
+// keep(i) tells whether triangle i stays; it is asked once for each, in order.
+template <class Keep>
+void keepTriangles(Mesh& mesh, Keep keep) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!keep(i)) continue;
+    mesh.triangles[kept] = mesh.triangles[i];
+    if (!mesh.sourceFaces.empty()) mesh.sourceFaces[kept] = mesh.sourceFaces[i];
+    if (!mesh.sourceCorners.empty()) mesh.sourceCorners[kept] = mesh.sourceCorners[i];
+    if (!mesh.turned.empty()) mesh.turned[kept] = mesh.turned[i];
+    if (!mesh.smoothingGroups.empty()) mesh.smoothingGroups[kept] = mesh.smoothingGroups[i];
+    if (!mesh.cornerNormals.empty())
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        mesh.cornerNormals[3 * kept + corner] = mesh.cornerNormals[3 * i + corner];
+    ++kept;
+  }
+  mesh.triangles.resize(kept);
+  if (!mesh.sourceFaces.empty()) mesh.sourceFaces.resize(kept);
+  if (!mesh.sourceCorners.empty()) mesh.sourceCorners.resize(kept);
+  if (!mesh.turned.empty()) mesh.turned.resize(kept);
+  if (!mesh.smoothingGroups.empty()) mesh.smoothingGroups.resize(kept);
+  if (!mesh.cornerNormals.empty()) mesh.cornerNormals.resize(3 * kept);
+}
+
+// A triangle more, cut from the face that triangle `like` is cut from. Its corners have no normals of their own.
+inline void addTriangle(Mesh& mesh, const glm::uvec3& triangle, std::size_t like) {
+  const glm::uvec3 corners = mesh.sourceVertices.empty()
+                                 ? triangle
+                                 : glm::uvec3(mesh.sourceVertices[triangle.x], mesh.sourceVertices[triangle.y],
+                                              mesh.sourceVertices[triangle.z]);
+  mesh.triangles.push_back(triangle);
+  if (!mesh.sourceFaces.empty()) mesh.sourceFaces.push_back(mesh.sourceFaces[like]);
+  if (!mesh.sourceCorners.empty()) mesh.sourceCorners.push_back(corners);
+  if (!mesh.turned.empty()) mesh.turned.push_back(mesh.turned[like]);
+  if (!mesh.smoothingGroups.empty()) mesh.smoothingGroups.push_back(mesh.smoothingGroups[like]);
+  if (!mesh.cornerNormals.empty()) mesh.cornerNormals.insert(mesh.cornerNormals.end(), 3, glm::vec3(0));
+}
+
+// Turns a triangle over; its first vertex stays first.
+inline void turnOver(Mesh& mesh, std::size_t i) {
+  std::swap(mesh.triangles[i].y, mesh.triangles[i].z);
+  if (!mesh.turned.empty()) mesh.turned[i] = mesh.turned[i] == 0 ? 1 : 0;
+  if (!mesh.sourceCorners.empty()) std::swap(mesh.sourceCorners[i].y, mesh.sourceCorners[i].z);
+  if (!mesh.cornerNormals.empty()) std::swap(mesh.cornerNormals[3 * i + 1], mesh.cornerNormals[3 * i + 2]);
+}
+
+// newIndex[i] is the vertex that i becomes, or the number of vertices left for one that goes; `from` are the vertices
+// that stay, one for each new index.
+inline void takeVertices(Mesh& mesh, const std::vector<std::uint32_t>& from,
+                         const std::vector<std::uint32_t>& newIndex) {
+  const auto take = [&](auto& values) {
+    if (values.empty()) return;
+    auto kept = values;
+    kept.resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) kept[i] = values[from[i]];
+    values = std::move(kept);
+  };
+  take(mesh.positions);
+  take(mesh.normals);
+  take(mesh.sourceVertices);
+  for (glm::uvec3& t : mesh.triangles) t = {newIndex[t.x], newIndex[t.y], newIndex[t.z]};
+}
+
+}  // namespace malus::prep

@@ -1,0 +1,66 @@
+// What one step of preparation found or did: how often, and the first of them by name and place.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "meshprep/mesh.h"
+
+namespace malus::prep {
+
+// One thing. Vertices and faces are those of the source file, counted from 0.
+struct Finding {
+  std::vector<std::uint32_t> vertices;
+  std::vector<std::uint32_t> faces;
+  glm::dvec3 at{0};   // metres, in the axes of the file
+  std::string what;   // in words; empty where the step's name says it all
+  std::string place;  // in the file, as messages name it; prepare() fills it in where the reader told it
+};
+
+// No step lists more than this; all are counted.
+inline constexpr std::size_t kListed = 1000;
+
+struct Findings {
+  std::uint64_t count = 0;
+  std::vector<Finding> first;
+
+  // make() gives the finding; it is called only for those that are listed.
+  template <class Make>
+  void add(Make make) {
+    ++count;
+    if (first.size() < kListed) first.push_back(make());
+  }
+
+  void append(Findings other) {
+    count += other.count;
+    for (Finding& finding : other.first)
+      if (first.size() < kListed) first.push_back(std::move(finding));
+  }
+};
+
+inline std::uint32_t sourceVertex(const Mesh& mesh, std::size_t vertex) {
+  return mesh.sourceVertices.empty() ? static_cast<std::uint32_t>(vertex) : mesh.sourceVertices[vertex];
+}
+inline std::uint32_t sourceFace(const Mesh& mesh, std::size_t triangle) {
+  return mesh.sourceFaces.empty() ? static_cast<std::uint32_t>(triangle) : mesh.sourceFaces[triangle];
+}
+
+// A finding about these triangles and vertices of the mesh as it is now.
+inline Finding findingAt(const Mesh& mesh, const glm::dvec3& at, std::initializer_list<std::size_t> triangles,
+                         std::initializer_list<std::size_t> vertices = {}, std::string what = {}) {
+  Finding finding;
+  for (const std::size_t t : triangles) finding.faces.push_back(sourceFace(mesh, t));
+  for (const std::size_t v : vertices)
+    if (sourceVertex(mesh, v) != kNoSource) finding.vertices.push_back(sourceVertex(mesh, v));
+  finding.at = at;
+  finding.what = std::move(what);
+  return finding;
+}
+
+}  // namespace malus::prep

@@ -1,0 +1,163 @@
+#include "meshprep/certify/glass.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/prepare.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+using test::contains;
+using test::cube;
+using test::joined;
+using test::turnedOver;
+
+Certificate certify(const Mesh& mesh, Options options = {}) {
+  options.certifyGlass = true;
+  options.flat = true;
+  Report report;
+  clean(mesh, options, report);
+  return report.certificate;
+}
+
+// The only problem, in words.
+std::string problem(const Mesh& mesh, const Options& options = {}) {
+  const Certificate certificate = certify(mesh, options);
+  EXPECT_EQ(certificate.problems.size(), 1u);
+  if (certificate.problems.empty()) return {};
+  const Problem& p = certificate.problems.front();
+  return p.what + "; " + p.where + "; " + p.repair;
+}
+
+TEST(GlassCertificate, HoldsForBodiesCavitiesAndBodiesSideBySide) {
+  EXPECT_TRUE(certify(cube()).holds());
+  EXPECT_TRUE(certify(turnedOver(cube())).holds());  // cleaning turns it
+  EXPECT_TRUE(certify(test::sphere(15, 32)).holds());
+  EXPECT_TRUE(certify(joined(cube(4), turnedOver(cube(1, {1, 1, 1})))).holds());
+  EXPECT_TRUE(certify(joined(cube(), cube(1, {3, 0, 0}))).holds());
+  EXPECT_TRUE(certify(joined(cube(), cube(1, {1, 1, 0}))).holds());  // along an edge: split
+}
+
+TEST(GlassCertificate, IsNotGivenUnasked) {
+  Report report;
+  clean(cube(), {}, report);
+  EXPECT_FALSE(report.certificate.checked);
+  EXPECT_FALSE(report.certificate.holds());
+}
+
+TEST(GlassCertificate, AHoleIsNamedWithItsEdgeFaceAndComponent) {
+  Mesh mesh = joined(cube(1, {5, 0, 0}), cube());
+  mesh.triangles.pop_back();
+  const Certificate certificate = certify(mesh);
+  ASSERT_EQ(certificate.problems.size(), 1u);
+  EXPECT_EQ(certificate.problems[0].component, 1u);
+  EXPECT_EQ(certificate.problems[0].what, "3 open edges");
+  EXPECT_TRUE(contains(certificate.problems[0].where, "face "));
+  EXPECT_TRUE(contains(certificate.problems[0].repair, "--fill-holes"));
+  Options options;
+  options.steps.fillHoles = 3;
+  EXPECT_TRUE(certify(mesh, options).holds());
+}
+
+TEST(GlassCertificate, AMoebiusStripHasOneSide) {
+  Mesh mesh;
+  constexpr std::uint32_t kSteps = 9;
+  for (std::uint32_t i = 0; i < kSteps; ++i) {
+    const double a = 2 * 3.14159265358979 * i / kSteps;
+    const glm::dvec3 out(std::cos(a), std::sin(a), 0), side = std::cos(a / 2) * out + glm::dvec3(0, 0, std::sin(a / 2));
+    mesh.positions.push_back(3.0 * out + side);
+    mesh.positions.push_back(3.0 * out - side);
+  }
+  for (std::uint32_t i = 0; i < kSteps; ++i) {
+    const std::uint32_t a = 2 * i, b = 2 * i + 1, c = i + 1 == kSteps ? 1 : a + 2, d = i + 1 == kSteps ? 0 : b + 2;
+    mesh.triangles.emplace_back(a, b, c);
+    mesh.triangles.emplace_back(b, d, c);
+  }
+  const Certificate certificate = certify(mesh);
+  EXPECT_TRUE(std::any_of(certificate.problems.begin(), certificate.problems.end(),
+                          [](const Problem& p) { return contains(p.what, "one side alone"); }));
+  Options options;
+  options.sheet = true;
+  const Certificate sheet = certify(mesh, options);
+  EXPECT_TRUE(contains(sheet.problems.at(0).what, "one side alone"));
+}
+
+TEST(GlassCertificate, BodiesThatPokeIntoEachOtherCross) {
+  EXPECT_TRUE(contains(problem(joined(cube(), cube(1, {0.5, 0.3, 0.2}))), "cross or touch; first near"));
+}
+
+TEST(GlassCertificate, BodiesThatTouchFaceToFaceAreNoBodies) {
+  EXPECT_TRUE(contains(problem(joined(cube(), cube(1, {1, 0, 0}))), "2 pairs of faces in the same place"));
+  // Shifted along the common plane: no equal faces, but still upon each other.
+  EXPECT_TRUE(contains(problem(joined(cube(), cube(1, {1, 0.25, 0.25}))), "cross or touch"));
+}
+
+TEST(GlassCertificate, AFoldWithoutThicknessHasNoInside) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 1}};
+  const Certificate certificate = certify(mesh);
+  ASSERT_EQ(certificate.problems.size(), 3u);
+  EXPECT_EQ(certificate.problems[0].what, "3 open edges");  // two sheets, not a fold
+  EXPECT_EQ(certificate.problems[1].what, "3 open edges");
+  EXPECT_EQ(certificate.problems[2].what, "1 pair of faces in the same place");
+
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 2, 3}, {0, 3, 1}};  // a tetrahedron pressed flat
+  const Certificate flat = certify(mesh);
+  ASSERT_FALSE(flat.problems.empty());
+  EXPECT_EQ(flat.problems[0].what, "1 closed surface without an inside");
+}
+
+TEST(GlassCertificate, EdgesThatCleaningMayNotSplitAreTold) {
+  Options options;
+  options.steps.fans = false;
+  EXPECT_TRUE(contains(problem(joined(cube(), cube(1, {1, 1, 0})), options), "1 edge of three or more faces"));
+}
+
+// Two faces of a slab: the one at z = 0 looks down, the one at z = 1 up; `up` turns the lower one as well.
+Mesh slab(bool up) {
+  Mesh mesh;
+  for (const double z : {0.0, 1.0})
+    for (const glm::dvec3& p : {glm::dvec3(0), {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})
+      mesh.positions.emplace_back(p.x, p.y, z);
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+  if (up) mesh.triangles[0] = {0, 1, 2}, mesh.triangles[1] = {0, 2, 3};
+  return mesh;
+}
+
+TEST(GlassCertificate, ASheetNeedsItsOtherSide) {
+  Options options;
+  options.sheet = true;
+  EXPECT_TRUE(certify(slab(false), options).holds());
+  const Certificate turned = certify(slab(true), options);
+  ASSERT_EQ(turned.problems.size(), 2u);
+  for (const Problem& p : turned.problems) EXPECT_TRUE(contains(p.what, "nothing to leave by")) << p.what;
+  Mesh lake = slab(false);
+  lake.triangles.erase(lake.triangles.begin(), lake.triangles.begin() + 2);
+  EXPECT_TRUE(contains(problem(lake, options), "2 sampled faces with nothing to leave by"));
+  EXPECT_FALSE(certify(slab(false)).holds());  // no body
+}
+
+TEST(GlassCertificate, TooManyOverlapsToTestAreNoCertificate) {
+  // One long thin body for each direction through the same point.
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < 2000; ++i) {
+    Mesh needle = cube();
+    const double a = i * 0.01;
+    for (glm::dvec3& p : needle.positions) {
+      const glm::dvec3 q(p.x * 20 - 10, p.y * 1e-3, p.z * 1e-3);
+      p = {std::cos(a) * q.x - std::sin(a) * q.y, std::sin(a) * q.x + std::cos(a) * q.y, q.z + a * q.x};
+    }
+    mesh = i == 0 ? needle : joined(std::move(mesh), needle);
+  }
+  const Certificate certificate = certify(mesh);
+  EXPECT_TRUE(std::any_of(certificate.problems.begin(), certificate.problems.end(),
+                          [](const Problem& p) { return contains(p.what, "too many overlapping faces"); }));
+}
+
+}  // namespace
+}  // namespace malus::prep

@@ -1,0 +1,80 @@
+#include "meshprep/clean/holes.h"
+
+#include <gtest/gtest.h>
+
+#include "meshprep/clean/edges.h"
+#include "meshprep/clean/orient.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+// A cube without its two faces at y = 1 and without one triangle at z = 0.
+Mesh openCube() {
+  Mesh mesh = test::cube();
+  mesh.triangles.erase(mesh.triangles.begin() + 6, mesh.triangles.begin() + 8);
+  return mesh;
+}
+
+TEST(Holes, AClosedMeshHasNone) { EXPECT_TRUE(findHoles(test::sphere(5, 8)).empty()); }
+
+TEST(Holes, ALoopIsToldWithItsVerticesAndLength) {
+  const Mesh mesh = openCube();
+  const std::vector<Loop> loops = findHoles(mesh);
+  ASSERT_EQ(loops.size(), 1u);
+  EXPECT_EQ(loops[0].size(), 4u);
+  EXPECT_EQ(loops[0].front(), 2u);
+  const Findings holes = describeHoles(mesh, loops);
+  EXPECT_EQ(holes.first[0].at, glm::dvec3(0.5, 1, 0.5));
+  EXPECT_EQ(holes.first[0].what, "4 edges, 4 m around");
+}
+
+TEST(Holes, FillingClosesWhatItIsAskedFor) {
+  Mesh mesh = openCube();
+  EXPECT_EQ(fillHoles(mesh, findHoles(mesh), 3).left.count, 1u);
+  EXPECT_EQ(mesh.triangles.size(), 10u);
+  const FilledHoles result = fillHoles(mesh, findHoles(mesh), 4);
+  EXPECT_EQ(result.filled.count, 1u);
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_TRUE(findHoles(mesh).empty());
+  const OrientResult sides = orient(mesh, false);
+  EXPECT_EQ(sides.flipped.count, 0u);  // the lid has the side of the rest
+  EXPECT_NEAR(sides.components[0].signedVolume, 1, 1e-12);
+}
+
+TEST(Holes, TwoHolesAreTwoLoops) {
+  Mesh mesh = test::sphere(9, 16);
+  mesh.triangles.erase(mesh.triangles.begin() + 100);
+  mesh.triangles.erase(mesh.triangles.begin() + 19, mesh.triangles.begin() + 21);
+  const std::vector<Loop> loops = findHoles(mesh);
+  ASSERT_EQ(loops.size(), 2u);
+  EXPECT_EQ(loops[0].size() + loops[1].size(), 7u);
+}
+
+TEST(Holes, OneThatCrossesItselfIsLeft) {
+  // A strip around a bow tie: its loop, seen along its normal, crosses itself.
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 1}, {2, 2, 1}, {2, 0, 1}, {0, 2, 1}};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4;
+    mesh.triangles.emplace_back(i, j, j + 4);
+    mesh.triangles.emplace_back(i, j + 4, i + 4);
+  }
+  const FilledHoles result = fillHoles(mesh, findHoles(mesh), 100);
+  EXPECT_EQ(result.left.count, 2u);
+  EXPECT_EQ(mesh.triangles.size(), 8u);
+}
+
+TEST(Holes, ALidThatWouldPutAThirdTriangleOnAnEdgeIsLeft) {
+  // A tetrahedron without two faces, and its last edge twice on another surface: the lid of the hole would need it.
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}, {0.5, 0.5, -2}};
+  mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 2, 5}, {2, 0, 6}, {1, 3, 5}, {3, 1, 6}};
+  std::vector<Loop> square = {{0, 3, 2, 1}};
+  const FilledHoles result = fillHoles(mesh, square, 4);
+  EXPECT_EQ(result.left.count, 1u);
+  EXPECT_EQ(mesh.triangles.size(), 8u);
+}
+
+}  // namespace
+}  // namespace malus::prep

@@ -1,0 +1,113 @@
+#include "meshprep/clean/intersections.h"
+
+#include <atomic>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/clean/box_pairs.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+using Pairs = std::vector<Intersections::Pair>;
+
+Mesh two(const std::vector<glm::dvec3>& positions) {
+  Mesh mesh;
+  mesh.positions = positions;
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  return mesh;
+}
+
+TEST(Intersections, CleanBodiesHaveNone) {
+  for (const Mesh& mesh : {test::cube(), test::sphere(15, 32), test::joined(test::cube(), test::cube(1, {3, 0, 0}))}) {
+    const Intersections found = findIntersections(mesh);
+    EXPECT_TRUE(found.crossing.empty());
+    EXPECT_TRUE(found.coincident.empty());
+    EXPECT_TRUE(found.complete);
+  }
+}
+
+TEST(Intersections, TrianglesThatCrossOrTouchAreTold) {
+  const std::vector<glm::dvec3> base = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const auto with = [&](std::vector<glm::dvec3> other) {
+    std::vector<glm::dvec3> all = base;
+    all.insert(all.end(), other.begin(), other.end());
+    return findIntersections(two(all)).crossing.size();
+  };
+  EXPECT_EQ(with({{1, 1, -1}, {1, 1, 1}, {2, 2, 1}}), 1u);     // through it
+  EXPECT_EQ(with({{1, 1, 0}, {1, 2, 1}, {2, 1, 1}}), 1u);      // a tip on it
+  EXPECT_EQ(with({{1, 1, 1e-12}, {1, 2, 1}, {2, 1, 1}}), 0u);  // a tip above it
+  EXPECT_EQ(with({{1, 1, 0}, {9, 1, 0}, {1, 9, 0}}), 1u);      // in its plane, over it
+  EXPECT_EQ(with({{5, 5, 0}, {9, 5, 0}, {5, 9, 0}}), 0u);      // in its plane, beside it
+  EXPECT_EQ(with({{2, 0, 0}, {2, -1, 0}, {3, -1, 0}}), 1u);    // a corner on its edge
+}
+
+TEST(Intersections, TrianglesThatShareCornersMayOnlyMeetThere) {
+  const auto count = [](const std::vector<glm::dvec3>& other) {
+    std::vector<glm::dvec3> all = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    all.insert(all.end(), other.begin(), other.end());
+    const Intersections found = findIntersections(two(all));
+    return std::pair(found.crossing.size(), found.coincident.size());
+  };
+  using Counts = std::pair<std::size_t, std::size_t>;
+  EXPECT_EQ(count({{0, 0, 0}, {4, 0, 0}, {0, -4, 0}}), Counts(0, 0));   // an edge, flat on
+  EXPECT_EQ(count({{0, 0, 0}, {4, 0, 0}, {1, 1, 3}}), Counts(0, 0));    // an edge, at an angle
+  EXPECT_EQ(count({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}}), Counts(1, 0));    // an edge, folded over
+  EXPECT_EQ(count({{0, 0, 0}, {-1, 0, 1}, {0, -1, 1}}), Counts(0, 0));  // a corner
+  EXPECT_EQ(count({{0, 0, 0}, {1, 2, 1}, {2, 1, -1}}), Counts(1, 0));   // a corner, and through
+  EXPECT_EQ(count({{0, 0, 0}, {1, 1, 0}, {-1, 3, 0}}), Counts(1, 0));   // a corner, and over in the plane
+  EXPECT_EQ(count({{4, 0, 0}, {0, 0, 0}, {0, 4, 0}}), Counts(0, 1));    // the same three
+}
+
+TEST(Intersections, SpheresThroughEachOtherMatchEveryPairTestedAlone) {
+  const Mesh mesh = test::joined(test::sphere(6, 9), [] {
+    Mesh other = test::sphere(5, 8);
+    for (glm::dvec3& p : other.positions) p = p * 0.9 + glm::dvec3(0.61, 0.37, 0.23);
+    return other;
+  }());
+  const Intersections all = findIntersections(mesh);
+  Pairs alone;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+    for (std::uint32_t j = i + 1; j < mesh.triangles.size(); ++j) {
+      Mesh pair;
+      pair.positions = mesh.positions;
+      pair.triangles = {mesh.triangles[i], mesh.triangles[j]};
+      if (!findIntersections(pair).crossing.empty()) alone.emplace_back(i, j);
+    }
+  EXPECT_GT(all.crossing.size(), 10u);
+  EXPECT_EQ(all.crossing, alone);
+  // One of each pair is of each sphere.
+  for (const auto& [a, b] : all.crossing) EXPECT_TRUE(a < 108 && b >= 108) << a << ' ' << b;
+}
+
+TEST(Intersections, GivesUpOnTooManyPairsAndSaysSo) {
+  // Long thin triangles through one point: every box overlaps every other.
+  Mesh mesh;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  constexpr std::uint32_t kCount = 6000;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const glm::dvec3 d = glm::normalize(glm::dvec3(draw(random), draw(random), draw(random)));
+    mesh.positions.push_back(d);
+    mesh.positions.push_back(-d);
+    mesh.positions.push_back(-d + glm::dvec3(1e-3, 0, 0));
+    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  EXPECT_FALSE(findIntersections(mesh).complete);
+}
+
+TEST(BoxPairs, FindsWhatOverlapsOrTouchesOnce) {
+  const std::vector<Box> a = {{{0, 0, 0}, {1, 1, 1}}, {{5, 5, 5}, {6, 6, 6}}};
+  const std::vector<Box> b = {{{1, 1, 1}, {2, 2, 2}}, {{1.001, 0, 0}, {2, 1, 1}}, {{-9, -9, -9}, {9, 9, 9}}};
+  std::array<std::atomic<int>, 6> seen{};
+  EXPECT_TRUE(forOverlappingBoxes(a, b, 100, [&](std::uint32_t i, std::uint32_t j) { ++seen[3 * i + j]; }));
+  const std::array<int, 6> expected = {1, 0, 1, 0, 0, 1};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(seen[i], expected[i]) << i;
+  EXPECT_FALSE(forOverlappingBoxes(a, b, 2, [](std::uint32_t, std::uint32_t) {}));
+}
+
+}  // namespace
+}  // namespace malus::prep

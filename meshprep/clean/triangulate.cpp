@@ -2,45 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include <glm/common.hpp>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
+
+#include "meshprep/base/error.h"
+#include "meshprep/clean/convex_polygon.h"
+#include "meshprep/clean/ears.h"
+#include "meshprep/clean/flat_polygon.h"
 
 namespace malus::prep {
 
 namespace {
 
 constexpr double kPlanarTolerance = 1e-4;  // of the polygon's size
-constexpr double kAreaTolerance = 1e-12;   // of its size squared: the rounding of a cross product in double
-
-// A polygon in its own plane.
-struct Flat {
-  std::vector<std::uint32_t> corners;
-  std::vector<glm::dvec2> points;
-  double size = 0;
-  bool planar = true;
-};
-
-double cross2(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
-
-// Twice the signed area of a triangle of the polygon.
-double area2(const Flat& flat, std::size_t a, std::size_t b, std::size_t c) {
-  return cross2(flat.points[b] - flat.points[a], flat.points[c] - flat.points[a]);
-}
 
 // Projects along Newell's normal so that the polygon runs counter-clockwise.
-Flat flatten(std::vector<std::uint32_t> corners, const std::vector<glm::dvec3>& positions) {
-  Flat flat;
-  const glm::dvec3 origin = positions[corners.front()];
+FlatPolygon flatten(const std::vector<glm::dvec3>& corners) {
+  FlatPolygon flat;
+  const glm::dvec3 origin = corners.front();
   glm::dvec3 normal(0);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const glm::dvec3 a = positions[corners[i]] - origin;
-    const glm::dvec3 b = positions[corners[(i + 1) % corners.size()]] - origin;
+    const glm::dvec3 a = corners[i] - origin;
+    const glm::dvec3 b = corners[(i + 1) % corners.size()] - origin;
     normal += glm::cross(a, b);
     flat.size = std::max(flat.size, glm::length(a));
   }
@@ -52,123 +40,134 @@ Flat flatten(std::vector<std::uint32_t> corners, const std::vector<glm::dvec3>& 
   const glm::dvec3 u = glm::normalize(glm::cross(helper, n));
   const glm::dvec3 v = glm::cross(n, u);
   glm::dvec3 centre(0);
-  for (const std::uint32_t corner : corners)
-    centre += (positions[corner] - origin) / static_cast<double>(corners.size());
-  for (const std::uint32_t corner : corners) {
-    const glm::dvec3 p = positions[corner] - origin;
+  for (const glm::dvec3& corner : corners) centre += (corner - origin) / static_cast<double>(corners.size());
+  flat.points.reserve(corners.size());
+  for (const glm::dvec3& corner : corners) {
+    const glm::dvec3 p = corner - origin;
     flat.points.emplace_back(glm::dot(p, u), glm::dot(p, v));
     if (std::abs(glm::dot(p - centre, n)) > kPlanarTolerance * flat.size) flat.planar = false;
   }
-  flat.corners = std::move(corners);
   return flat;
 }
 
-// No corner turns right, and the boundary goes around once.
-bool isConvex(const Flat& flat) {
-  const std::size_t n = flat.points.size();
-  double turn = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const glm::dvec2 a = flat.points[(i + 1) % n] - flat.points[i];
-    const glm::dvec2 b = flat.points[(i + 2) % n] - flat.points[(i + 1) % n];
-    if (cross2(a, b) < -kAreaTolerance * flat.size * flat.size) return false;
-    turn += std::atan2(cross2(a, b), glm::dot(a, b));
+class Triangulation {
+ public:
+  Triangulation(const Polygons& polygons, TriangulateCounts& counts)
+      : polygons_(polygons), counts_(counts), tests_(kEarTests + kEarTestsPerCorner * polygons.corners.size()) {}
+
+  Mesh run() {
+    mesh_.positions = polygons_.positions;
+    mesh_.sourceVertices.resize(mesh_.positions.size());
+    for (std::size_t i = 0; i < mesh_.positions.size(); ++i) mesh_.sourceVertices[i] = static_cast<std::uint32_t>(i);
+    reserve();
+    for (std::size_t f = 0; f < polygons_.faceCount(); ++f) {
+      if (polygons_.face(f).size() == 3) {
+        add(f, {0, 1, 2});
+      } else {
+        addPolygon(f);
+      }
+    }
+    return std::move(mesh_);
   }
-  return turn < 3 * 3.14159265358979;
+
+ private:
+  void reserve();
+  void addPolygon(std::size_t face);
+  void cut(std::size_t face, const FlatPolygon& flat);
+  void add(std::size_t face, const glm::uvec3& corners);
+  [[noreturn]] void failTooComplex(std::size_t face) const;
+
+  const Polygons& polygons_;
+  TriangulateCounts& counts_;
+  Mesh mesh_;
+  EarCutter ears_;
+  std::uint64_t tests_;
+
+  // Of the polygon at hand: which of its corners are kept, and where they are; its triangles, as numbers of these.
+  std::vector<std::uint32_t> kept_;
+  std::vector<glm::dvec3> places_;
+  std::vector<glm::uvec3> triangles_;
+};
+
+// Room for all triangles, which are never more than corners less two a face.
+void Triangulation::reserve() {
+  const std::size_t most = polygons_.corners.size() - 2 * polygons_.faceCount();
+  mesh_.triangles.reserve(most);
+  mesh_.sourceFaces.reserve(most);
+  if (!polygons_.cornerNormals.empty() || !polygons_.normals.empty()) mesh_.cornerNormals.reserve(3 * most);
+  if (!polygons_.smoothingGroups.empty()) mesh_.smoothingGroups.reserve(most);
 }
 
-// The first corner around which every triangle of a fan has area.
-std::optional<std::size_t> fanCorner(const Flat& flat) {
-  const std::size_t n = flat.points.size();
-  for (std::size_t start = 0; start < n; ++start) {
-    bool good = true;
-    for (std::size_t i = 1; good && i + 1 < n; ++i)
-      good = area2(flat, start, (start + i) % n, (start + i + 1) % n) > kAreaTolerance * flat.size * flat.size;
-    if (good) return start;
+// A triangle of a face, by three of the face's corners, with all that the file says about them.
+void Triangulation::add(std::size_t face, const glm::uvec3& corners) {
+  const std::size_t first = polygons_.firstCorner[face];
+  glm::uvec3 triangle(0);
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t corner = first + corners[k];
+    triangle[k] = polygons_.corners[corner];
+    if (!polygons_.cornerNormals.empty()) {
+      mesh_.cornerNormals.push_back(polygons_.cornerNormals[corner]);
+    } else if (!polygons_.normals.empty()) {
+      mesh_.cornerNormals.push_back(polygons_.normals[triangle[k]]);
+    }
   }
-  return std::nullopt;
+  mesh_.triangles.push_back(triangle);
+  mesh_.sourceFaces.push_back(static_cast<std::uint32_t>(face));
+  if (!polygons_.smoothingGroups.empty()) mesh_.smoothingGroups.push_back(polygons_.smoothingGroups[face]);
 }
 
-void addFan(const Flat& flat, std::size_t start, std::vector<glm::uvec3>& triangles) {
-  const std::size_t n = flat.corners.size();
-  for (std::size_t i = 1; i + 1 < n; ++i)
-    triangles.emplace_back(flat.corners[start], flat.corners[(start + i) % n], flat.corners[(start + i + 1) % n]);
-}
-
-// Whether the triangle (a, b, c) of what is left can be cut off: it has area and holds no other corner.
-bool isEar(const Flat& flat, const std::vector<std::size_t>& left, std::size_t at) {
-  const std::size_t n = left.size();
-  const std::size_t a = left[(at + n - 1) % n], b = left[at], c = left[(at + 1) % n];
-  if (area2(flat, a, b, c) <= kAreaTolerance * flat.size * flat.size) return false;
-  for (const std::size_t p : left) {
-    const bool isCorner =
-        flat.points[p] == flat.points[a] || flat.points[p] == flat.points[b] || flat.points[p] == flat.points[c];
-    if (!isCorner && area2(flat, a, b, p) >= 0 && area2(flat, b, c, p) >= 0 && area2(flat, c, a, p) >= 0) return false;
-  }
-  return true;
-}
-
-// Returns false, having added nothing, where ears run out: the polygon crosses itself.
-bool addEars(const Flat& flat, std::vector<glm::uvec3>& triangles) {
-  std::vector<std::size_t> left(flat.corners.size());
-  for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
-  std::vector<glm::uvec3> ears;
-  while (left.size() > 2) {
-    std::size_t at = 0;
-    while (at < left.size() && !isEar(flat, left, at)) ++at;
-    if (at == left.size()) return false;
-    const std::size_t n = left.size();
-    ears.emplace_back(flat.corners[left[(at + n - 1) % n]], flat.corners[left[at]], flat.corners[left[(at + 1) % n]]);
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
-  }
-  triangles.insert(triangles.end(), ears.begin(), ears.end());
-  return true;
-}
-
-void addPolygon(std::span<const std::uint32_t> face, Mesh& mesh, TriangulateCounts& counts) {
-  ++counts.polygons;
+void Triangulation::addPolygon(std::size_t face) {
+  ++counts_.polygons;
 
   // Step 1: leave out corners that repeat the one before.
-  std::vector<std::uint32_t> corners;
-  for (const std::uint32_t corner : face)
-    if (corners.empty() || mesh.positions[corner] != mesh.positions[corners.back()]) corners.push_back(corner);
-  while (corners.size() > 1 && mesh.positions[corners.back()] == mesh.positions[corners.front()]) corners.pop_back();
-  counts.repeatedCorners += face.size() - corners.size();
-  if (corners.size() < 3) {  // no area at all: one degenerate triangle, for the next step to count
-    mesh.triangles.emplace_back(face[0], face[1], face[2]);
-    return;
+  const std::span<const std::uint32_t> corners = polygons_.face(face);
+  kept_.clear();
+  places_.clear();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec3& place = polygons_.positions[corners[i]];
+    if (!places_.empty() && place == places_.back()) continue;
+    kept_.push_back(static_cast<std::uint32_t>(i));
+    places_.push_back(place);
   }
-  if (corners.size() == 3) {
-    mesh.triangles.emplace_back(corners[0], corners[1], corners[2]);
-    return;
+  while (places_.size() > 1 && places_.back() == places_.front()) {
+    kept_.pop_back();
+    places_.pop_back();
   }
+  counts_.repeatedCorners += corners.size() - kept_.size();
 
-  // Step 2: a fan where the polygon is convex, else ears, else a fan after all.
-  const Flat flat = flatten(std::move(corners), mesh.positions);
-  if (!flat.planar) ++counts.nonPlanar;
-  const bool convex = isConvex(flat);
-  if (!convex) ++counts.concave;
-  if (const std::optional<std::size_t> start = convex ? fanCorner(flat) : std::nullopt) {
-    addFan(flat, *start, mesh.triangles);
-  } else if (!addEars(flat, mesh.triangles)) {
-    ++counts.crossing;
-    addFan(flat, 0, mesh.triangles);
+  // Step 2: triangles. Without area at all there is one degenerate triangle, for the next step to count.
+  if (kept_.size() < 3) return add(face, {0, 1, 2});
+  if (kept_.size() == 3) return add(face, {kept_[0], kept_[1], kept_[2]});
+  cut(face, flatten(places_));
+  for (const glm::uvec3& t : triangles_) add(face, {kept_[t.x], kept_[t.y], kept_[t.z]});
+}
+
+// By the corners' order where the polygon is convex, else ear by ear, else a fan after all.
+void Triangulation::cut(std::size_t face, const FlatPolygon& flat) {
+  triangles_.clear();
+  if (!flat.planar) ++counts_.nonPlanar;
+  if (isConvex(flat)) {
+    if (addConvex(flat, triangles_)) return;
+  } else {
+    ++counts_.concave;
+    const EarCutter::Outcome outcome = ears_.cut(flat, tests_, triangles_);
+    if (outcome == EarCutter::Outcome::kTooMuchWork) failTooComplex(face);
+    if (outcome == EarCutter::Outcome::kDone) return;
   }
+  ++counts_.crossing;
+  for (std::uint32_t i = 1; i + 1 < flat.points.size(); ++i) triangles_.emplace_back(0, i, i + 1);
+}
+
+void Triangulation::failTooComplex(std::size_t face) const {
+  std::string where = fmt::format("face {}", face);
+  if (!polygons_.facePlaces.empty())
+    where += fmt::format(", {} {}", polygons_.placesAreBytes ? "byte" : "line", polygons_.facePlaces[face]);
+  throw Error(where, "is too intricate to be cut into triangles", "faces of fewer corners",
+              fmt::format("{} corners", polygons_.face(face).size()));
 }
 
 }  // namespace
 
-Mesh triangulate(const Polygons& polygons, TriangulateCounts& counts) {
-  Mesh mesh;
-  mesh.positions = polygons.positions;
-  for (std::size_t i = 0; i < polygons.faceCount(); ++i) {
-    const std::span<const std::uint32_t> face = polygons.face(i);
-    if (face.size() == 3) {
-      mesh.triangles.emplace_back(face[0], face[1], face[2]);
-    } else {
-      addPolygon(face, mesh, counts);
-    }
-  }
-  return mesh;
-}
+Mesh triangulate(const Polygons& polygons, TriangulateCounts& counts) { return Triangulation(polygons, counts).run(); }
 
 }  // namespace malus::prep

@@ -1,8 +1,13 @@
-// Polygons to triangles. Convex faces become a fan around a corner that leaves no triangle without area;
-// others lose one ear after the other (G. H. Meisters, "Polygons have ears", American Mathematical Monthly
-// 82, 1975), in the plane of Newell's normal (I. Sutherland, R. Sproull, R. Schumacker, "A characterization
-// of ten hidden-surface algorithms", ACM Computing Surveys 6(1), 1974, appendix). Orientation is kept;
-// triangles of the file are taken as they are. Triangles of a face follow each other; faces keep their order.
+// Polygons to triangles. Convex faces of any size become a fan around a corner that leaves no triangle without area
+// (convex_polygon.h); others lose one ear after the other (ears.h), in the plane of Newell's normal (I. Sutherland, R.
+// Sproull, R. Schumacker, "A characterization of ten hidden-surface algorithms", ACM Computing Surveys 6(1), 1974,
+// appendix). Orientation is kept; triangles of the file are taken as they are. Triangles of a face follow each other;
+// faces keep their order.
+//
+// The time is bounded: all faces that are not convex share kEarTests and kEarTestsPerCorner more for each corner of the
+// mesh, of a few nanoseconds each. Measured on stars, combs, spirals, zigzags, coasts, bows and random corners: a
+// single face of 10,000 corners takes less than 0.1 s; of 100,000 corners smooth and winding outlines pass (0.1 s),
+// combs, zigzags and spiky stars are an error.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +17,9 @@
 
 namespace malus::prep {
 
+constexpr std::uint64_t kEarTests = 150'000'000;
+constexpr std::uint64_t kEarTestsPerCorner = 150;
+
 struct TriangulateCounts {
   std::uint64_t polygons = 0;         // faces of more than three corners
   std::uint64_t concave = 0;          // of these, not convex
@@ -20,6 +28,9 @@ struct TriangulateCounts {
   std::uint64_t repeatedCorners = 0;  // corners of polygons that equal the one before, left out
 };
 
+// Every triangle knows its face, its corners' normals (of the corners, or else of the vertices, as written) and its
+// smoothing group, where the polygons have them. Throws Error that names the face and its place: the tests are used
+// up.
 Mesh triangulate(const Polygons& polygons, TriangulateCounts& counts);
 
 }  // namespace malus::prep

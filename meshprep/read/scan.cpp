@@ -1,106 +1,12 @@
 #include "meshprep/read/scan.h"
 
-#include <cctype>
-#include <charconv>
-#include <cmath>
-#include <limits>
-#include <system_error>
-
-#include <fmt/format.h>
-
-#include "meshprep/base/error.h"
+#include <algorithm>
 
 namespace malus::prep {
 
-namespace {
-
-constexpr std::string_view kBlanks = " \t";
-
-std::string_view trimmed(std::string_view line) {
-  const std::size_t first = line.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return line.substr(first, line.find_last_not_of(kBlanks) - first + 1);
-}
-
-}  // namespace
-
-bool Lines::next() {
-  if (end_ >= text_.size()) return false;
-  ++number_;
-  const std::size_t begin = end_;
-  const std::size_t lineFeed = text_.find('\n', begin);
-  std::size_t stop = lineFeed == std::string::npos ? text_.size() : lineFeed;
-  end_ = lineFeed == std::string::npos ? text_.size() : lineFeed + 1;
-  if (stop > begin && text_[stop - 1] == '\r') --stop;
-  line_ = std::string_view(text_).substr(begin, stop - begin);
-  for (const char c : line_)
-    if (static_cast<unsigned char>(c) < 0x20 && c != '\t')
-      fail("is not plain text", "lines of ASCII or UTF-8", fmt::format("byte {:#04x}", static_cast<unsigned>(c)));
-  line_ = trimmed(line_);
-  return true;
-}
-
-bool Lines::nextStatement(char comment) {
-  while (next()) {
-    if (line_.empty()) continue;
-    if (line_.front() != comment) return true;
-    blank();
-  }
-  return false;
-}
-
-void Lines::blank(std::size_t keep) {
-  const auto begin = static_cast<std::size_t>(line_.data() - text_.data());
-  for (std::size_t i = keep; i < line_.size(); ++i) text_[begin + i] = ' ';
-}
-
-void Lines::fail(std::string_view problem, std::string_view expected, std::string_view found) const {
-  throw Error(fmt::format("{}:{}", where_, number_), problem, expected, found);
-}
-
-std::string_view takeWord(std::string_view& rest) {
-  const std::size_t begin = rest.find_first_not_of(kBlanks);
-  rest.remove_prefix(begin == std::string_view::npos ? rest.size() : begin);
-  const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
-  rest.remove_prefix(word.size());
-  return word;
-}
-
-std::string quoted(std::string_view word) {
-  constexpr std::size_t kLongest = 40;
-  if (word.empty()) return "nothing";
-  if (word.size() > kLongest) return fmt::format("\"{}...\"", word.substr(0, kLongest));
-  return fmt::format("\"{}\"", word);
-}
-
-double coordinate(std::string_view word, const Lines& at) {
-  // from_chars would take "inf" and "nan" but no plus sign.
-  std::string_view digits = word;
-  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  const std::size_t sign = !digits.empty() && digits.front() == '-' ? 1 : 0;
-  if (sign == 1 && digits.size() != word.size()) at.fail("a bad number", "a decimal number", quoted(word));
-  const bool decimal =
-      digits.size() > sign && (std::isdigit(static_cast<unsigned char>(digits[sign])) != 0 || digits[sign] == '.');
-  double value = 0;
-  const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  const bool tooLarge = status == std::errc::result_out_of_range &&
-                        digits.find_first_of("eE") != std::string_view::npos &&
-                        digits.find("e-") == std::string_view::npos && digits.find("E-") == std::string_view::npos;
-  if (!decimal || stop != digits.data() + digits.size() ||
-      (status != std::errc() && status != std::errc::result_out_of_range))
-    at.fail("a bad number", "a finite decimal number", quoted(word));
-  if (status == std::errc::result_out_of_range && !tooLarge) return sign == 1 ? -0.0 : 0.0;  // underflow
-  if (tooLarge || std::abs(value) > static_cast<double>(std::numeric_limits<float>::max()))
-    at.fail("a number out of range", "a number that a float holds", quoted(word));
-  return value;
-}
-
-long long wholeNumber(std::string_view word, std::string_view what, const Lines& at) {
-  long long value = 0;
-  const auto [stop, status] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (word.empty() || status != std::errc() || stop != word.data() + word.size())
-    at.fail("a bad number", what, quoted(word));
-  return value;
+void noteOnce(Polygons& polygons, std::string_view what) {
+  if (std::find(polygons.notes.begin(), polygons.notes.end(), what) == polygons.notes.end())
+    polygons.notes.emplace_back(what);
 }
 
 }  // namespace malus::prep

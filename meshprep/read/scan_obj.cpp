@@ -1,13 +1,17 @@
-// Wavefront OBJ: `v` and `f` are read, names and materials are skipped, free-form surfaces, continuation
-// lines and unknown statements are errors.
+// Wavefront OBJ: positions, faces, normals of corners, groups, objects, materials' names and smoothing groups.
+// Texture coordinates, colours, points and lines are left out with a note; free-form surfaces, statements that read
+// another file and unknown statements are errors. A comment never continues, whatever it ends in.
 // Source: Wavefront Technologies, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1.
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <unordered_set>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/read/part_list.h"
 #include "meshprep/read/scan.h"
 
 namespace malus::prep {
@@ -15,105 +19,214 @@ namespace malus::prep {
 namespace {
 
 constexpr long long kMaxIndex = std::numeric_limits<int>::max();  // of OpenMesh's handles
+constexpr std::uint32_t kNoNormal = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kMaxPathBytes = 4096;  // of a mtllib statement
 
-// Statements without faces: names, materials, display attributes, points and lines.
-constexpr std::array<std::string_view, 21> kSkipped = {
-    "g",      "o",      "s",      "mg",     "l",     "p",        "vt",       "vn",         "vp",        "vc",  "lod",
-    "usemtl", "mtllib", "usemap", "maplib", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "call"};
+// Statements that have no say in the surface, and what they hold.
+struct Skipped {
+  std::string_view keyword, note;
+};
+constexpr std::array<Skipped, 14> kSkipped = {{{"vt", "texture coordinates"},
+                                               {"l", "lines"},
+                                               {"p", "points"},
+                                               {"vp", "points in a parameter space"},
+                                               {"vc", "colours of vertices"},
+                                               {"mg", "merging groups"},
+                                               {"lod", "display attributes"},
+                                               {"usemap", "texture maps"},
+                                               {"maplib", "texture maps"},
+                                               {"bevel", "display attributes"},
+                                               {"c_interp", "display attributes"},
+                                               {"d_interp", "display attributes"},
+                                               {"shadow_obj", "objects for shadows and reflections"},
+                                               {"trace_obj", "objects for shadows and reflections"}}};
 
 // How many of each kind of vertex there are so far: positions, texture coordinates, normals.
 using Counts = std::array<long long, 3>;
 constexpr std::array<std::string_view, 3> kKinds = {"a vertex", "a texture coordinate", "a normal"};
 
-// One index of a corner, from 1 or, counted back from the last, from -1; kept from 0 for the check at the end.
-long long resolve(std::string_view word, std::size_t kind, const Counts& counts, const Lines& at) {
-  const long long index = wholeNumber(word, "v, v/vt, v//vn or v/vt/vn in whole numbers", at);
-  const long long resolved = index > 0 ? index - 1 : counts[kind] + index;
-  if (index == 0 || resolved < 0 || resolved > kMaxIndex)
-    at.fail(fmt::format("a corner names {} that is not there", kKinds[kind]),
-            fmt::format("1 to {} or -1 to -{}", counts[kind], counts[kind]), fmt::to_string(index));
-  return resolved;
-}
+class ObjScan {
+ public:
+  ObjScan(std::string& bytes, std::string_view where) : lines_(bytes, where), where_(where) {}
 
-// The largest index of each kind and the line that names it.
-struct Highest {
-  Counts index = {-1, -1, -1};
-  std::array<std::size_t, 3> line{};
+  Polygons run() {
+    while (lines_.nextStatement('#')) {
+      lines_.joinContinued();
+      std::string_view rest = lines_.line();
+      const std::string_view keyword = takeWord(rest);
+      if (keyword == "v") {
+        scanVertex(rest);
+      } else if (keyword == "f") {
+        scanFace(rest);
+      } else {
+        scanOther(keyword, rest);
+        lines_.blank();
+      }
+    }
+    finish();
+    return std::move(polygons_);
+  }
+
+ private:
+  void scanVertex(std::string_view rest);
+  void scanFace(std::string_view rest);
+  void scanCorner(std::string_view word);
+  long long resolve(std::string_view word, std::size_t kind);
+  void scanNormal(std::string_view rest);
+  void scanSmoothing(std::string_view rest);
+  void scanMaterialFiles(std::string_view rest);
+  void scanOther(std::string_view keyword, std::string_view rest);
+  void finish();
+
+  Lines lines_;
+  std::string_view where_;
+  Polygons polygons_;
+  PartList parts_;
+
+  Counts counts_{};
+  Counts highest_ = {-1, -1, -1};           // index of each kind that a corner names
+  std::array<std::size_t, 3> highestAt_{};  // and the line that does
+
+  std::vector<glm::vec3> normals_;
+  std::vector<std::uint32_t> normalOf_;  // one a corner; empty until a corner has one
+  bool smoothing_ = false;               // the file has `s`
+  std::uint32_t smoothingGroup_ = 0;
+  std::unordered_set<std::string> materialFiles_;
 };
 
-// A corner: v, v/vt, v//vn or v/vt/vn.
-std::uint32_t scanCorner(std::string_view word, const Counts& counts, Highest& highest, const Lines& at) {
-  std::uint32_t vertex = 0;
-  std::string_view rest = word;
-  for (std::size_t kind = 0; kind < 3; ++kind) {
-    const std::size_t slash = rest.find('/');
-    const std::string_view part = rest.substr(0, slash);
-    const bool last = slash == std::string_view::npos;
-    const bool mayBeEmpty = kind == 1 && !last;
-    if (!(mayBeEmpty && part.empty())) {
-      const long long index = resolve(part, kind, counts, at);
-      if (index > highest.index[kind]) {
-        highest.index[kind] = index;
-        highest.line[kind] = at.number();
-      }
-      if (kind == 0) vertex = static_cast<std::uint32_t>(index);
-    }
-    if (last) return vertex;
-    rest.remove_prefix(slash + 1);
-  }
-  at.fail("a bad corner", "v, v/vt, v//vn or v/vt/vn", quoted(word));
-}
-
-void scanVertex(std::string_view rest, Polygons& polygons, const Lines& at) {
+void ObjScan::scanVertex(std::string_view rest) {
   std::array<double, 7> numbers{};
   std::size_t count = 0;
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
-    if (count == numbers.size()) at.fail("a vertex has too many numbers", "x y z, a weight of 1, a colour");
-    numbers[count++] = coordinate(word, at);
+    if (count == numbers.size()) lines_.fail("a vertex has too many numbers", "x y z, a weight of 1, a colour");
+    numbers[count++] = coordinate(word, lines_);
   }
   if (count < 3 || count == 5)
-    at.fail("a vertex has a wrong number of numbers", "3 (x y z), 4 (weight) or 6 (colour)", fmt::to_string(count));
+    lines_.fail("a vertex has a wrong number of numbers", "3 (x y z), 4 (weight) or 6 (colour)", fmt::to_string(count));
   if ((count == 4 || count == 7) && numbers[3] != 1)
-    at.fail("a rational vertex", "a weight of 1", fmt::to_string(numbers[3]));
-  polygons.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
+    lines_.fail("a rational vertex", "a weight of 1", fmt::to_string(numbers[3]));
+  if (count > 4) noteOnce(polygons_, "colours of vertices");
+  polygons_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
+  polygons_.vertexPlaces.push_back(lines_.number());
+  ++counts_[0];
+}
+
+void ObjScan::scanFace(std::string_view rest) {
+  const std::size_t first = polygons_.corners.size();
+  for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) scanCorner(word);
+  const std::size_t corners = polygons_.corners.size() - first;
+  if (corners < 3) lines_.fail("a face without area", "at least 3 corners", fmt::to_string(corners));
+  polygons_.closeFace();
+  polygons_.facePlaces.push_back(lines_.number());
+  polygons_.partOf.push_back(parts_.current());
+  if (smoothing_) polygons_.smoothingGroups.push_back(smoothingGroup_);
+}
+
+// v, v/vt, v//vn or v/vt/vn.
+void ObjScan::scanCorner(std::string_view word) {
+  std::uint32_t normal = kNoNormal;
+  std::string_view rest = word;
+  bool last = false;
+  for (std::size_t kind = 0; !last; ++kind) {
+    if (kind == 3) lines_.fail("a bad corner", "v, v/vt, v//vn or v/vt/vn", quoted(word));
+    const std::size_t slash = rest.find('/');
+    const std::string_view part = rest.substr(0, slash);
+    last = slash == std::string_view::npos;
+    const bool mayBeEmpty = kind == 1 && !last;
+    if (!(mayBeEmpty && part.empty())) {
+      const long long index = resolve(part, kind);
+      if (index > highest_[kind]) {
+        highest_[kind] = index;
+        highestAt_[kind] = lines_.number();
+      }
+      if (kind == 0) polygons_.corners.push_back(static_cast<std::uint32_t>(index));
+      if (kind == 2) normal = static_cast<std::uint32_t>(index);
+    }
+    if (!last) rest.remove_prefix(slash + 1);
+  }
+  if (normal != kNoNormal && normalOf_.empty()) normalOf_.resize(polygons_.corners.size() - 1, kNoNormal);
+  if (normal != kNoNormal || !normalOf_.empty()) normalOf_.push_back(normal);
+}
+
+// An index from 1 or, counted back from the last so far, from -1; returned from 0 and checked again at the end.
+long long ObjScan::resolve(std::string_view word, std::size_t kind) {
+  const long long index = wholeNumber(word, "v, v/vt, v//vn or v/vt/vn in whole numbers", lines_);
+  const long long resolved = index > 0 ? index - 1 : counts_[kind] + index;
+  if (index == 0 || resolved < 0 || resolved > kMaxIndex)
+    lines_.fail(fmt::format("a corner names {} that is not there", kKinds[kind]),
+                fmt::format("1 to {} or -1 to -{}", counts_[kind], counts_[kind]), fmt::to_string(index));
+  return resolved;
+}
+
+void ObjScan::scanNormal(std::string_view rest) {
+  glm::dvec3 n(0);
+  for (int axis = 0; axis < 3; ++axis) n[axis] = coordinate(takeWord(rest), lines_);
+  if (!takeWord(rest).empty()) lines_.fail("a normal has too many numbers", "x y z");
+  normals_.emplace_back(n);
+  ++counts_[2];
+}
+
+void ObjScan::scanSmoothing(std::string_view rest) {
+  const std::string_view word = takeWord(rest);
+  constexpr std::string_view kExpected = "off or a whole number from 0";
+  const long long group = word == "off" ? 0 : wholeNumber(word, kExpected, lines_);
+  if (group < 0 || group > std::numeric_limits<std::uint32_t>::max() || !takeWord(rest).empty())
+    lines_.fail("a bad smoothing group", kExpected, quoted(lines_.line()));
+  if (!smoothing_) polygons_.smoothingGroups.resize(polygons_.faceCount(), 0);
+  smoothing_ = true;
+  smoothingGroup_ = static_cast<std::uint32_t>(group);
+}
+
+// One name that may hold blanks, or several between blanks: all of it comes first, then the words.
+void ObjScan::scanMaterialFiles(std::string_view rest) {
+  const auto add = [this](std::string_view name) {
+    std::string file = nameOf(name, lines_, kMaxPathBytes);
+    if (!file.empty() && materialFiles_.insert(file).second) polygons_.materialFiles.push_back(std::move(file));
+  };
+  add(rest);
+  for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) add(word);
+}
+
+void ObjScan::scanOther(std::string_view keyword, std::string_view rest) {
+  if (keyword == "vn") return scanNormal(rest);
+  if (keyword == "g" || keyword == "o") return parts_.setName(nameOf(rest, lines_));
+  if (keyword == "usemtl") return parts_.setMaterial(nameOf(rest, lines_));
+  if (keyword == "s") return scanSmoothing(rest);
+  if (keyword == "mtllib") return scanMaterialFiles(rest);
+  const auto* const skipped =
+      std::find_if(kSkipped.begin(), kSkipped.end(), [&](const Skipped& s) { return s.keyword == keyword; });
+  if (skipped == kSkipped.end()) lines_.fail("an unknown statement", "an OBJ file of polygons", quoted(keyword));
+  if (keyword == "vt") ++counts_[1];
+  noteOnce(polygons_, skipped->note);
+}
+
+void ObjScan::finish() {
+  // Step 1: a corner may name a vertex that is written further down, but not one that never comes.
+  for (std::size_t kind = 0; kind < 3; ++kind)
+    if (highest_[kind] >= counts_[kind])
+      throw Error(fmt::format("{}:{}", where_, highestAt_[kind]),
+                  fmt::format("a corner names {} that is not there", kKinds[kind]),
+                  fmt::format("1 to {}", counts_[kind]), fmt::to_string(highest_[kind] + 1));
+
+  // Step 2: normals of the corners, now that all are there.
+  polygons_.cornerNormals.reserve(normalOf_.size());
+  for (const std::uint32_t normal : normalOf_)
+    polygons_.cornerNormals.push_back(normal == kNoNormal ? glm::vec3(0) : normals_[normal]);
+
+  // Step 3: one part without a name or a material says nothing.
+  polygons_.parts = parts_.take();
+  if (polygons_.parts == std::vector<Part>{Part{}}) {
+    polygons_.parts.clear();
+    polygons_.partOf.clear();
+  }
 }
 
 }  // namespace
 
-Polygons scanObj(std::string& bytes, std::string_view where) {
-  Polygons polygons;
-  Counts counts{};
-  Highest highest;
-  Lines lines(bytes, where);
-  while (lines.nextStatement('#')) {
-    if (lines.line().back() == '\\') lines.fail("a continuation line", "each statement on one line");
-    std::string_view rest = lines.line();
-    const std::string_view keyword = takeWord(rest);
-    if (keyword == "v") {
-      scanVertex(rest, polygons, lines);
-      ++counts[0];
-    } else if (keyword == "f") {
-      std::size_t corners = 0;
-      for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest), ++corners)
-        polygons.corners.push_back(scanCorner(word, counts, highest, lines));
-      if (corners < 3) lines.fail("a face without area", "at least 3 corners", fmt::to_string(corners));
-      polygons.closeFace();
-    } else if (std::find(kSkipped.begin(), kSkipped.end(), keyword) != kSkipped.end()) {
-      if (keyword == "vt") ++counts[1];
-      if (keyword == "vn") ++counts[2];
-      lines.blank();
-    } else {
-      lines.fail("an unknown statement", "an OBJ file of polygons", quoted(keyword));
-    }
-  }
-
-  // A corner may name a vertex that is written further down, but not one that never comes.
-  for (std::size_t kind = 0; kind < 3; ++kind)
-    if (highest.index[kind] >= counts[kind])
-      throw Error(fmt::format("{}:{}", where, highest.line[kind]),
-                  fmt::format("a corner names {} that is not there", kKinds[kind]),
-                  fmt::format("1 to {}", counts[kind]), fmt::to_string(highest.index[kind] + 1));
-  return polygons;
+Scan scanObj(std::string& bytes, std::string_view where) {
+  Scan scan;
+  scan.polygons = ObjScan(bytes, where).run();
+  return scan;
 }
 
 }  // namespace malus::prep

@@ -1,5 +1,5 @@
-// Object File Format, ASCII, three dimensions: [ST][C][N]OFF. Colours, normals and texture coordinates are
-// skipped.
+// Object File Format, ASCII, three dimensions: [ST][C][N]OFF, a vertex or face a line, comments anywhere. Normals are
+// kept; colours and texture coordinates are left out with a note. Binary files are errors.
 // Source: Geomview manual, "OFF: the format of polygon files", http://www.geomview.org/docs/html/OFF.html.
 #include <algorithm>
 #include <limits>
@@ -23,17 +23,28 @@ std::size_t scanCount(std::string_view& rest, std::string_view what, std::size_t
   return static_cast<std::size_t>(count);
 }
 
-// What the letters before OFF say about the numbers after x y z, and where the header ends in the line.
-std::size_t scanHeader(const Lines& at) {
+// What the letters before OFF say about the numbers after x y z.
+struct Header {
+  std::size_t length = 0;  // in characters
+  bool textured = false, coloured = false, normals = false;
+};
+
+Header scanHeader(const Lines& at) {
   std::string_view prefix = at.line().substr(0, at.line().find_first_of(" \t"));
-  const std::size_t length = prefix.size();
-  if (prefix.starts_with("ST")) prefix.remove_prefix(2);
-  if (prefix.starts_with("C")) prefix.remove_prefix(1);
-  if (prefix.starts_with("N")) prefix.remove_prefix(1);
+  Header header;
+  header.length = prefix.size();
+  const auto take = [&](std::string_view letters) {
+    const bool there = prefix.starts_with(letters);
+    if (there) prefix.remove_prefix(letters.size());
+    return there;
+  };
+  header.textured = take("ST");
+  header.coloured = take("C");
+  header.normals = take("N");
   if (prefix.starts_with("4") || prefix.starts_with("n"))
     at.fail("an OFF file of another dimension", "three dimensions", quoted(at.line()));
   if (prefix != "OFF") at.fail("is not an OFF file", "OFF, COFF, NOFF or STOFF", quoted(at.line()));
-  return length;
+  return header;
 }
 
 // Blanks everything of the line after `rest` began: OpenMesh shall find plain numbers alone.
@@ -43,7 +54,7 @@ void blankFrom(std::string_view rest, Lines& lines) {
 
 }  // namespace
 
-Polygons scanOff(std::string& bytes, std::string_view where) {
+Scan scanOff(std::string& bytes, std::string_view where) {
   Lines lines(bytes, where);
   const auto nextLine = [&](std::string_view what) {
     if (!lines.nextStatement('#')) throw Error(where, "ends too early", what, "the end of the file");
@@ -54,7 +65,8 @@ Polygons scanOff(std::string& bytes, std::string_view where) {
 
   // Step 1: header, perhaps with the counts on the same line. It becomes a plain OFF on a line of its own.
   nextLine("OFF");
-  const std::size_t length = scanHeader(lines);
+  const Header header = scanHeader(lines);
+  const std::size_t length = header.length;
   std::string_view rest = lines.line().substr(length);
   rest = rest.substr(0, rest.find('#'));
   std::string_view peek = rest;
@@ -77,36 +89,54 @@ Polygons scanOff(std::string& bytes, std::string_view where) {
   blankFrom(rest, lines);
 
   // Step 3: vertices, a line each.
-  Polygons polygons;
+  Scan scan;
+  Polygons& polygons = scan.polygons;
   polygons.positions.reserve(vertices);
+  polygons.vertexPlaces.reserve(vertices);
+  if (header.normals) polygons.normals.reserve(vertices);
   for (std::size_t i = 0; i < vertices; ++i) {
     rest = nextLine(fmt::format("{} vertices, {} found", vertices, i));
     glm::dvec3 p(0);
     for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
     polygons.positions.push_back(p);
+    polygons.vertexPlaces.push_back(lines.number());
+    std::string_view more = rest;
+    if (header.normals) {
+      for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(more), lines);
+      polygons.normals.emplace_back(p);
+    }
+    if (!takeWord(more).empty())
+      noteOnce(polygons, header.textured && !header.coloured ? "texture coordinates" : "colours of vertices");
+    if (header.textured && header.coloured) noteOnce(polygons, "texture coordinates");
     blankFrom(rest, lines);
   }
 
   // Step 4: faces, a line each: number of corners, corners, perhaps a colour.
+  polygons.facePlaces.reserve(faces);
   for (std::size_t i = 0; i < faces; ++i) {
     rest = nextLine(fmt::format("{} faces, {} found", faces, i));
     const long long corners = wholeNumber(takeWord(rest), "a number of corners", lines);
     if (corners < 3) lines.fail("a face without area", "at least 3 corners", fmt::to_string(corners));
     for (long long c = 0; c < corners; ++c) {
-      const long long index = wholeNumber(takeWord(rest), fmt::format("{} corners", corners), lines);
+      const std::string_view word = takeWord(rest);
+      if (word.empty()) lines.fail("a face lacks corners", fmt::format("{} corners", corners), fmt::to_string(c));
+      const long long index = wholeNumber(word, "whole numbers", lines);
       if (index < 0 || static_cast<unsigned long long>(index) >= vertices)
         lines.fail("a face names a vertex that is not there", fmt::format("0 or more and below {}", vertices),
                    fmt::to_string(index));
       polygons.corners.push_back(static_cast<std::uint32_t>(index));
     }
     polygons.closeFace();
+    polygons.facePlaces.push_back(lines.number());
+    std::string_view more = rest;
+    if (!takeWord(more).empty()) noteOnce(polygons, "colours of faces");
     blankFrom(rest, lines);
   }
   if (lines.nextStatement('#')) lines.fail("more than the header counts", "the end of the file", quoted(lines.line()));
 
   // OpenMesh looks for the header in the first line alone.
   bytes.erase(0, headerBegin);
-  return polygons;
+  return scan;
 }
 
 }  // namespace malus::prep

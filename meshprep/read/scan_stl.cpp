@@ -1,5 +1,6 @@
-// Stereolithography, ASCII and binary (little-endian). Normals and attributes are skipped: corners alone
-// count.
+// Stereolithography, ASCII and binary (little-endian). Corners alone count: normals of facets are not read, and
+// attributes, which some programs take for colours, are left out with a note. Each solid of an ASCII file that has
+// faces is a part.
 // Source: 3D Systems, "StereoLithography Interface Specification", 1989.
 #include <array>
 #include <bit>
@@ -19,6 +20,7 @@ namespace {
 constexpr std::size_t kHeaderBytes = 84;  // 80 of text, 4 of count
 constexpr std::size_t kFaceBytes = 50;    // normal, three corners, attribute
 constexpr std::size_t kNormalBytes = 12;
+constexpr std::size_t kCornersBytes = 36;
 
 std::uint32_t littleEndian(std::string_view bytes, std::size_t offset) {
   std::uint32_t value = 0;
@@ -33,12 +35,18 @@ bool equalsIgnoringCase(std::string_view word, std::string_view lower) {
   return true;
 }
 
-Polygons scanBinary(std::string_view bytes, std::string_view where, std::size_t faces) {
-  Polygons polygons;
+Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t faces) {
+  Scan scan;
+  scan.isBinary = true;
+  Polygons& polygons = scan.polygons;
+  polygons.placesAreBytes = true;
   polygons.positions.reserve(3 * faces);
   for (std::size_t f = 0; f < faces; ++f) {
-    std::size_t offset = kHeaderBytes + f * kFaceBytes + kNormalBytes;
+    const std::size_t begin = kHeaderBytes + f * kFaceBytes;
+    polygons.facePlaces.push_back(begin);
+    std::size_t offset = begin + kNormalBytes;
     for (int corner = 0; corner < 3; ++corner) {
+      polygons.vertexPlaces.push_back(offset);
       glm::dvec3 p(0);
       for (int axis = 0; axis < 3; ++axis, offset += 4) {
         p[axis] = static_cast<double>(std::bit_cast<float>(littleEndian(bytes, offset)));
@@ -50,8 +58,10 @@ Polygons scanBinary(std::string_view bytes, std::string_view where, std::size_t 
       polygons.positions.push_back(p);
     }
     polygons.closeFace();
+    const std::size_t attribute = begin + kNormalBytes + kCornersBytes;
+    if (bytes[attribute] != 0 || bytes[attribute + 1] != 0) noteOnce(polygons, "colours of faces");
   }
-  return polygons;
+  return scan;
 }
 
 // The words that a line must begin with; returns what follows them.
@@ -63,8 +73,9 @@ std::string_view expectWords(std::string_view expected, const Lines& at) {
   return rest;
 }
 
-Polygons scanAscii(std::string& bytes, std::string_view where) {
-  Polygons polygons;
+Scan scanAscii(std::string& bytes, std::string_view where) {
+  Scan scan;
+  Polygons& polygons = scan.polygons;
   Lines lines(bytes, where);
   const auto nextLine = [&](std::string_view expected) {
     do {
@@ -73,6 +84,8 @@ Polygons scanAscii(std::string& bytes, std::string_view where) {
   };
   constexpr std::string_view kSolid = "solid";
   bool inSolid = false;
+  std::string name;
+  bool newPart = false;  // at the next face
   while (lines.next()) {
     if (lines.line().empty()) continue;
     std::string_view rest = lines.line();
@@ -80,7 +93,8 @@ Polygons scanAscii(std::string& bytes, std::string_view where) {
 
     // Names may hold words that OpenMesh takes for statements: they are blanked.
     if (!inSolid) {
-      expectWords(kSolid, lines);
+      name = nameOf(expectWords(kSolid, lines), lines);
+      newPart = true;
       lines.blank(kSolid.size());
       inSolid = true;
     } else if (equalsIgnoringCase(keyword, "endsolid")) {
@@ -88,17 +102,24 @@ Polygons scanAscii(std::string& bytes, std::string_view where) {
       inSolid = false;
     } else {
       expectWords("facet normal", lines);
+      if (newPart) polygons.parts.push_back({name, {}});
+      newPart = false;
+      polygons.partOf.push_back(static_cast<std::uint32_t>(polygons.parts.size() - 1));
+      polygons.facePlaces.push_back(lines.number());
       nextLine("outer loop");
       expectWords("outer loop", lines);
       for (int corner = 0; corner < 3; ++corner) {
         // OpenMesh takes the next three lines, whatever they are.
-        if (!lines.next()) throw Error(where, "ends too early", "three corners", "the end of the file");
+        const std::size_t expectedNumber = lines.nextNumber();
+        nextLine("three corners");
+        if (lines.number() != expectedNumber) scan.openMeshReads = false;
         rest = expectWords("vertex", lines);
         glm::dvec3 p(0);
         for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
         if (!takeWord(rest).empty()) lines.fail("a corner has too many numbers", "x y z");
         polygons.corners.push_back(static_cast<std::uint32_t>(polygons.positions.size()));
         polygons.positions.push_back(p);
+        polygons.vertexPlaces.push_back(lines.number());
       }
       polygons.closeFace();
       nextLine("endloop");
@@ -108,18 +129,22 @@ Polygons scanAscii(std::string& bytes, std::string_view where) {
     }
   }
   if (inSolid) throw Error(where, "ends too early", "endsolid", "the end of the file");
-  return polygons;
+
+  // One part without a name says nothing.
+  if (polygons.parts == std::vector<Part>{Part{}}) {
+    polygons.parts.clear();
+    polygons.partOf.clear();
+  }
+  return scan;
 }
 
 }  // namespace
 
-Polygons scanStl(std::string& bytes, std::string_view where, bool& isBinary) {
+Scan scanStl(std::string& bytes, std::string_view where) {
   // Binary files may begin with "solid" too, so the size decides.
-  isBinary = false;
   if (bytes.size() >= kHeaderBytes) {
     const std::size_t faces = littleEndian(bytes, 80);
-    isBinary = bytes.size() == kHeaderBytes + faces * kFaceBytes;
-    if (isBinary) return scanBinary(bytes, where, faces);
+    if (bytes.size() == kHeaderBytes + faces * kFaceBytes) return scanBinary(bytes, where, faces);
   }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && equalsIgnoringCase(std::string_view(bytes).substr(first, 5), "solid"))

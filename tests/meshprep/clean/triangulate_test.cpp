@@ -1,5 +1,9 @@
 #include "meshprep/clean/triangulate.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/meshprep/shapes.h"
@@ -107,6 +111,142 @@ TEST(Triangulate, PolygonWithoutAreaStaysAsOneDegenerateTriangle) {
   TriangulateCounts counts;
   const Mesh mesh = triangulate(polygon({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 0, 0}}), counts);
   EXPECT_EQ(mesh.triangles.size(), 1u);
+}
+
+// Nothing lost, doubled or turned, and as many triangles as the polygon has.
+void expectWhole(const Polygons& polygons) {
+  TriangulateCounts counts;
+  const Mesh mesh = triangulate(polygons, counts);
+  EXPECT_EQ(mesh.triangles.size(), polygons.corners.size() - 2);
+  EXPECT_EQ(counts.crossing, 0u);
+  EXPECT_GT(totalArea(mesh), 0);
+  EXPECT_NEAR(totalArea(mesh) / glm::length(areaVector(mesh)), 1, 1e-9);
+  for (const glm::uvec3& t : mesh.triangles)
+    EXPECT_NE(glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]),
+              glm::dvec3(0));
+}
+
+// The outline r(angle) in n corners.
+template <class Radius>
+Polygons outline(int n, Radius radius) {
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * 3.14159265358979323846 * i / n;
+    corners.emplace_back(radius(angle) * std::cos(angle), radius(angle) * std::sin(angle), 0);
+  }
+  return polygon(corners);
+}
+
+TEST(Triangulate, SidesWithManyCornersAreCutWithoutTrianglesWithoutArea) {
+  // Every corner ends a side with corners in it, so that no fan is good. Also with one bare side.
+  for (const std::array<int, 3>& parts : {std::array{3, 3, 3}, {3, 4, 1}, {1, 3, 4}, {4, 1, 3}, {3000, 2000, 1000}}) {
+    const std::array<glm::dvec3, 4> ends = {glm::dvec3(0), {4, 1, 2}, {1, 5, 3}, glm::dvec3(0)};
+    std::vector<glm::dvec3> corners;
+    for (std::size_t side = 0; side < 3; ++side)
+      for (int i = 0; i < parts[side]; ++i)
+        corners.push_back(ends[side] + (ends[side + 1] - ends[side]) * (static_cast<double>(i) / parts[side]));
+    for (std::size_t turn = 0; turn < std::min<std::size_t>(corners.size(), 10); ++turn) {
+      expectWhole(polygon(corners));
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+    }
+  }
+}
+
+TEST(Triangulate, ConvexFacesOfAnySizeAreFans) {
+  for (const int n : {5, 100, 10000, 300000}) {
+    const Polygons polygons = outline(n, [](double) { return 2.0; });
+    expectWhole(polygons);
+    TriangulateCounts counts;
+    EXPECT_EQ(triangulate(polygons, counts).triangles[1], glm::uvec3(0, 2, 3)) << n;
+    EXPECT_EQ(counts.concave, 0u);
+  }
+}
+
+TEST(Triangulate, SmoothConcaveOutlinesOfManyCorners) {
+  // Each ear is smaller than the rounding of the polygon's whole area.
+  expectWhole(outline(50000, [](double angle) { return 1 + 0.9 * std::cos(2 * angle); }));
+  // Two bows that nearly touch: no corner turns right by more than 4e-5, and a fan would cover what is outside.
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < 10000; ++i) {
+    const double x = -1 + i / 4999.5;
+    corners.emplace_back(x, -0.01 - 0.1 * x * x, 0);
+  }
+  for (int i = 0; i < 10000; ++i) corners.push_back(-corners[static_cast<std::size_t>(i)]);
+  TriangulateCounts counts;
+  triangulate(polygon(corners), counts);
+  EXPECT_EQ(counts.concave, 1u);
+  expectWhole(polygon(corners));
+}
+
+TEST(Triangulate, ManyConcaveFaces) {
+  Polygons polygons;
+  const Polygons one = outline(70, [](double angle) { return 2 + std::sin(30 * angle); });
+  for (int i = 0; i < 1000; ++i) {
+    for (const glm::dvec3& p : one.positions) {
+      polygons.corners.push_back(static_cast<std::uint32_t>(polygons.positions.size()));
+      polygons.positions.push_back(p);
+    }
+    polygons.closeFace();
+  }
+  TriangulateCounts counts;
+  const Mesh mesh = triangulate(polygons, counts);
+  EXPECT_EQ(counts.concave, 1000u);
+  EXPECT_EQ(mesh.triangles.size(), 68000u);
+  EXPECT_NEAR(totalArea(mesh), 1000 * totalArea(triangulate(one, counts)), 1e-6);
+}
+
+TEST(Triangulate, FacesThatTakeTooLongAreNamed) {
+  // A comb: each ear that is not one holds another tooth.
+  std::vector<glm::dvec3> comb = {{0, 0, 0}, {400000, 0, 0}};
+  for (int tooth = 200000 - 1; tooth >= 0; --tooth) {
+    comb.emplace_back(2 * tooth + 2, 3, 0);
+    comb.emplace_back(2 * tooth + 1, 1, 0);
+  }
+  comb.emplace_back(0, 3, 0);
+  Polygons polygons = polygon(comb);
+  TriangulateCounts counts;
+  EXPECT_EQ(test::errorOf([&] { triangulate(polygons, counts); }),
+            "face 0: is too intricate to be cut into triangles; expected faces of fewer corners, found 400003 corners");
+  polygons.facePlaces = {7};
+  EXPECT_TRUE(test::contains(test::errorOf([&] { triangulate(polygons, counts); }), "face 0, line 7: "));
+  polygons.placesAreBytes = true;
+  EXPECT_TRUE(test::contains(test::errorOf([&] { triangulate(polygons, counts); }), "face 0, byte 7: "));
+}
+
+TEST(Triangulate, TrianglesKnowWhatTheFileSays) {
+  // A concave face whose first corner is repeated, and a triangle.
+  Polygons polygons;
+  polygons.positions = {{0, 0, 0}, {2, -1, 0}, {0.5, 0, 0}, {2, 1, 0}};
+  polygons.corners = {0, 0, 1, 2, 3, 1, 3, 2};
+  polygons.firstCorner = {0, 5, 8};
+  polygons.smoothingGroups = {4, 9};
+  for (std::size_t i = 0; i < 8; ++i) polygons.cornerNormals.emplace_back(static_cast<float>(i), 0, 1);
+  TriangulateCounts counts;
+  const Mesh mesh = triangulate(polygons, counts);
+  ASSERT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(mesh.sourceVertices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(mesh.sourceFaces, (std::vector<std::uint32_t>{0, 0, 1}));
+  EXPECT_EQ(mesh.smoothingGroups, (std::vector<std::uint32_t>{4, 4, 9}));
+  ASSERT_EQ(mesh.cornerNormals.size(), 9u);
+  for (std::size_t t = 0; t < 3; ++t)
+    for (int k = 0; k < 3; ++k) {
+      // Which corner of the face it is: each vertex but the first is there once in each face.
+      const auto normal = static_cast<std::size_t>(mesh.cornerNormals[3 * t + static_cast<std::size_t>(k)].x);
+      EXPECT_EQ(polygons.corners[normal], mesh.triangles[t][k]);
+      EXPECT_EQ(normal >= 5, t == 2);
+    }
+
+  // Normals of the vertices serve where corners have none of their own.
+  polygons.cornerNormals.clear();
+  polygons.smoothingGroups.clear();
+  polygons.normals = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}};
+  const Mesh byVertex = triangulate(polygons, counts);
+  EXPECT_TRUE(byVertex.smoothingGroups.empty());
+  ASSERT_EQ(byVertex.cornerNormals.size(), 9u);
+  EXPECT_EQ(byVertex.cornerNormals[6], glm::vec3(2, 0, 0));
+  EXPECT_EQ(byVertex.cornerNormals[7], glm::vec3(4, 0, 0));
+  polygons.normals.clear();
+  EXPECT_TRUE(triangulate(polygons, counts).cornerNormals.empty());
 }
 
 }  // namespace

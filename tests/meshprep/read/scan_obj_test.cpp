@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "meshprep/read/read_mesh.h"
@@ -104,7 +106,102 @@ TEST(ScanObj, BadCornersAndFaces) {
   expectRefused(kSquare + "f /1 2 3\n", ".obj:5:", "nothing");
 }
 
-TEST(ScanObj, ContinuationLinesAreRefused) { expectRefused(kSquare + "f 1 2 \\\n3 4\n", ".obj:5:", "continuation"); }
+TEST(ScanObj, ContinuationLinesAreJoined) {
+  const Polygons polygons = read("v 0 0 0\nv 1 \\\n 0 \\\r\n0\nv 1 1 0\nv 0 1 0\nf 1 2\\\n3\\\n\\\n4\nf 1 2 3\n");
+  EXPECT_EQ(polygons.positions[1], glm::dvec3(1, 0, 0));
+  EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 3, 0, 1, 2}));
+  EXPECT_EQ(polygons.vertexPlaces, (std::vector<std::uint64_t>{1, 2, 5, 6}));
+  EXPECT_EQ(polygons.facePlaces, (std::vector<std::uint64_t>{7, 11}));
+}
+
+TEST(ScanObj, MessagesNameTheFirstOfContinuedLines) {
+  expectRefused(kSquare + "f 1 \\\n 2 \\\n 9\n", ".obj:5:", "found 9");
+  expectRefused(kSquare + "f 1 \\\n 2 \\\n 3\nf 1 2 x\n", ".obj:8:", "\"x\"");
+  expectRefused(kSquare + "f 1 2 3 \\", ".obj:5:", "backslash");
+}
+
+TEST(ScanObj, CommentsDoNotContinue) { EXPECT_EQ(read(kSquare + "# C:\\models\\\nf 1 2 3\n").faceCount(), 1u); }
+
+TEST(ScanObj, GroupsObjectsAndMaterialsMakeParts) {
+  const Polygons polygons =
+      read("mtllib my colours.mtl\n" + kSquare +
+           "f 1 2 3\no Glas-Schale \xc3\xa4 \xe2\x98\x83\nusemtl gold\nf 1 2 3\nf 2 3 4\ng \tfront side \t\nf 1 2 4\n"
+           "o Glas-Schale \xc3\xa4 \xe2\x98\x83\ng never used\no Glas-Schale \xc3\xa4 \xe2\x98\x83\nf 1 3 "
+           "4\ng\nusemtl\nf 1 2 3 4\n");
+  EXPECT_EQ(polygons.parts,
+            (std::vector<Part>{{"", ""}, {"Glas-Schale \xc3\xa4 \xe2\x98\x83", "gold"}, {"front side", "gold"}}));
+  EXPECT_EQ(polygons.partOf, (std::vector<std::uint32_t>{0, 1, 1, 2, 1, 0}));
+  EXPECT_EQ(polygons.materialFiles, (std::vector<std::string>{"my colours.mtl", "my", "colours.mtl"}));
+}
+
+TEST(ScanObj, FilesWithoutGroupsHaveNoParts) {
+  const Polygons polygons = read(kSquare + "f 1 2 3\ng\nf 1 2 4\ng unused\n");
+  EXPECT_TRUE(polygons.parts.empty());
+  EXPECT_TRUE(polygons.partOf.empty());
+  EXPECT_TRUE(polygons.smoothingGroups.empty());
+  EXPECT_TRUE(polygons.cornerNormals.empty());
+  EXPECT_TRUE(polygons.materialFiles.empty());
+  EXPECT_TRUE(polygons.notes.empty());
+}
+
+TEST(ScanObj, NamesInLatin1AreReadAsSuch) {
+  const Polygons polygons = read(kSquare + "g T\xfcr\nusemtl \xc3\xbc\xff\nf 1 2 3\n");
+  EXPECT_EQ(polygons.parts, (std::vector<Part>{{"T\xc3\xbcr", "\xc3\x83\xc2\xbc\xc3\xbf"}}));
+  expectRefused(kSquare + "g " + std::string(300, 'x') + "\nf 1 2 3\n", ".obj:5:", "at most 255 bytes, found 300");
+}
+
+TEST(ScanObj, MaterialFilesAreNamedOnce) {
+  EXPECT_EQ(read("mtllib a.mtl\nmtllib b.mtl\nmtllib a.mtl\n" + kSquare + "f 1 2 3\n").materialFiles,
+            (std::vector<std::string>{"a.mtl", "b.mtl"}));
+}
+
+TEST(ScanObj, SmoothingGroupsOfFaces) {
+  EXPECT_EQ(
+      read(kSquare + "f 1 2 3\ns 1\nf 1 2 3\nf 1 2 4\ns off\nf 1 2 3\ns 7\nf 1 2 3\ns 0\nf 1 2 3\n").smoothingGroups,
+      (std::vector<std::uint32_t>{0, 1, 1, 0, 7, 0}));
+  EXPECT_EQ(read(kSquare + "s off\nf 1 2 3\n").smoothingGroups, (std::vector<std::uint32_t>{0}));
+  expectRefused(kSquare + "s x\nf 1 2 3\n", ".obj:5:", "off or a whole number");
+  expectRefused(kSquare + "s -1\nf 1 2 3\n", ".obj:5:", "off or a whole number");
+  expectRefused(kSquare + "s 4294967296\nf 1 2 3\n", ".obj:5:", "off or a whole number");
+}
+
+TEST(ScanObj, EachCornerKeepsItsOwnNormal) {
+  // Two faces share an edge and give its vertices different normals: neither may win.
+  const Polygons polygons =
+      read(kSquare + "f 1 2 3\nvn 0 0 1\nvn 0 .6 .8\nf 1//1 2//-2 3//1\nf 1//2 3/1/3 4\nvt 0 0\nvn 2 0 0\n");
+  const glm::vec3 none(0), a(0, 0, 1), b(0, 0.6f, 0.8f), c(2, 0, 0);
+  EXPECT_EQ(polygons.cornerNormals, (std::vector<glm::vec3>{none, none, none, a, a, a, b, c, none}));
+  expectRefused(kSquare + "vn 0 nan 1\nf 1 2 3\n", ".obj:5:", "nan");
+  expectRefused(kSquare + "vn 0 1\nf 1 2 3\n", ".obj:5:", "nothing");
+  expectRefused(kSquare + "vn 0 0 1 0\nf 1 2 3\n", ".obj:5:", "x y z");
+  expectRefused(kSquare + "vn 0 0 1\nf 1//1 2//1 3//2\n", ".obj:6:", "a normal that is not there");
+}
+
+TEST(ScanObj, WhatIsLeftOutIsNotedOnce) {
+  EXPECT_EQ(read("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nl 1 2\nl 2 3\np 1\nlod 3\nf 1 2 3\n").notes,
+            (std::vector<std::string>{"colours of vertices", "texture coordinates", "lines", "points",
+                                      "display attributes"}));
+}
+
+TEST(ScanObj, FacesOfVeryManyCorners) {
+  // More than OpenMesh is asked about.
+  std::string text, face = "f";
+  for (int i = 0; i < 1000; ++i) {
+    text += fmt::format("v {} {} 0\n", std::cos(i * 0.001 * 6.28), std::sin(i * 0.001 * 6.28));
+    face += fmt::format(" {}", i + 1);
+  }
+  const Polygons polygons = read(text + face + "\nf 1 2 3\n");
+  ASSERT_EQ(polygons.faceCount(), 2u);
+  EXPECT_EQ(polygons.face(0).size(), 1000u);
+  EXPECT_EQ(polygons.face(0)[999], 999u);
+  EXPECT_EQ(polygons.facePlaces, (std::vector<std::uint64_t>{1001, 1002}));
+}
+
+TEST(ScanObj, VerticesNamedFarTooOftenAreNoSurface) {
+  std::string faces;
+  for (int i = 0; i < 22000; ++i) faces += "f 1 2 3\n";
+  expectRefused(kSquare + faces, ".obj", "at most 65792 corners for 4 vertices, found 66000");
+}
 
 TEST(ScanObj, OtherFilesAreRefused) {
   expectRefused("<html>\n", ".obj:1:", "unknown statement");
@@ -114,6 +211,7 @@ TEST(ScanObj, OtherFilesAreRefused) {
   expectRefused(kSquare, ".obj", "no faces");
   expectRefused("# nothing\n", ".obj", "no vertices");
   expectRefused(kSquare + "surf 0 1 0 1 1 2 3 4\n", ".obj:5:", "surf");
+  expectRefused(kSquare + "call other.obj\nf 1 2 3\n", ".obj:5:", "call");
   expectRefused("v 0 0 0 0.5\n", ".obj:1:", "rational");
 }
 

@@ -43,6 +43,35 @@ TEST(ScanOff, ColoursNormalsAndTextureCoordinatesAreSkipped) {
       glm::dvec3(1, 0, 0));
 }
 
+TEST(ScanOff, WhatIsLeftOutIsNotedOnce) {
+  EXPECT_TRUE(read("OFF\n4 1 0\n" + kPoints + "4 0 1 2 3 # red\n").notes.empty());
+  EXPECT_EQ(read("OFF\n4 2 0\n" + kPoints + "3 0 1 2 255 0 0\n3 0 2 3 7\n").notes,
+            (std::vector<std::string>{"colours of faces"}));
+  EXPECT_EQ(read("COFF\n3 1 0\n0 0 0 1 2 3 4\n1 0 0 1 2 3 4\n0 1 0 1 2 3 4\n3 0 1 2\n").notes,
+            (std::vector<std::string>{"colours of vertices"}));
+  EXPECT_EQ(read("STOFF\n3 1 0\n0 0 0 1 2\n1 0 0 1 2\n0 1 0 1 2\n3 0 1 2\n").notes,
+            (std::vector<std::string>{"texture coordinates"}));
+}
+
+TEST(ScanOff, NormalsOfVerticesAreKept) {
+  EXPECT_EQ(read("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 .6 .8\n0 1 0 0 0 2\n3 0 1 2\n").normals,
+            (std::vector<glm::vec3>{{0, 0, 1}, {0, 0.6f, 0.8f}, {0, 0, 2}}));
+  EXPECT_TRUE(read("OFF\n4 1 0\n" + kPoints + "3 0 1 2\n").normals.empty());
+  expectRefused("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 nan .8\n0 1 0 0 0 2\n3 0 1 2\n", ".off:4:", "nan");
+  expectRefused("NOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ".off:3:", "nothing");
+}
+
+TEST(ScanOff, PlacesAreLines) {
+  const Polygons polygons = read("# a\nOFF # b\n\n4 2 0\n# c\n" + kPoints + "\n3 0 1 2\n# d\n4 0 1 2 3\n");
+  EXPECT_FALSE(polygons.placesAreBytes);
+  EXPECT_EQ(polygons.vertexPlaces, (std::vector<std::uint64_t>{6, 7, 8, 9}));
+  EXPECT_EQ(polygons.facePlaces, (std::vector<std::uint64_t>{11, 13}));
+}
+
+TEST(ScanOff, CoordinatesAreDouble) {
+  EXPECT_EQ(read("OFF\n3 1 0\n0.1234567890123456 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").positions[0].x, 0.1234567890123456);
+}
+
 TEST(ScanOff, CountsMustBeBackedByTheFile) {
   expectRefused("OFF\n4000000000 1 0\n", ".off:2:", "4000000000");
   expectRefused("OFF\n3 4000000000 0\n", ".off:2:", "4000000000");

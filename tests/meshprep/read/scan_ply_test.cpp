@@ -123,7 +123,8 @@ TEST(ScanPly, BadNumbersAndIndices) {
   expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n3 0 -1 2\n"), ".ply:13:", "-1");
   expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n2 0 1\n"),
                 ".ply:13:", "at least 3");
-  expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), ".ply:11:", "3");
+  expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"),
+                ".ply:11:", "lacks numbers");
   std::string bytes = binaryPly();
   std::string nan;
   test::putReal(nan, std::numeric_limits<double>::quiet_NaN(), false);
@@ -131,31 +132,36 @@ TEST(ScanPly, BadNumbersAndIndices) {
   expectRefused(bytes, ", byte ", "bad number in vertex 1");
 }
 
-TEST(ScanPly, HeadersThatOpenMeshMisreadsAreRefused) {
+TEST(ScanPly, BadHeadersAreRefused) {
   expectRefused(replaced(ascii(), "end_header\n", ""), ".ply", "unknown statement");
   expectRefused("ply\nformat ascii 1.0\nelement vertex 3\n", ".ply", "end_header");
-  expectRefused(replaced(ascii(), "element face 1\nproperty list uchar int vertex_indices",
-                         "element tristrips 1\nproperty list int int vertex_indices"),
-                ".ply:7:", "tristrips");
-  expectRefused(ascii("property list float int vertex_indices\n"), ".ply:8:", "number of corners");
-  expectRefused(ascii("property list ushort int vertex_indices\n"), ".ply:8:", "ushort");
-  expectRefused(ascii("property list uchar float vertex_indices\n"), ".ply:9:", "whole numbers");
+  expectRefused(ascii("property list float int vertex_indices\n"), ".ply:8:", "whole number");
+  expectRefused(ascii("property list uchar float vertex_indices\n"), ".ply:8:", "whole numbers");
   expectRefused(ascii("property list uchar int corners\n"), ".ply:9:", "vertex_indices");
-  expectRefused(ascii("property float q\nproperty list uchar int vertex_indices\n"), ".ply:10:", "first");
-  expectRefused(ascii("property list uchar int vertex_indices\nproperty list uchar float texcoord\n"),
-                ".ply:10:", "second list");
-  expectRefused(ascii("property list uchar int vertex_indices\n", "", "property list uchar int q\n"),
-                ".ply:7:", "list");
+  expectRefused(ascii("property list uchar int vertex_index\nproperty list uchar int vertex_indices\n"),
+                ".ply:10:", "one list");
+  expectRefused(ascii("property int vertex_indices\n"), ".ply:9:", "no corners");
   expectRefused(ascii("property list uchar int vertex_indices\n", "", "property quad q\n"), ".ply:7:", "quad");
   expectRefused(ascii("property list uchar int vertex_indices\n", "", "property float x\n"), ".ply:10:", "twice");
-  expectRefused(replaced(ascii(), "float z", "int z"), ".ply:9:", "coordinates");
+  expectRefused(replaced(ascii(), "float z", "float q"), ".ply:9:", "coordinates");
+  expectRefused(replaced(ascii(), "float z", "list uchar float z"), ".ply:9:", "coordinates");
   expectRefused(replaced(ascii(), "format ascii 1.0", "comment x\nformat ascii 1.0"), ".ply:2:", "format");
   expectRefused(replaced(ascii(), "ascii", "binary"), ".ply:2:", "binary");
   expectRefused(replaced(ascii(), "1.0", "2.0"), ".ply:2:", "version");
   expectRefused(replaced(ascii(), "vertex 3", "vertex 4000000000"), ".ply:3:", "4000000000");
+  expectRefused(replaced(ascii(), "vertex 3", "vertex 100"), ".ply:3:", "found 100");
+  expectRefused(replaced(ascii(), "face 1", "face 100"), ".ply:7:", "found 100");
   expectRefused(replaced(ascii(), "vertex 3", "vertex -1"), ".ply:3:", "-1");
   expectRefused(replaced(ascii(), "ply", "Ply"), ".ply:1:", "ply");
   expectRefused(replaced(ascii(), "face 1", "face 0"), ".ply", "more than the header counts");
+  expectRefused(replaced(ascii(), "element face 1", "property float q\nelement face 1\nelement face 1"),
+                ".ply:9:", "twice");
+  expectRefused(replaced(ascii(), "element vertex 3", "property float q\nelement vertex 3"), ".ply:3:", "no element");
+  expectRefused(replaced(ascii(), "end_header", "element camera 1\nend_header"), ".ply:10:", "without properties");
+  expectRefused(replaced(ascii(), "element face 1\nproperty list uchar int vertex_indices\n", ""),
+                ".ply:7:", "face or tristrips");
+  expectRefused("ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n3 0 1 2\n",
+                ".ply:5:", "expected vertex");
   expectRefused(
       replaced(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n"), "face 1", "face 0"), ".ply",
       "no faces");

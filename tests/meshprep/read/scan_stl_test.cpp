@@ -50,6 +50,56 @@ TEST(ScanStl, AsciiOfOneOrMoreSolids) {
   EXPECT_EQ(read("solid a\n" + kFacet + "endsolid a\n").positions[2], glm::dvec3(0, 1, 0.1));
 }
 
+TEST(ScanStl, SolidsAreParts) {
+  const Polygons polygons = read("solid  T\xc3\xbcr left \n" + kFacet + kFacet +
+                                 "endsolid\nsolid empty\nendsolid\nsolid\n" + kFacet + "endsolid\n");
+  EXPECT_EQ(polygons.parts, (std::vector<Part>{{"T\xc3\xbc"
+                                                "r left",
+                                                ""},
+                                               {"", ""}}));
+  EXPECT_EQ(polygons.partOf, (std::vector<std::uint32_t>{0, 0, 1}));
+  EXPECT_EQ(read("solid a\n" + kFacet + "endsolid\n").parts, (std::vector<Part>{{"a", ""}}));
+  EXPECT_TRUE(read("solid\n" + kFacet + "endsolid\n").parts.empty());
+}
+
+TEST(ScanStl, PlacesAreLinesOrBytes) {
+  const Polygons text = read("solid a\n\n" + kFacet + kFacet + "endsolid a\n");
+  EXPECT_FALSE(text.placesAreBytes);
+  EXPECT_EQ(text.vertexPlaces, (std::vector<std::uint64_t>{5, 6, 7, 12, 13, 14}));
+  EXPECT_EQ(text.facePlaces, (std::vector<std::uint64_t>{3, 10}));
+  auto triangles = test::tetrahedronTriangles();
+  triangles.resize(2);
+  const Polygons binary = read(binaryStl(triangles));
+  EXPECT_TRUE(binary.placesAreBytes);
+  EXPECT_EQ(binary.vertexPlaces, (std::vector<std::uint64_t>{96, 108, 120, 146, 158, 170}));
+  EXPECT_EQ(binary.facePlaces, (std::vector<std::uint64_t>{84, 134}));
+}
+
+TEST(ScanStl, AttributesAreNoted) {
+  std::string bytes = binaryStl(test::tetrahedronTriangles());
+  EXPECT_TRUE(read(bytes).notes.empty());
+  bytes[84 + 50 + 49] = '\x80';
+  EXPECT_EQ(read(bytes).notes, (std::vector<std::string>{"colours of faces"}));
+}
+
+TEST(ScanStl, EmptyLinesAnywhere) {
+  // Between the corners OpenMesh loses count of them.
+  std::string spaced = "\n";
+  for (const char c : "solid x\n" + kFacet + kFacet + "endsolid x\n")
+    spaced += c == '\n' ? "\r\n \r\n" : std::string(1, c);
+  const Polygons polygons = read(spaced);
+  EXPECT_EQ(polygons.faceCount(), 2u);
+  EXPECT_EQ(polygons.positions[5], glm::dvec3(0, 1, 0.1));
+}
+
+TEST(ScanStl, NormalsOfFacetsAreNotBelieved) {
+  EXPECT_EQ(
+      read("solid\nfacet normal nan 0 x\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+           "endsolid\n")
+          .corners,
+      (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
 TEST(ScanStl, NamesThatLookLikeStatementsAreHarmless) {
   EXPECT_EQ(read("solid outer facet normal\n" + kFacet + "endsolid outer loop\n").faceCount(), 1u);
 }
@@ -91,7 +141,9 @@ TEST(ScanStl, BadFiles) {
   expectRefused(binaryStl(test::tetrahedronTriangles()) + "x", ".stl", "284 bytes for its 4 faces, found 285 bytes");
   expectRefused("solid x\n" + kFacet, ".stl", "endsolid");
   expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n", ".stl:4:", "nan");
-  expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n\nvertex 1 0 0\n", ".stl:5:", "vertex");
+  expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", ".stl:6:", "vertex");
+  expectRefused("solid by a careless exporter" + binaryStl(test::tetrahedronTriangles()).substr(28) + "x", ".stl",
+                "plain text");
   expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0 0\n", ".stl:4:", "x y z");
   expectRefused("hello", ".stl", "\"solid\"");
 }

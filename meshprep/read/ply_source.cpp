@@ -1,0 +1,159 @@
+#include "meshprep/read/ply_source.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+
+namespace malus::prep::ply {
+
+namespace {
+
+// An item a line; empty lines do not count.
+class Text : public Source {
+ public:
+  Text(std::string& bytes, std::string_view where, const Header& header)
+      : lines_(bytes, where, header.end, header.nextLine), where_(where) {}
+
+  void beginItem(std::string_view what, std::size_t index) override {
+    what_ = what;
+    do {
+      if (!lines_.next())
+        throw Error(where_, "ends too early", fmt::format("{} {}", what, index), "the end of the file");
+    } while (lines_.line().empty());
+    rest_ = lines_.line();
+  }
+  void endItem() override {
+    const std::string_view word = takeWord(rest_);
+    if (!word.empty())
+      lines_.fail(fmt::format("a {} has too many numbers", what_), "the end of the line", quoted(word));
+  }
+  void endFile() override {
+    while (lines_.next())
+      if (!lines_.line().empty())
+        lines_.fail("more than the header counts", "the end of the file", quoted(lines_.line()));
+  }
+
+  double coordinate(Type) override { return prep::coordinate(word(), lines_); }
+  double real(Type) override {
+    const std::string_view number = word();
+    const std::string digits(number);
+    char* stop = nullptr;
+    const double value = std::strtod(digits.c_str(), &stop);
+    if (*stop != 0) lines_.fail("a bad number", "a decimal number", quoted(digits));
+    lines_.zero(number);
+    return value;
+  }
+  std::int64_t whole(Type) override { return wholeNumber(word(), "a whole number", lines_); }
+  void skip(Type, std::size_t count) override {
+    for (std::size_t i = 0; i < count; ++i) lines_.zero(word());
+  }
+
+  bool placesAreBytes() const override { return false; }
+  std::uint64_t place() const override { return lines_.number(); }
+  void fail(std::string_view problem, std::string_view expected, std::string_view found) const override {
+    lines_.fail(fmt::format("a {} {}", what_, problem), expected, found);
+  }
+
+ private:
+  std::string_view word() {
+    const std::string_view word = takeWord(rest_);
+    if (word.empty()) lines_.fail(fmt::format("a {} lacks numbers", what_), "one for each of its properties");
+    return word;
+  }
+
+  Lines lines_;
+  std::string_view where_;
+  std::string_view what_;
+  std::string_view rest_;
+};
+
+// Values in file order, checked against the end of the file.
+class Binary : public Source {
+ public:
+  Binary(std::string_view bytes, std::string_view where, const Header& header)
+      : bytes_(bytes), where_(where), offset_(header.end), bigEndian_(header.encoding == Encoding::kBigEndian) {}
+
+  void beginItem(std::string_view what, std::size_t index) override {
+    what_ = what;
+    index_ = index;
+    begin_ = offset_;
+  }
+  void endItem() override {}
+  void endFile() override {
+    if (offset_ != bytes_.size())
+      failAt("more than the header counts", "the end of the file", fmt::format("{} bytes", bytes_.size() - offset_));
+  }
+
+  double coordinate(Type type) override {
+    const double value = real(type);
+    if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
+      failAt(fmt::format("a bad number in {} {}", what_, index_), "a finite number that a float holds",
+             fmt::to_string(value));
+    return value;
+  }
+  double real(Type type) override {
+    if (type == Type::kDouble) return std::bit_cast<double>(raw(8));
+    if (type == Type::kFloat) return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw(4))));
+    return static_cast<double>(whole(type));
+  }
+  std::int64_t whole(Type type) override {
+    const std::uint64_t bits = raw(sizeOf(type));
+    const auto shift = static_cast<unsigned>(64 - 8 * sizeOf(type));
+    const bool isSigned = type == Type::kInt8 || type == Type::kInt16 || type == Type::kInt32;
+    return isSigned ? static_cast<std::int64_t>(bits << shift) >> shift : static_cast<std::int64_t>(bits);
+  }
+  void skip(Type type, std::size_t count) override {
+    if (count > (bytes_.size() - offset_) / sizeOf(type))
+      failAt(fmt::format("the file ends in {} {}", what_, index_), fmt::format("{} values", count),
+             fmt::format("{} bytes", bytes_.size() - offset_));
+    offset_ += count * sizeOf(type);
+  }
+
+  bool placesAreBytes() const override { return true; }
+  std::uint64_t place() const override { return begin_; }
+  void fail(std::string_view problem, std::string_view expected, std::string_view found) const override {
+    failAt(fmt::format("{} {} {}", what_, index_, problem), expected, found);
+  }
+
+ private:
+  [[noreturn]] void failAt(std::string_view problem, std::string_view expected, std::string_view found) const {
+    throw Error(fmt::format("{}, byte {}", where_, offset_), problem, expected, found);
+  }
+
+  // Up to 8 bytes as a whole number without sign.
+  std::uint64_t raw(std::size_t count) {
+    if (count > bytes_.size() - offset_)
+      failAt(fmt::format("the file ends in {} {}", what_, index_), fmt::format("{} more bytes", count),
+             fmt::to_string(bytes_.size() - offset_));
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t from = bigEndian_ ? i : count - 1 - i;  // most significant first
+      value = value << 8u | static_cast<unsigned char>(bytes_[offset_ + from]);
+    }
+    offset_ += count;
+    return value;
+  }
+
+  std::string_view bytes_;
+  std::string_view where_;
+  std::string_view what_;
+  std::size_t index_ = 0;
+  std::size_t begin_ = 0;
+  std::size_t offset_;
+  bool bigEndian_;
+};
+
+}  // namespace
+
+std::unique_ptr<Source> openSource(std::string& bytes, std::string_view where, const Header& header) {
+  if (header.encoding == Encoding::kAscii) return std::make_unique<Text>(bytes, where, header);
+  return std::make_unique<Binary>(bytes, where, header);
+}
+
+}  // namespace malus::prep::ply

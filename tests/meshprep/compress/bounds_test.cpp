@@ -36,7 +36,7 @@ TriangleMesh sliver(float height) {
   TriangleMesh mesh;
   mesh.positions = {{0.1234567f, 0.2345678f, 0.3456789f},
                     {1.1234567f, 0.2345678f, 0.3456789f},
-                    {0.6234567f, 0.2345678f + height, 0.3456789f + height}};
+                    {0.6234567f, 0.2345678f + height, 0.3456789f + 0.7f * height}};
   mesh.triangles = {{0, 1, 2}};
   return mesh;
 }
@@ -119,8 +119,8 @@ TEST(Bounds, WhatCannotBeReachedIsAnErrorWhereItWasAskedFor) {
 
 TEST(Bounds, OneGridForAllMeshes) {
   TriangleMesh coarse = sliver(1.0f);
-  TriangleMesh fine = sliver(2e-5f);
-  for (glm::vec3& p : fine.positions) p.x += 3;
+  TriangleMesh fine = sliver(2e-4f);
+  for (glm::vec3& p : fine.positions) p += glm::vec3(3, 0.3f, 0.2f);
   const MeshView views[] = {coarse, fine};
   const Bits alone = chooseBits({views, 1}, {}), both = chooseBits(views, {});
   EXPECT_EQ(alone.grid.positionBits, kFirstPositionBits);

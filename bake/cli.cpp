@@ -19,6 +19,7 @@
 #include "bake/scene_file/scene_file.h"
 #include "bake/unpack.h"
 #include "meshprep/base/console.h"
+#include "meshprep/base/unfinished_files.h"
 
 namespace malus::bake {
 
@@ -31,7 +32,8 @@ struct BakeArguments {
 };
 
 void runBake(const BakeArguments& arguments) {
-  // Step 1: nothing to do?
+  // Step 1: nothing to do? What killed bakers left is in nobody's way, but of no use either.
+  removeAbandoned(arguments.output);
   const SceneDescription description = readSceneFile(arguments.input);
   const std::string provenance = provenanceOf(description, arguments.settings);
   std::optional<OlderBake> older;

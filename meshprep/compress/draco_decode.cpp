@@ -105,6 +105,12 @@ TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std:
     throw Error(where, "Draco data of an impossible size", fmt::format("1 to {} vertices and triangles", kMaxTriangles),
                 fmt::format("{} and {}", limits.vertices, limits.triangles));
 
+  const std::uint64_t most = kMostPerByte * bytes.size();
+  if (limits.triangles > most || limits.vertices > most)
+    throw Error(where, "Draco data too small for what it claims",
+                fmt::format("at most {} vertices and triangles in {} bytes", most, bytes.size()),
+                fmt::format("{} and {}", limits.vertices, limits.triangles));
+
   // Step 2: decode.
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -121,6 +121,8 @@ std::string tryEdgebreaker(const MeshView& mesh, const Settings& settings, const
   const double encodeMs = millisecondsSince(start);
   if (!bytes) return "edgebreaker refuses the mesh";
   if (bytes->size() >= encoded.bytes.size()) return "edgebreaker is no smaller";
+  if (std::max(limits.vertices, limits.triangles) > kMostPerByte * bytes->size())
+    return "edgebreaker makes the mesh smaller than a reader trusts";
 
   // Step 2: decoded, the same in another order.
   const Clock::time_point decoding = Clock::now();

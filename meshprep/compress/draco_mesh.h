@@ -105,9 +105,9 @@ struct Encoded {
 Encoded encode(const MeshView& mesh, const Settings& settings);
 
 // What a byte of a Draco file may stand for, at most. Draco sizes its tables by what a file claims, before it has read
-// that much: so a claim beyond this is refused, and memory stays in proportion to the file. A flat, even grid of 2 million
-// triangles takes a byte for 3.4 of them at 20 bits and for 8 at 8 bits; what edgebreaker makes smaller is encoded
-// sequentially.
+// that much: so a claim beyond this is refused, and memory stays in proportion to the file. A flat, even grid of 2
+// million triangles takes a byte for 3.4 of them at 20 bits and for 8 at 8 bits; what edgebreaker makes smaller is
+// encoded sequentially.
 inline constexpr std::uint64_t kMostPerByte = 64;  // vertices; triangles
 
 // What the caller knows the mesh to hold. decode() accepts these counts and no others, and checks them,

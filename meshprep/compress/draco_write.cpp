@@ -13,9 +13,10 @@ namespace malus::compress {
 namespace {
 
 // Of 0 (smallest) to 10: plain edgebreaker with one connectivity for positions and normals, parallelogram prediction.
-// Size against the time to decode, on a bumpy torus of a million triangles whose normals follow from its faces, in bytes
-// a triangle and ms: 3 (valence, normals predicted from faces) 1.39 and 246, 6 2.26 and 92, 6 with normals predicted from
-// faces 1.64 and 186. A pack is loaded more often than it is sent, so 6; the engine takes 6.0 to 6.1 bytes with any.
+// Size against the time to decode, on a bumpy torus of a million triangles whose normals follow from its faces, in
+// bytes a triangle and ms: 3 (valence, normals predicted from faces) 1.39 and 246, 6 2.26 and 92, 6 with normals
+// predicted from faces 1.64 and 186. A pack is loaded more often than it is sent, so 6; the engine takes 6.0 to 6.1
+// bytes with any.
 constexpr int kSpeed = 6;
 
 int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::span<const glm::vec3> values) {

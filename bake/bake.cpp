@@ -1,8 +1,10 @@
 #include "bake/bake.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <draco/core/draco_version.h>
 #include <fmt/format.h>
@@ -14,7 +16,6 @@
 #include "bake/environment/octahedral_map.h"
 #include "bake/image/image.h"
 #include "bake/pack/format.h"
-#include "bake/pack/reader.h"
 #include "bake/textures/texture.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
@@ -104,6 +105,11 @@ void requireAxisInPlane(const pack::Mesh& mesh, const pack::Material& material, 
   }
 }
 
+template <class T>
+nlohmann::json orNull(const std::optional<T>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
+}
+
 }  // namespace
 
 std::string provenanceOf(const SceneDescription& d, const pack::WriteSettings& settings) {
@@ -123,19 +129,14 @@ std::string provenanceOf(const SceneDescription& d, const pack::WriteSettings& s
       {"baker", kBakerRevision},
       {"draco", std::string(draco::kDracoVersion)},
       {"sources", sources},
-      {"settings", {{"positionBits", settings.positionBits}, {"normalBits", settings.normalBits}}},
+      {"settings",
+       {{"maxError", orNull(settings.bounds.maxError)},
+        {"maxNormalErrorDegrees", orNull(settings.bounds.maxNormalErrorDegrees)},
+        {"positionBits", orNull(settings.bounds.positionBits)},
+        {"normalBits", orNull(settings.bounds.normalBits)},
+        {"keepMap", settings.keepMap}}},
   }
       .dump();
-}
-
-bool isUpToDate(const std::filesystem::path& pack, const std::string& provenance) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(pack, ignored)) return false;
-  try {
-    return pack::read(pack).scene.provenance == provenance;
-  } catch (const Error&) {  // damaged, or no pack: it is made anew
-    return false;
-  }
 }
 
 Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
@@ -174,6 +175,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
       packed.name = mesh.instances.size() == 1 ? mesh.name : fmt::format("{}.{}", mesh.name, i + 1);
       packed.material = material;
       packed.sheet = mesh.sheet;
+      if (settings.keepMap) packed.sourceVertices = prepared.sourceVertices, packed.sourceFaces = prepared.sourceFaces;
       scene.meshes.push_back(std::move(packed));
     }
   }
@@ -182,7 +184,11 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   scene.origin = d.origin.value_or((low + high) * 0.5);
   for (std::size_t i = 0; i < world.size(); ++i) {
     pack::Mesh& mesh = scene.meshes[i];
-    for (const glm::dvec3& p : world[i].positions) mesh.positions.emplace_back(p - scene.origin);
+    for (const glm::dvec3& p : world[i].positions) {
+      const glm::dvec3 local = p - scene.origin;
+      mesh.positions.emplace_back(local);
+      baked.moved = std::max(baked.moved, glm::distance(local, glm::dvec3(mesh.positions.back())));
+    }
     mesh.normals = std::move(world[i].normals);
     mesh.triangles = std::move(world[i].triangles);
     requireAxisInPlane(mesh, scene.materials[mesh.material], d.file);

@@ -1,22 +1,25 @@
 #include "bake/cli.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bake/bake.h"
+#include "bake/bake_report.h"
 #include "bake/diff.h"
 #include "bake/info.h"
 #include "bake/materials/library.h"
+#include "bake/older_pack.h"
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
 #include "bake/scene_file/scene_file.h"
 #include "bake/unpack.h"
 #include "meshprep/base/console.h"
+#include "meshprep/base/unfinished_files.h"
 
 namespace malus::bake {
 
@@ -29,8 +32,13 @@ struct BakeArguments {
 };
 
 void runBake(const BakeArguments& arguments) {
+  // Step 1: nothing to do? What killed bakers left is in nobody's way, but of no use either.
+  removeAbandoned(arguments.output);
   const SceneDescription description = readSceneFile(arguments.input);
-  if (!arguments.force && isUpToDate(arguments.output, provenanceOf(description, arguments.settings))) {
+  const std::string provenance = provenanceOf(description, arguments.settings);
+  std::optional<OlderBake> older;
+  if (!arguments.force) older = readOlder(arguments.output);
+  if (older && isUpToDate(*older, provenance)) {
     if (arguments.json)
       fmt::print("{}\n",
                  nlohmann::json{{"name", description.name}, {"output", arguments.output}, {"upToDate", true}}.dump(
@@ -40,45 +48,25 @@ void runBake(const BakeArguments& arguments) {
                  arguments.output);
     return;
   }
+
+  // Step 2: a scene, and a pack of it.
   const Baked baked = bake(description, arguments.settings, console::progress);
   console::progress("compressing");
-  const pack::Written written = pack::write(arguments.output, baked.scene, arguments.settings);
+  pack::WriteSettings settings = arguments.settings;
+  settings.movedBefore = baked.moved;
+  const bool rebaked = older && isOfSameVersions(*older, provenance);
+  const pack::OlderPack source{rebaked ? &older->pack : nullptr, rebaked ? older->bytes : std::span<const std::byte>()};
+  const pack::Written written = pack::write(arguments.output, baked.scene, settings, rebaked ? &source : nullptr);
   console::progressDone();
 
-  std::size_t geometryBytes = 0;
-  double positionError = 0, normalError = 0;
-  for (const pack::MeshCompression& m : written.meshes) {
-    geometryBytes += m.sizeBytes;
-    positionError = std::max(positionError, static_cast<double>(m.positionErrorMax));
-    normalError = std::max(normalError, static_cast<double>(m.normalErrorMaxDegrees));
-  }
-  const std::uint64_t vertices = baked.scene.vertexCount(), triangles = baked.scene.triangleCount();
-  if (arguments.json) {
-    nlohmann::json meshes = nlohmann::json::array();
-    for (std::size_t i = 0; i < written.meshes.size(); ++i)
-      meshes.push_back({{"name", baked.scene.meshes[i].name},
-                        {"encoding", written.meshes[i].method},
-                        {"sizeBytes", written.meshes[i].sizeBytes}});
-    nlohmann::json preparation = nlohmann::json::array();
-    for (const prep::Report& report : baked.reports) preparation.push_back(prep::toJson(report));
-    const nlohmann::json result = {{"name", baked.scene.name},
-                                   {"output", arguments.output},
-                                   {"upToDate", false},
-                                   {"sizeBytes", written.bytes.size()},
-                                   {"vertices", vertices},
-                                   {"triangles", triangles},
-                                   {"meshes", meshes},
-                                   {"preparation", preparation},
-                                   {"errors", {{"positionMax", positionError}, {"normalMaxDegrees", normalError}}}};
-    fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    return;
-  }
-  fmt::print(
-      "{}: {} meshes, {} vertices, {} triangles -> {} ({} bytes, geometry {:.1f} bytes a triangle,\n"
-      "  positions within {:.3g} m, normals within {:.3g} degrees)\n",
-      baked.scene.name, baked.scene.meshes.size(), vertices, triangles, arguments.output, written.bytes.size(),
-      static_cast<double>(geometryBytes) / static_cast<double>(std::max<std::uint64_t>(triangles, 1)), positionError,
-      normalError);
+  // Step 3: told.
+  for (const std::string& warning : written.warnings) console::warn(warning);
+  if (arguments.json)
+    fmt::print(
+        "{}\n",
+        bakeJson(baked, written, arguments.output).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  else
+    fmt::print("{}", bakeText(baked, written, arguments.output, rebaked));
 }
 
 }  // namespace
@@ -88,13 +76,23 @@ void addBakeCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bake", "Bakes a scene description into a scene pack");
   command->add_option("scene", arguments->input, "scene.json (schema: bake/SCENE.md)")->required();
   command->add_option("-o,--output", arguments->output, "the pack to write")->required();
-  command->add_option("--position-bits", arguments->settings.positionBits, "bits of the scene's position grid")
-      ->check(CLI::Range(8, 22))
-      ->capture_default_str();
-  command->add_option("--normal-bits", arguments->settings.normalBits, "bits of the normals")
-      ->check(CLI::Range(6, 16))
-      ->capture_default_str();
-  command->add_flag("--force", arguments->force, "bake although the pack is up to date");
+  command
+      ->add_option("--max-error", arguments->settings.bounds.maxError,
+                   "metres: no vertex is farther from its source than this")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--max-normal-error", arguments->settings.bounds.maxNormalErrorDegrees,
+                   "degrees: no normal is farther from its source than this; 0.05 is tried unless asked")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--position-bits", arguments->settings.bounds.positionBits,
+                   "just these bits of the scene's position grid, whatever error they bring")
+      ->check(CLI::Range(8, compress::kMaxPositionBits));
+  command->add_option("--normal-bits", arguments->settings.bounds.normalBits, "just these bits of the normals")
+      ->check(CLI::Range(6, compress::kMaxNormalBits));
+  command->add_flag("--keep-map", arguments->settings.keepMap,
+                    "keep the source file's vertex and face of every packed vertex and triangle");
+  command->add_flag("--force", arguments->force, "bake although the pack is up to date, every mesh anew");
   command->add_flag("--json", arguments->json, "print the result as JSON");
   command->callback([arguments] { runBake(*arguments); });
 }

@@ -49,7 +49,7 @@ std::map<std::string, json> leavesOf(const pack::Pack& pack) {
   json document = sceneJson(pack);
   document.erase("packHash");
   document["meshes"] = keyed(document["meshes"]);
-  for (json& mesh : document["meshes"]) mesh.erase("file");
+  for (json& mesh : document["meshes"]) mesh.erase("file"), mesh.erase("map");
   json effects = json::array();
   for (const pack::Effect& e : pack.scene.effects)
     effects.push_back({{"name", e.name}, {"on", e.on}, {"reason", e.reason}});
@@ -88,6 +88,22 @@ void compareGeometry(const pack::Scene& a, const pack::Scene& b, json& changes) 
                        {"a", "the same triangles"},
                        {"b", farthest > 0 ? fmt::format("corners moved by up to {:.3g} m", farthest)
                                           : std::string("other normals")}});
+  }
+}
+
+// Meshes whose map to the source differs.
+void compareMaps(const pack::Scene& a, const pack::Scene& b, json& changes) {
+  const auto kept = [](const pack::Mesh& mesh) { return mesh.sourceVertices.empty() ? "not kept" : "kept"; };
+  for (const pack::Mesh& mesh : a.meshes) {
+    const auto other =
+        std::find_if(b.meshes.begin(), b.meshes.end(), [&](const pack::Mesh& m) { return m.name == mesh.name; });
+    if (other == b.meshes.end() ||
+        (mesh.sourceVertices == other->sourceVertices && mesh.sourceFaces == other->sourceFaces))
+      continue;
+    const bool both = !mesh.sourceVertices.empty() && !other->sourceVertices.empty();
+    changes.push_back({{"where", fmt::format("sourceMap.{}", mesh.name)},
+                       {"a", kept(mesh)},
+                       {"b", both ? "other vertices or faces" : kept(*other)}});
   }
 }
 
@@ -131,6 +147,7 @@ json diffJson(const pack::Pack& a, const pack::Pack& b) {
                          {"a", a.scene.textures[i].texels.size()},
                          {"b", b.scene.textures[i].texels.size()}});
   compareGeometry(a.scene, b.scene, changes);
+  compareMaps(a.scene, b.scene, changes);
   return {{"equal", a.hash == b.hash && sections.empty()}, {"sections", sections}, {"changes", changes}};
 }
 

@@ -1,5 +1,7 @@
 #include "bake/info.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "bake/effects/deepest_bounce.h"
@@ -17,6 +19,31 @@ glm::dvec3 boundOf(const pack::Scene& scene) {
   PictureRequest request;
   request.depth = scene.depth;
   return polarizationErrorBound(scene, request);
+}
+
+json errorsOf(const compress::Deviation& deviation) {
+  return {{"positionMax", deviation.positionMax},
+          {"normalMaxDegrees", deviation.normalMaxDegrees},
+          {"tiltMaxDegrees", deviation.tiltMaxDegrees}};
+}
+
+// Bits and the largest errors over all meshes, where the pack tells.
+std::string encodingText(const pack::Pack& pack) {
+  std::string text;
+  if (pack.encodings.known()) {
+    compress::Deviation worst;
+    for (const pack::MeshEncoding& m : pack.encodings.meshes) {
+      worst.positionMax = std::max(worst.positionMax, m.deviation.positionMax);
+      worst.normalMaxDegrees = std::max(worst.normalMaxDegrees, m.deviation.normalMaxDegrees);
+      worst.tiltMaxDegrees = std::max(worst.tiltMaxDegrees, m.deviation.tiltMaxDegrees);
+    }
+    text += fmt::format(
+        "  positions of {} bits within {:.3g} m, normals within {:.3g} degrees, faces tilted by at most {:.3g} "
+        "degrees\n",
+        pack.encodings.grid.positionBits, worst.positionMax, worst.normalMaxDegrees, worst.tiltMaxDegrees);
+  }
+  if (pack.hasSourceMap()) text += "  the source's vertices and faces are kept\n";
+  return text;
 }
 
 // The pack's effects; of one from before some of today's existed, those of today's rules.
@@ -39,7 +66,9 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                       {"triangles", m.triangles.size()},
                       {"material", scene.materials[m.material].name},
                       {"sheet", m.sheet},
-                      {"encoding", pack.compression[i]}});
+                      {"encoding", pack.compression[i]},
+                      {"normalBits", pack.encodings.known() ? json(pack.encodings.meshes[i].normalBits) : json()},
+                      {"errors", pack.encodings.known() ? errorsOf(pack.encodings.meshes[i].deviation) : json()}});
   }
   for (const pack::Material& m : scene.materials)
     materials.push_back({{"name", m.name},
@@ -65,6 +94,8 @@ json infoJson(const pack::Pack& pack, double tolerance) {
           {"vertices", scene.vertexCount()},
           {"triangles", scene.triangleCount()},
           {"geometryHash", hex(pack::canonicalGeometryHash(scene))},
+          {"positionBits", pack.encodings.known() ? json(pack.encodings.grid.positionBits) : json()},
+          {"sourceMap", pack.hasSourceMap()},
           {"meshes", meshes},
           {"materials", materials},
           {"lights", scene.lights.size()},
@@ -88,6 +119,7 @@ std::string infoText(const pack::Pack& pack, double tolerance) {
                         m.triangles.size(), scene.materials[m.material].name, m.sheet ? " (sheet)" : "",
                         pack.compression[i]);
   }
+  text += encodingText(pack);
   text += "\nmaterials\n";
   for (const pack::Material& m : scene.materials)
     text += fmt::format("  {:<24} {:<13} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}\n", m.name,

@@ -46,6 +46,7 @@ json provenanceJson(const pack::Scene& scene) {
 }
 
 std::string meshFile(std::size_t index) { return fmt::format("meshes/{:03}.ply", index); }
+std::string mapFile(std::size_t index) { return fmt::format("meshes/{:03}.map.json", index); }
 std::string textureFile(std::size_t index) { return fmt::format("textures/{:03}.exr", index); }
 
 json sceneJson(const pack::Pack& pack) {
@@ -59,6 +60,7 @@ json sceneJson(const pack::Pack& pack) {
                       {"sheet", mesh.sheet},
                       {"vertices", mesh.positions.size()},
                       {"triangles", mesh.triangles.size()}});
+    if (pack.hasSourceMap()) meshes.back()["map"] = mapFile(i);
   }
   for (const pack::Material& m : scene.materials) materials.push_back(materialJson(m));
   for (const pack::PointLight& light : scene.lights)

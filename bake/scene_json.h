@@ -13,7 +13,7 @@ namespace malus::bake {
 
 // {name, title, packHash, origin, resolution, depth, exposureEv, camera, environment, lights[], materials[],
 // textures[],
-//  meshes[{name, file, material, sheet, vertices, triangles}]}
+//  meshes[{name, file, material, sheet, vertices, triangles, map: where the pack keeps it}]}
 nlohmann::json sceneJson(const pack::Pack& pack);
 
 // Provenance is JSON that a baker wrote; a pack may come from anywhere: null where it is none. What is nested deep is
@@ -22,6 +22,7 @@ nlohmann::json provenanceJson(const pack::Scene& scene);
 
 // Files that it names, in the order of the pack.
 std::string meshFile(std::size_t index);
+std::string mapFile(std::size_t index);
 std::string textureFile(std::size_t index);
 inline constexpr const char* kEnvironmentFile = "environment.exr";
 

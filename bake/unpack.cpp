@@ -81,6 +81,11 @@ json unpack(const pack::Pack& pack, const fs::path& folder) {
 
   for (std::size_t i = 0; i < scene.meshes.size(); ++i)
     writeFile(folder / meshFile(i), std::string_view(plyOf(scene.meshes[i])));
+  if (pack.hasSourceMap())
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+      writeFile(
+          folder / mapFile(i),
+          json{{"vertices", scene.meshes[i].sourceVertices}, {"triangles", scene.meshes[i].sourceFaces}}.dump() + "\n");
   if (!scene.textures.empty()) fs::create_directories(folder / "textures", failed);
   for (std::size_t i = 0; i < scene.textures.size(); ++i) writeTexture(scene.textures[i], folder / textureFile(i));
   if (scene.environment.size > 0) writeEnvironment(scene.environment, folder / kEnvironmentFile);

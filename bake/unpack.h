@@ -5,8 +5,9 @@
 // up, forward (orthonormal), verticalFovDegrees, mediumEta}; environment {radiance} or {image, size: texels a
 // side without the border of one}, with diffuseFill and irradiance[9]; lights[{type, position, intensity}];
 // materials[{name, type, eta, k, outsideEta, albedo, radiance, highlight: null or {strength, exponent}}];
-// meshes[{name, file, material, sheet, vertices, triangles}]. Units and meanings: bake/SCENE.md. It is no source
-// for baking: normals and transforms are baked in.
+// meshes[{name, file, material, sheet, vertices, triangles}], with map where the pack keeps the map to the sources: a
+// JSON file {vertices[], triangles[]}, the vertex and the face of the source file, from 0, of each of the mesh's. Units
+// and meanings: bake/SCENE.md. It is no source for baking: normals and transforms are baked in.
 #pragma once
 
 #include <filesystem>

@@ -13,6 +13,7 @@
 
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/compress/bounds.h"
 #include "meshprep/compress/draco_mesh.h"
 #include "meshprep/prepare.h"
 
@@ -41,8 +42,8 @@ struct Arguments {
   std::string certify;
   bool json = false;
   Options options;
-  int positionBits = 20;
-  int normalBits = 12;
+  compress::Bounds bounds;
+  std::string mapFile;
 };
 
 // What compression takes: floats. Returns the largest distance that a position moves by that, in metres.
@@ -73,6 +74,19 @@ void requireCertificate(const Arguments& arguments, const Report& report) {
               first.repair, first.where);
 }
 
+// For each packed vertex and triangle, the vertex and face of the source file that it comes from.
+std::string mapJson(const Mesh& mesh, const compress::Encoded& encoded) {
+  const auto through = [](const std::vector<std::uint32_t>& order, const std::vector<std::uint32_t>& source) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const std::uint32_t i : order) list.push_back(source.empty() ? i : source[i]);
+    return list;
+  };
+  return nlohmann::json{{"vertices", through(encoded.sourceVertices, mesh.sourceVertices)},
+                        {"triangles", through(encoded.sourceTriangles, mesh.sourceFaces)}}
+             .dump() +
+         "\n";
+}
+
 void runPrep(const Arguments& arguments) {
   // Step 1: clean.
   Report report;
@@ -87,17 +101,24 @@ void runPrep(const Arguments& arguments) {
   // Step 2: compress, on a grid of the mesh's own.
   compress::TriangleMesh source;
   const double moved = toFloat(mesh, source);
-  compress::Settings settings;
-  settings.grid = compress::gridFor(source.positions, arguments.positionBits);
-  settings.normalBits = arguments.normalBits;
+  const compress::MeshView view = source;
+  const compress::Bits bits = compress::chooseBits({&view, 1}, arguments.bounds, moved);
+  const compress::Settings settings{bits.grid, bits.normalBits.front()};
   const compress::Encoded encoded = compress::encode(source, settings);
-  report.errors.positionMax = moved + static_cast<double>(encoded.positionErrorMax);
-  report.errors.normalMaxDegrees = static_cast<double>(encoded.normalErrorMaxDegrees);
+  report.compression.warnings = compress::judge(encoded.deviation, settings, arguments.bounds, arguments.input, moved);
+  report.errors = {moved + encoded.deviation.positionMax, encoded.deviation.normalMaxDegrees,
+                   encoded.deviation.tiltMaxDegrees, encoded.deviation.flipped, encoded.deviation.newDegenerate};
   report.compression.method = encoded.method;
   report.compression.bytes = encoded.bytes.size();
+  report.compression.whySequential = encoded.whySequential;
+  report.compression.positionBits = settings.grid.positionBits;
+  report.compression.normalBits = source.normals.empty() ? 0 : settings.normalBits;
+  report.compression.encodeMs = encoded.encodeMs;
+  report.compression.decodeMs = encoded.decodeMs;
 
   // Step 3: write, then tell.
   writeFile(arguments.output, encoded.bytes);
+  if (!arguments.mapFile.empty()) writeFile(arguments.mapFile, std::string_view(mapJson(mesh, encoded)));
   tell(arguments, report);
 }
 
@@ -153,14 +174,23 @@ void addPrepCommand(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("SHARE")
       ->capture_default_str();
-  prep->add_option("--position-bits", arguments->positionBits, "Steps of the grid along an axis: 2^N - 1")
-      ->check(CLI::Range(1, 22))
-      ->type_name("N")
-      ->capture_default_str();
-  prep->add_option("--normal-bits", arguments->normalBits, "Precision of normals")
-      ->check(CLI::Range(2, 16))
-      ->type_name("N")
-      ->capture_default_str();
+  prep->add_option("--max-error", arguments->bounds.maxError, "No vertex is farther from its source than this")
+      ->check(CLI::PositiveNumber)
+      ->type_name("METRES");
+  prep->add_option("--max-normal-error", arguments->bounds.maxNormalErrorDegrees,
+                   "No normal is farther from its source than this; 0.05 is tried unless asked")
+      ->check(CLI::PositiveNumber)
+      ->type_name("DEGREES");
+  prep->add_option("--position-bits", arguments->bounds.positionBits,
+                   "Just these steps of the grid along an axis, 2^N - 1, whatever error they bring")
+      ->check(CLI::Range(1, compress::kMaxPositionBits))
+      ->type_name("N");
+  prep->add_option("--normal-bits", arguments->bounds.normalBits, "Just this precision of normals")
+      ->check(CLI::Range(compress::kMinNormalBits, compress::kMaxNormalBits))
+      ->type_name("N");
+  prep->add_option("--keep-map", arguments->mapFile,
+                   "Also write, as JSON, the source's vertex and face of every packed vertex and triangle")
+      ->type_name("FILE");
   prep->callback([arguments] { runPrep(*arguments); });
 }
 

@@ -8,6 +8,15 @@
 
 namespace malus::prep {
 
+namespace {
+
+double bytesPerTriangle(const Report& report) {
+  return static_cast<double>(report.compression.bytes) /
+         static_cast<double>(std::max<std::uint64_t>(report.output.triangles, 1));
+}
+
+}  // namespace
+
 std::uint64_t Report::count(std::string_view step) const {
   const auto found = std::find_if(steps.begin(), steps.end(), [&](const Step& s) { return s.name == step; });
   return found == steps.end() ? 0 : found->count;
@@ -73,8 +82,20 @@ nlohmann::json toJson(const Report& report) {
           {{"component", p.component}, {"what", p.what}, {"where", p.where}, {"repair", p.repair}});
   }
   if (report.compression.bytes > 0) {
-    json["errors"] = {{"positionMax", report.errors.positionMax}, {"normalMaxDegrees", report.errors.normalMaxDegrees}};
-    json["compression"] = {{"method", report.compression.method}, {"bytes", report.compression.bytes}};
+    json["errors"] = {{"positionMax", report.errors.positionMax},
+                      {"normalMaxDegrees", report.errors.normalMaxDegrees},
+                      {"tiltMaxDegrees", report.errors.tiltMaxDegrees},
+                      {"flipped", report.errors.flipped},
+                      {"degenerate", report.errors.degenerate}};
+    json["compression"] = {{"method", report.compression.method},
+                           {"whySequential", report.compression.whySequential},
+                           {"bytes", report.compression.bytes},
+                           {"bytesPerTriangle", bytesPerTriangle(report)},
+                           {"positionBits", report.compression.positionBits},
+                           {"normalBits", report.compression.normalBits},
+                           {"encodeMs", report.compression.encodeMs},
+                           {"decodeMs", report.compression.decodeMs},
+                           {"warnings", report.compression.warnings}};
   }
   return json;
 }
@@ -113,10 +134,16 @@ std::string toText(const Report& report) {
 
   // Step 5: compression.
   if (report.compression.bytes > 0) {
+    const auto& c = report.compression;
+    text += fmt::format("  {:<34}{:>12} bytes, {:.2f} a triangle\n", "compressed", c.bytes, bytesPerTriangle(report));
     text +=
-        fmt::format("  {:<34}{:>12} bytes, {}\n", "compressed", report.compression.bytes, report.compression.method);
+        fmt::format("  {:<34}{:>12}{}{}\n", "  method", c.method, c.whySequential.empty() ? "" : ": ", c.whySequential);
+    text += fmt::format("  {:<34}{:>12} positions, {} normals\n", "  bits", c.positionBits, c.normalBits);
+    text += fmt::format("  {:<34}{:>12.1f} ms to encode, {:.1f} ms to decode\n", "  time", c.encodeMs, c.decodeMs);
     text += fmt::format("  {:<34}{:>12.3g} m\n", "position error, at most", report.errors.positionMax);
     text += fmt::format("  {:<34}{:>12.3g} degrees\n", "normal error, at most", report.errors.normalMaxDegrees);
+    text += fmt::format("  {:<34}{:>12.3g} degrees\n", "tilt of a face, at most", report.errors.tiltMaxDegrees);
+    for (const std::string& warning : c.warnings) text += fmt::format("  warning: {}\n", warning);
   }
   return text;
 }

@@ -65,12 +65,20 @@ struct Report {
 
   // Set where the mesh was compressed: bytes > 0.
   struct {
-    double positionMax = 0;       // metres
-    double normalMaxDegrees = 0;  // degrees
+    double positionMax = 0;        // metres
+    double normalMaxDegrees = 0;   // degrees
+    double tiltMaxDegrees = 0;     // of faces that have area
+    std::uint64_t flipped = 0;     // faces tilted by more than 90 degrees
+    std::uint64_t degenerate = 0;  // faces that lost their area
   } errors;
   struct {
     std::string method;
     std::uint64_t bytes = 0;
+    std::string whySequential;  // empty where the method is edgebreaker
+    int positionBits = 0;
+    int normalBits = 0;                 // 0 where there are no normals
+    double encodeMs = 0, decodeMs = 0;  // wall clock
+    std::vector<std::string> warnings;  // default bounds that are not kept
   } compression;
 
   // The count of a step; 0 where there was no such step.
@@ -80,9 +88,10 @@ struct Report {
 // {source, notes[], input{vertices, faces}, output{vertices, triangles},
 //  steps[{name, count, findings[{vertices, faces, at, what, place}]}],
 //  components[{triangles, closed, orientable, flipped, signedVolume, hasVolume, at, firstFace}],
-//  certificate{holds, problems[{component, what, where, repair}]}, errors{positionMax, normalMaxDegrees},
-//  compression{method, bytes}}; certificate only where it was asked for, errors and compression only where the mesh
-// was compressed, findings and their parts only where there are any.
+//  certificate{holds, problems[{component, what, where, repair}]}, errors{positionMax, normalMaxDegrees,
+//  tiltMaxDegrees, flipped, degenerate}, compression{method, whySequential, bytes, bytesPerTriangle, positionBits,
+//  normalBits, encodeMs, decodeMs, warnings}}; certificate only where it was asked for, errors and compression only
+// where the mesh was compressed, findings and their parts only where there are any.
 nlohmann::json toJson(const Report& report);
 
 // A table for a terminal, ending in a line break. Steps that found nothing are left out; of the others the first

@@ -57,6 +57,8 @@ inline constexpr const char* kTextures = "TEXR";  // there where it has textures
 inline constexpr const char* kSky = "SKYP";       // there where the sky is polarized
 inline constexpr const char* kMeshes = "MESH";
 inline constexpr const char* kGeometry = "GEOM";
+inline constexpr const char* kEncodings = "ENCD";   // optional
+inline constexpr const char* kSourceMap = "SMAP";   // optional; there where it was asked for
 inline constexpr const char* kEffects = "EFCT";     // optional
 inline constexpr const char* kProvenance = "PROV";  // optional
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <iterator>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -12,9 +9,10 @@
 
 #include "bake/pack/bytes.h"
 #include "bake/pack/half.h"
+#include "bake/pack/mesh_reader.h"
+#include "bake/pack/table.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
-#include "meshprep/compress/draco_mesh.h"
 
 namespace malus::pack {
 
@@ -23,71 +21,6 @@ namespace {
 // Largest magnitudes of the schema: beyond them float squares overflow.
 constexpr double kMaxLength = 1e15;
 constexpr double kMaxLight = 1e15;
-
-std::string idText(std::span<const std::byte> bytes) {
-  std::string id(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  for (char& c : id)
-    if (c < ' ' || c > '~') c = '?';
-  return id;
-}
-
-// Header and table; every hash is checked here.
-Pack readTable(std::span<const std::byte> bytes, std::string_view where) {
-  Pack pack;
-  if (bytes.size() < kMagic.size() || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
-    throw Error(where, "is not a scene pack", "a file that starts with MALUSPAK");
-  ByteReader header(bytes, 0, where);
-  header.raw(kMagic.size());
-  pack.formatVersion = header.u32();
-  if (pack.formatVersion != kFormatVersion)
-    throw Error(where,
-                pack.formatVersion > kFormatVersion ? "scene pack is newer than this malus"
-                                                    : "scene pack is older than this malus reads",
-                fmt::format("format version {}", kFormatVersion), fmt::format("{}", pack.formatVersion));
-  const std::uint32_t count = header.u32AtMost(kMaxSections, "number of sections");
-  const std::uint64_t fileBytes = header.u64();
-  const std::uint64_t tableHash = header.u64();
-  const std::uint64_t headerHash = header.u64();
-  if (headerHash != hashOf(bytes.first(kHeaderBytes - 8)))
-    header.fail("header is damaged", "a matching hash", "another");
-  if (fileBytes != bytes.size())
-    throw Error(where, bytes.size() < fileBytes ? "file is truncated" : "file is longer than its pack",
-                fmt::format("{} bytes", fileBytes), fmt::format("{}", bytes.size()));
-  const std::uint64_t tableBytes = std::uint64_t{count} * kEntryBytes;
-  const std::span<const std::byte> table = header.raw(tableBytes);
-  if (tableHash != hashOf(table)) header.fail("table of sections is damaged", "a matching hash", "another");
-  pack.hash = hashOf(bytes.first(kHeaderBytes + static_cast<std::size_t>(tableBytes)));
-  ByteReader reader(table, kHeaderBytes, where);
-  std::uint64_t end = kHeaderBytes + tableBytes;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    Section section;
-    section.id = idText(reader.raw(4));
-    section.version = reader.u32();
-    section.flags = reader.u32();
-    reader.u32();
-    section.offset = reader.u64();
-    section.sizeBytes = reader.u64();
-    section.hash = reader.u64();
-    if (section.offset % kAlignment != 0 || section.offset < end || section.offset > bytes.size() ||
-        section.sizeBytes > bytes.size() - section.offset)
-      reader.fail(fmt::format("section {} lies outside the file or over another", section.id),
-                  "an offset past the last section",
-                  fmt::format("offset {}, size {}", section.offset, section.sizeBytes));
-    // Padding is zero, so that no bit of the file is without meaning.
-    for (std::uint64_t at = end; at < section.offset; ++at)
-      if (bytes[static_cast<std::size_t>(at)] != std::byte{0})
-        throw Error(fmt::format("{}, byte {}", where, at), "padding is damaged", "zero");
-    end = section.offset + section.sizeBytes;
-    if (section.hash !=
-        hashOf(bytes.subspan(static_cast<std::size_t>(section.offset), static_cast<std::size_t>(section.sizeBytes))))
-      throw Error(fmt::format("{}, byte {}", where, section.offset), fmt::format("section {} is damaged", section.id),
-                  "a matching hash", "another");
-    pack.sections.push_back(section);
-  }
-  if (end != bytes.size())
-    throw Error(where, "bytes after the last section", fmt::format("{} bytes", end), fmt::format("{}", bytes.size()));
-  return pack;
-}
 
 void readMeta(ByteReader r, Scene& scene) {
   scene.name = r.text();
@@ -281,52 +214,6 @@ void readSurfaces(ByteReader r, const std::vector<Texture>& textures, std::vecto
   r.end();
 }
 
-void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::string_view where, Pack& pack) {
-  const std::uint32_t count = r.count(40, "number of meshes");
-  if (count > kMaxMeshes) r.fail("number of meshes", fmt::format("at most {}", kMaxMeshes), fmt::format("{}", count));
-  if (count == 0) r.fail("number of meshes", "at least 1", "0");
-  std::uint64_t vertices = 0, triangles = 0, end = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    Mesh mesh;
-    mesh.name = r.text();
-    mesh.material = r.u32();
-    if (mesh.material >= pack.scene.materials.size())
-      r.fail("material of a mesh", fmt::format("an index below {}", pack.scene.materials.size()),
-             fmt::format("{}", mesh.material));
-    const std::uint32_t flags = r.u32AtMost(3, "flags of a mesh");
-    mesh.sheet = (flags & 1) != 0;
-    const compress::Limits limits{r.u32AtMost(kMaxVertices, "vertices of a mesh"),
-                                  r.u32AtMost(kMaxTriangles, "triangles of a mesh")};
-    const std::uint32_t method = r.u32AtMost(1, "encoding of a mesh");
-    const std::uint64_t offset = r.u64(), size = r.u64();
-    // In order and apart: no byte is decoded twice, so a small file cannot claim the same mesh many times.
-    if (offset % kAlignment != 0 || offset < end || offset > geometry.size() || size > geometry.size() - offset)
-      r.fail(fmt::format("geometry of mesh '{}'", mesh.name),
-             fmt::format("bytes from {} on within the {} of section GEOM", end, geometry.size()),
-             fmt::format("offset {}, size {}", offset, size));
-    end = offset + size;
-    vertices += limits.vertices;
-    triangles += limits.triangles;
-    if (vertices > kMaxVertices || triangles > kMaxTriangles)
-      r.fail("geometry is too large", "at most 2^28 vertices and triangles", "more");
-    compress::TriangleMesh decoded =
-        compress::decode(geometry.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size)), limits,
-                         fmt::format("{}, mesh '{}'", where, mesh.name));
-    if (decoded.normals.empty() != ((flags & 2) == 0))
-      r.fail(fmt::format("normals of mesh '{}'", mesh.name), "as the table says", "otherwise");
-    for (const glm::vec3& p : decoded.positions)
-      if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > static_cast<float>(kMaxCoordinate))
-        r.fail(fmt::format("positions of mesh '{}'", mesh.name),
-               fmt::format("coordinates within {:g} m of the scene's origin", kMaxCoordinate), "others");
-    mesh.positions = std::move(decoded.positions);
-    mesh.normals = std::move(decoded.normals);
-    mesh.triangles = std::move(decoded.triangles);
-    pack.compression.emplace_back(method == 1 ? "edgebreaker" : "sequential");
-    pack.scene.meshes.push_back(std::move(mesh));
-  }
-  r.end();
-}
-
 void readEffects(ByteReader r, std::vector<Effect>& effects) {
   const std::uint32_t count = r.count(12, "number of effects");
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -342,28 +229,9 @@ void readEffects(ByteReader r, std::vector<Effect>& effects) {
 }  // namespace
 
 Pack parse(std::span<const std::byte> bytes, std::string_view where) {
-  Pack pack = readTable(bytes, where);
-  const auto find = [&](const char* id, bool required) -> std::optional<std::size_t> {
-    std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < pack.sections.size(); ++i)
-      if (pack.sections[i].id == id) {
-        if (found) throw Error(where, fmt::format("section {} is there twice", id));
-        found = i;
-      }
-    if (!found && required) throw Error(where, fmt::format("section {} is missing", id));
-    return found;
-  };
-  for (const Section& section : pack.sections) {
-    static const char* const kKnown[] = {kMeta,     kCamera, kEnvironment, kLights,   kMaterials, kSurfaces,
-                                         kTextures, kSky,    kMeshes,      kGeometry, kEffects,   kProvenance};
-    const bool known =
-        std::any_of(std::begin(kKnown), std::end(kKnown), [&](const char* id) { return section.id == id; });
-    if (!known && (section.flags & kOptional) == 0)
-      throw Error(where, fmt::format("section {} is required and unknown to this malus", section.id), "a newer malus");
-    if (known && section.version != 1)
-      throw Error(where, fmt::format("section {} has an unknown version", section.id), "1",
-                  fmt::format("{}", section.version));
-  }
+  Pack pack;
+  readTable(bytes, where, pack);
+  const auto find = [&](const char* id, bool required) { return findSection(pack.sections, id, required, where); };
   const auto body = [&](std::size_t i) {
     return bytes.subspan(static_cast<std::size_t>(pack.sections[i].offset),
                          static_cast<std::size_t>(pack.sections[i].sizeBytes));
@@ -380,7 +248,10 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
     if ((m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate) && m.axis == glm::dvec3(0.0))
       throw Error(where, fmt::format("section {} is missing", kSurfaces), fmt::format("the axis of '{}'", m.name));
   if (const auto at = find(kSky, false)) readSky(reader(*at), pack.scene.environment);
-  readMeshes(reader(*find(kMeshes, true)), body(*find(kGeometry, true)), where, pack);
+  const std::size_t geometry = *find(kGeometry, true);
+  readMeshes(reader(*find(kMeshes, true)), body(geometry), pack.sections[geometry].offset, where, pack);
+  if (const auto at = find(kEncodings, false)) pack.encodings = readEncodings(reader(*at), pack.scene.meshes.size());
+  if (const auto at = find(kSourceMap, false)) readSourceMap(reader(*at), pack.scene.meshes);
   if (const auto at = find(kEffects, false)) readEffects(reader(*at), pack.scene.effects);
   if (const auto at = find(kProvenance, false)) {
     ByteReader r = reader(*at);

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "bake/pack/encodings.h"
 #include "bake/pack/format.h"
 #include "bake/pack/scene.h"
 
@@ -20,6 +22,9 @@ struct Pack {
   std::uint64_t hash = 0;         // over the header's and the table's bytes, hence over all hashes
   Scene scene;
   std::vector<std::string> compression;  // per mesh: "edgebreaker" or "sequential"
+  std::vector<DracoData> geometry;       // per mesh: where its bytes are
+  Encodings encodings;                   // how it was encoded, where the pack says so: known()
+  bool hasSourceMap() const { return !scene.meshes.empty() && !scene.meshes.front().sourceVertices.empty(); }
 };
 
 // Throws Error: not a pack, older or newer than this reader, truncated, a hash that does not match,

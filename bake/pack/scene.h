@@ -118,6 +118,9 @@ struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;     // unit, one per position; empty: those of the faces
   std::vector<glm::uvec3> triangles;  // counter-clockwise seen from outside
+
+  // Kept on request: the vertex and the face of the source file, from 0, that each vertex and triangle comes from.
+  std::vector<std::uint32_t> sourceVertices, sourceFaces;
 };
 
 // One bit of the effect set, with the reason for its being on or off.

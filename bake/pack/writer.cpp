@@ -3,16 +3,14 @@
 #include <xxhash.h>
 
 #include <algorithm>
-
-#include <fmt/format.h>
+#include <utility>
 
 #include "bake/pack/bytes.h"
 #include "bake/pack/format.h"
 #include "bake/pack/half.h"
+#include "bake/pack/mesh_writer.h"
 #include "bake/pack/reader.h"
 #include "meshprep/base/atomic_file.h"
-#include "meshprep/base/error.h"
-#include "meshprep/compress/draco_mesh.h"
 
 namespace malus::pack {
 
@@ -125,13 +123,6 @@ std::vector<std::byte> skyBytes(const Environment& environment) {
   return w.take();
 }
 
-// The cube that holds every vertex: one grid for the whole scene, so that nothing cracks.
-compress::Grid sceneGrid(const Scene& scene, int positionBits) {
-  std::vector<glm::vec3> all;
-  for (const Mesh& mesh : scene.meshes) all.insert(all.end(), mesh.positions.begin(), mesh.positions.end());
-  return compress::gridFor(all, positionBits);
-}
-
 std::vector<std::byte> effectBytes(const std::vector<Effect>& effects) {
   ByteWriter w;
   w.u32(static_cast<std::uint32_t>(effects.size()));
@@ -181,31 +172,13 @@ std::vector<std::byte> assemble(const std::vector<Body>& bodies) {
 
 }  // namespace
 
-Written serialize(const Scene& scene, const WriteSettings& settings) {
+Written serialize(const Scene& scene, const WriteSettings& settings, const OlderPack* older) {
+  EncodedMeshes encoded = encodeMeshes(scene, settings, older);
   Written written;
-  const compress::Settings codec{sceneGrid(scene, settings.positionBits), settings.normalBits};
-  ByteWriter table, geometry;
-  table.u32(static_cast<std::uint32_t>(scene.meshes.size()));
-  for (const Mesh& mesh : scene.meshes) {
-    compress::Encoded encoded;
-    try {
-      encoded = compress::encode({mesh.positions, mesh.normals, mesh.triangles}, codec);
-    } catch (const Error& error) {
-      throw Error(fmt::format("mesh '{}'", mesh.name), error.what());
-    }
-    geometry.padTo(kAlignment);
-    table.text(mesh.name);
-    table.u32(mesh.material);
-    table.u32((mesh.sheet ? 1u : 0u) | (mesh.normals.empty() ? 0u : 2u));
-    table.u32(static_cast<std::uint32_t>(encoded.decoded.positions.size()));
-    table.u32(static_cast<std::uint32_t>(encoded.decoded.triangles.size()));
-    table.u32(encoded.method == "edgebreaker" ? 1 : 0);
-    table.u64(geometry.size());
-    table.u64(encoded.bytes.size());
-    geometry.raw(encoded.bytes);
-    written.meshes.push_back(
-        {encoded.method, encoded.bytes.size(), encoded.positionErrorMax, encoded.normalErrorMaxDegrees});
-  }
+  written.meshes = std::move(encoded.report);
+  written.grid = encoded.encodings.grid;
+  written.warnings = std::move(encoded.warnings);
+  written.whyAll = std::move(encoded.whyAll);
   std::vector<Body> bodies;
   bodies.push_back({kMeta, 0, metaBytes(scene)});
   bodies.push_back({kCamera, 0, cameraBytes(scene.camera)});
@@ -217,16 +190,19 @@ Written serialize(const Scene& scene, const WriteSettings& settings) {
     bodies.push_back({kSurfaces, 0, surfaceBytes(scene.materials)});
   if (!scene.textures.empty()) bodies.push_back({kTextures, 0, textureBytes(scene.textures)});
   if (scene.environment.hasSun()) bodies.push_back({kSky, 0, skyBytes(scene.environment)});
-  bodies.push_back({kMeshes, 0, table.take()});
-  bodies.push_back({kGeometry, 0, geometry.take()});
+  bodies.push_back({kMeshes, 0, std::move(encoded.table)});
+  bodies.push_back({kGeometry, 0, std::move(encoded.geometry)});
+  bodies.push_back({kEncodings, kOptional, encodingBytes(encoded.encodings)});
+  if (settings.keepMap) bodies.push_back({kSourceMap, kOptional, std::move(encoded.map)});
   bodies.push_back({kEffects, kOptional, effectBytes(scene.effects)});
   bodies.push_back({kProvenance, kOptional, textBytes(scene.provenance)});
   written.bytes = assemble(bodies);
   return written;
 }
 
-Written write(const std::filesystem::path& path, const Scene& scene, const WriteSettings& settings) {
-  Written written = serialize(scene, settings);
+Written write(const std::filesystem::path& path, const Scene& scene, const WriteSettings& settings,
+              const OlderPack* older) {
+  Written written = serialize(scene, settings, older);
   parse(written.bytes, path.string());  // what cannot be read back is not written
   writeFile(path, written.bytes);
   return written;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/base/unfinished_files.h"
 
 namespace malus {
 namespace fs = std::filesystem;
@@ -79,14 +80,14 @@ std::string readTextFile(const fs::path& path, std::size_t maxBytes) {
 }
 
 void writeBeside(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  static std::atomic<unsigned> counter{0};
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
     throw Error(path.string(), "cannot write", "an existing folder", folder.string());
   if (fs::is_directory(path, ignored)) throw Error(path.string(), "cannot write", "a file name", "a folder");
-  const fs::path temporary =
-      folder / fmt::format(".{}.{}-{}.part{}", path.stem().string(), ::getpid(), counter++, path.extension().string());
+  removeAbandoned(path);
+  const UnfinishedFile unfinished(path);
+  const fs::path& temporary = unfinished.path();
   const bool registered = temporary.native().size() < sizeof gUnfinished;
   if (registered) {
     std::memcpy(gUnfinished, temporary.c_str(), temporary.native().size() + 1);
@@ -95,21 +96,16 @@ void writeBeside(const fs::path& path, const std::function<void(const fs::path&)
   struct Unregister {
     ~Unregister() { gHasUnfinished = false; }
   } unregister;
-  try {
-    write(temporary);
-    flushToDisk(temporary);
-    std::error_code failed;
-    fs::rename(temporary, path, failed);
-    if (failed) throw Error(path.string(), "cannot write", "", failed.message());
-  } catch (...) {
-    fs::remove(temporary, ignored);
-    throw;
-  }
+  write(temporary);
+  flushToDisk(temporary);
+  std::error_code failed;
+  fs::rename(temporary, path, failed);
+  if (failed) throw Error(path.string(), "cannot write", "", failed.message());
 }
 
 void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
   writeBeside(path, [&](const fs::path& temporary) {
-    const Descriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
+    const Descriptor file{::open(temporary.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC)};
     if (file.fd < 0) throw Error(path.string(), "cannot write", "a writable folder", systemMessage(errno));
     writeAll(file.fd, bytes, path);
   });

@@ -1,5 +1,7 @@
 // Whole files, read and written in one go. A file is written beside its final name, flushed to disk and
 // renamed: a reader sees the old file or the new one, never half of one.
+//
+// What a writer that was killed left behind is removed by the next one of the same file (unfinished_files.h).
 #pragma once
 
 #include <cstddef>
@@ -21,7 +23,8 @@ void writeFile(const std::filesystem::path& path, std::span<const std::byte> byt
 void writeFile(const std::filesystem::path& path, std::string_view text);
 
 // For writers that need a path of their own: calls write(temporary), then renames temporary to path.
-// The temporary has the extension of path. On any exception the temporary is removed and path is as it was.
+// The temporary is there, empty and locked, and has the extension of path: write opens and fills it, and neither
+// removes nor replaces it. On any exception the temporary is removed and path is as it was.
 void writeBeside(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path& temporary)>& write);
 

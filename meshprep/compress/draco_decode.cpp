@@ -1,8 +1,8 @@
 // Decoding under guard: counts are compared before Draco runs, attributes before their values are
 // allocated, and every value afterwards.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <string>
 
@@ -72,18 +72,25 @@ void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, draco::Mesh&
 // The values of one attribute, one a vertex.
 std::vector<glm::vec3> attributeValues(const draco::PointAttribute& attribute, std::uint32_t vertices,
                                        std::string_view what, std::string_view where) {
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
   std::vector<glm::vec3> values(vertices);
   const std::size_t available = attribute.buffer() == nullptr ? 0 : attribute.buffer()->data_size() / sizeof(glm::vec3);
-  for (std::uint32_t i = 0; i < vertices; ++i) {
-    const draco::AttributeValueIndex index = attribute.mapped_index(draco::PointIndex(i));
-    if (index.value() >= attribute.size() || index.value() >= available)
-      throw Error(where, fmt::format("{} of vertex {} is missing", what, i));
-    std::array<float, 3> value{};
-    attribute.GetValue(index, value.data());
-    values[i] = {value[0], value[1], value[2]};
-    if (!std::isfinite(value[0]) || !std::isfinite(value[1]) || !std::isfinite(value[2]))
-      throw Error(where, fmt::format("{} of vertex {} is not finite", what, i));
+  // As Draco leaves the meshes that encode() writes: one value a vertex, one behind the other.
+  const bool plain = attribute.is_mapping_identity() && attribute.byte_stride() == sizeof(glm::vec3) &&
+                     attribute.byte_offset() == 0 && attribute.size() >= vertices && available >= vertices;
+  if (plain) {
+    std::memcpy(values.data(), attribute.buffer()->data(), vertices * sizeof(glm::vec3));
+  } else {
+    for (std::uint32_t i = 0; i < vertices; ++i) {
+      const draco::AttributeValueIndex index = attribute.mapped_index(draco::PointIndex(i));
+      if (index.value() >= attribute.size() || index.value() >= available)
+        throw Error(where, fmt::format("{} of vertex {} is missing", what, i));
+      attribute.GetValue(index, &values[i]);
+    }
   }
+  for (std::uint32_t i = 0; i < vertices; ++i)
+    if (!std::isfinite(values[i].x) || !std::isfinite(values[i].y) || !std::isfinite(values[i].z))
+      throw Error(where, fmt::format("{} of vertex {} is not finite", what, i));
   return values;
 }
 
@@ -103,6 +110,12 @@ TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std:
                 fmt::format("{} and {}", header.vertices, header.triangles));
   if (limits.triangles > kMaxTriangles || limits.vertices > kMaxTriangles || limits.vertices == 0)
     throw Error(where, "Draco data of an impossible size", fmt::format("1 to {} vertices and triangles", kMaxTriangles),
+                fmt::format("{} and {}", limits.vertices, limits.triangles));
+
+  const std::uint64_t most = kMostPerByte * bytes.size();
+  if (limits.triangles > most || limits.vertices > most)
+    throw Error(where, "Draco data too small for what it claims",
+                fmt::format("at most {} vertices and triangles in {} bytes", most, bytes.size()),
                 fmt::format("{} and {}", limits.vertices, limits.triangles));
 
   // Step 2: decode.

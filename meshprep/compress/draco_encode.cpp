@@ -1,33 +1,29 @@
 // Encoding, proved by decoding. The sequential encoding is compared with the input; the edgebreaker
 // encoding is compared with the sequential one, whose values went through the same quantization.
 #include <algorithm>
-#include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
-#include <draco/compression/expert_encode.h>
-#include <draco/core/encoder_buffer.h>
-#include <draco/mesh/mesh.h>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "meshprep/base/error.h"
+#include "meshprep/compress/deviation.h"
 #include "meshprep/compress/draco_mesh.h"
+#include "meshprep/compress/draco_write.h"
+#include "meshprep/compress/reordering.h"
 
 namespace malus::compress {
 
 namespace {
 
 constexpr std::string_view kWhere = "mesh to compress";
-constexpr int kMaxPositionBits = 22;
-constexpr int kMinNormalBits = 2;
-constexpr int kMaxNormalBits = 16;
-constexpr int kSpeed = 3;  // of 0 (smallest) to 10: valence edgebreaker, parallelogram prediction
 
 bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -43,12 +39,7 @@ float axisTolerance(const Grid& grid) {
 // every further bit; doubled here for room, and a little for the rounding of float.
 double normalTolerance(int normalBits) { return 2.0 * 0.9 * std::pow(2.0, 8 - normalBits) + 0.05; }
 
-double angleDegrees(const glm::vec3& a, const glm::vec3& b) {
-  const glm::dvec3 u(a), v(b);
-  return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
-}
-
-void checkInput(const TriangleMesh& mesh, const Settings& settings) {
+void checkInput(const MeshView& mesh, const Settings& settings) {
   // Step 1: settings.
   const Grid& grid = settings.grid;
   if (grid.positionBits < 1 || grid.positionBits > kMaxPositionBits)
@@ -90,52 +81,11 @@ void checkInput(const TriangleMesh& mesh, const Settings& settings) {
   }
 }
 
-int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, const std::vector<glm::vec3>& values) {
-  draco::GeometryAttribute description;
-  description.Init(type, nullptr, 3, draco::DT_FLOAT32, false, 3 * sizeof(float), 0);
-  const int id = mesh.AddAttribute(description, true, static_cast<std::uint32_t>(values.size()));
-  for (std::uint32_t i = 0; i < values.size(); ++i) {
-    const std::array<float, 3> value{values[i].x, values[i].y, values[i].z};
-    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), value.data());
-  }
-  return id;
-}
-
-// Bytes of one encoding; nothing where Draco refuses.
-std::optional<std::vector<std::byte>> encodeWith(draco::MeshEncoderMethod method, const TriangleMesh& mesh,
-                                                 const Settings& settings) {
-  // One point a vertex, in our order: no deduplication.
-  draco::Mesh source;
-  source.set_num_points(static_cast<std::uint32_t>(mesh.positions.size()));
-  source.SetNumFaces(mesh.triangles.size());
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const glm::uvec3 t = mesh.triangles[i];
-    source.SetFace(draco::FaceIndex(i), {draco::PointIndex(t.x), draco::PointIndex(t.y), draco::PointIndex(t.z)});
-  }
-  const int positions = addAttribute(source, draco::GeometryAttribute::POSITION, mesh.positions);
-  int normals = -1;
-  if (!mesh.normals.empty()) normals = addAttribute(source, draco::GeometryAttribute::NORMAL, mesh.normals);
-
-  // Plain quantization to the caller's grid; Draco's own would fit the grid to each mesh.
-  draco::ExpertEncoder encoder(source);
-  const Grid& grid = settings.grid;
-  const std::array<float, 3> origin{grid.origin.x, grid.origin.y, grid.origin.z};
-  encoder.SetSpeedOptions(kSpeed, kSpeed);
-  encoder.SetEncodingMethod(method);
-  encoder.SetAttributeExplicitQuantization(positions, grid.positionBits, 3, origin.data(), grid.range);
-  if (normals >= 0) encoder.SetAttributeQuantization(normals, settings.normalBits);
-
-  draco::EncoderBuffer buffer;
-  if (!encoder.EncodeToBuffer(&buffer).ok()) return std::nullopt;
-  const auto* data = reinterpret_cast<const std::byte*>(buffer.data());
-  return std::vector<std::byte>(data, data + buffer.size());
-}
-
 // The sequential result must be the input, in its order, within the steps of the grid.
-void compareWithSource(const TriangleMesh& mesh, const Settings& settings, Encoded& encoded) {
+void compareWithSource(const MeshView& mesh, const Settings& settings, Encoded& encoded) {
   const TriangleMesh& decoded = encoded.decoded;
-  if (decoded.triangles != mesh.triangles || decoded.positions.size() != mesh.positions.size() ||
-      decoded.normals.size() != mesh.normals.size())
+  if (!std::equal(decoded.triangles.begin(), decoded.triangles.end(), mesh.triangles.begin(), mesh.triangles.end()) ||
+      decoded.positions.size() != mesh.positions.size() || decoded.normals.size() != mesh.normals.size())
     throw Error(kWhere, "Draco changed the triangles", "the same indices in the same order");
   const float tolerance = axisTolerance(settings.grid);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -143,61 +93,59 @@ void compareWithSource(const TriangleMesh& mesh, const Settings& settings, Encod
     if (std::max({off.x, off.y, off.z}) > tolerance)
       throw Error(kWhere, fmt::format("Draco moved position {}", i), fmt::format("at most {}", tolerance),
                   fmt::format("{}", glm::length(off)));
-    encoded.positionErrorMax = std::max(encoded.positionErrorMax, glm::length(off));
   }
-  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
-    const double off = angleDegrees(decoded.normals[i], mesh.normals[i]);
-    if (!(off <= normalTolerance(settings.normalBits)))
-      throw Error(kWhere, fmt::format("Draco turned normal {}", i),
-                  fmt::format("at most {} degrees", normalTolerance(settings.normalBits)), fmt::format("{}", off));
-    encoded.normalErrorMaxDegrees = std::max(encoded.normalErrorMaxDegrees, static_cast<float>(off));
-  }
+  encoded.deviation = deviationOf(mesh, decoded.positions, decoded.normals);
+  if (!(encoded.deviation.normalMaxDegrees <= normalTolerance(settings.normalBits)))
+    throw Error(kWhere, "Draco turned a normal",
+                fmt::format("at most {} degrees", normalTolerance(settings.normalBits)),
+                fmt::format("{}", encoded.deviation.normalMaxDegrees));
 }
 
-// One vertex by value: bit-equal results of the same quantization compare equal.
-using VertexValue = std::array<float, 6>;
+using Clock = std::chrono::steady_clock;
 
-std::vector<VertexValue> vertexValues(const TriangleMesh& mesh) {
-  std::vector<VertexValue> values(mesh.positions.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const glm::vec3 p = mesh.positions[i];
-    const glm::vec3 n = mesh.normals.empty() ? glm::vec3(0) : mesh.normals[i];
-    values[i] = {p.x, p.y, p.z, n.x, n.y, n.z};
-  }
-  return values;
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Triangles as ranks of their corners' values, turned so that the smallest turn comes first (orientation
-// is kept), sorted. Empty where a corner's value is not among `distinct`.
-std::vector<std::array<std::size_t, 3>> canonicalTriangles(const TriangleMesh& mesh,
-                                                           const std::vector<VertexValue>& distinct) {
-  std::vector<std::size_t> rank(mesh.positions.size());
-  const std::vector<VertexValue> values = vertexValues(mesh);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto found = std::lower_bound(distinct.begin(), distinct.end(), values[i]);
-    if (found == distinct.end() || *found != values[i]) return {};
-    rank[i] = static_cast<std::size_t>(found - distinct.begin());
-  }
-  std::vector<std::array<std::size_t, 3>> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const glm::uvec3& t : mesh.triangles) {
-    const std::size_t a = rank[t.x], b = rank[t.y], c = rank[t.z];
-    triangles.push_back(std::min({std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}));
-  }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
+std::vector<std::uint32_t> identity(std::size_t size) {
+  std::vector<std::uint32_t> numbers(size);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  return numbers;
 }
 
-bool sameSurface(const TriangleMesh& a, const TriangleMesh& b) {
-  if (a.positions.size() != b.positions.size() || a.normals.size() != b.normals.size() ||
-      a.triangles.size() != b.triangles.size())
-    return false;
-  std::vector<VertexValue> valuesA = vertexValues(a), valuesB = vertexValues(b);
-  std::sort(valuesA.begin(), valuesA.end());
-  std::sort(valuesB.begin(), valuesB.end());
-  if (valuesA != valuesB) return false;
-  valuesA.erase(std::unique(valuesA.begin(), valuesA.end()), valuesA.end());
-  return canonicalTriangles(a, valuesA) == canonicalTriangles(b, valuesA);
+// Replaces the sequential encoding by edgebreaker's where that is smaller and the same. Returns why not, or "".
+std::string tryEdgebreaker(const MeshView& mesh, const Settings& settings, const Limits& limits, Encoded& encoded) {
+  // Step 1: bytes.
+  const Clock::time_point start = Clock::now();
+  std::optional<std::vector<std::byte>> bytes = dracoBytes(Method::kEdgebreaker, mesh, settings);
+  const double encodeMs = millisecondsSince(start);
+  if (!bytes) return "edgebreaker refuses the mesh";
+  if (bytes->size() >= encoded.bytes.size()) return "edgebreaker is no smaller";
+  if (std::max(limits.vertices, limits.triangles) > kMostPerByte * bytes->size())
+    return "edgebreaker makes the mesh smaller than a reader trusts";
+
+  // Step 2: decoded, the same in another order.
+  const Clock::time_point decoding = Clock::now();
+  TriangleMesh decoded;
+  try {
+    decoded = decode(*bytes, limits, kWhere);
+  } catch (const Error&) {
+    return "edgebreaker changes the counts: faces that are degenerate or not manifold, or loose vertices";
+  }
+  const double decodeMs = millisecondsSince(decoding);
+  std::optional<std::vector<std::uint32_t>> vertices = edgebreakerOrder(mesh);
+  if (!vertices) return "the order that edgebreaker gives cannot be told";
+  std::optional<std::vector<std::uint32_t>> triangles = sourceTriangles(encoded.decoded, decoded, *vertices);
+  if (!triangles) return "edgebreaker changes the triangles";
+
+  encoded.bytes = std::move(*bytes);
+  encoded.method = "edgebreaker";
+  encoded.decoded = std::move(decoded);
+  encoded.sourceVertices = std::move(*vertices);
+  encoded.sourceTriangles = std::move(*triangles);
+  encoded.encodeMs = encodeMs;
+  encoded.decodeMs = decodeMs;
+  return {};
 }
 
 }  // namespace
@@ -220,32 +168,28 @@ Grid gridFor(std::span<const glm::vec3> positions, int positionBits) {
   return grid;
 }
 
-Encoded encode(const TriangleMesh& mesh, const Settings& settings) {
+Encoded encode(const MeshView& mesh, const Settings& settings) {
   checkInput(mesh, settings);
   const Limits limits{static_cast<std::uint32_t>(mesh.positions.size()),
                       static_cast<std::uint32_t>(mesh.triangles.size())};
 
   // Step 1: sequential, compared with the input.
   Encoded encoded;
-  std::optional<std::vector<std::byte>> bytes = encodeWith(draco::MESH_SEQUENTIAL_ENCODING, mesh, settings);
+  const Clock::time_point start = Clock::now();
+  std::optional<std::vector<std::byte>> bytes = dracoBytes(Method::kSequential, mesh, settings);
+  encoded.encodeMs = millisecondsSince(start);
   if (!bytes) throw Error(kWhere, "Draco cannot encode it");
   encoded.bytes = std::move(*bytes);
   encoded.method = "sequential";
+  const Clock::time_point decoding = Clock::now();
   encoded.decoded = decode(encoded.bytes, limits, kWhere);
+  encoded.decodeMs = millisecondsSince(decoding);
   compareWithSource(mesh, settings, encoded);
+  encoded.sourceVertices = identity(mesh.positions.size());
+  encoded.sourceTriangles = identity(mesh.triangles.size());
 
   // Step 2: edgebreaker, kept where it is smaller and the same surface.
-  bytes = encodeWith(draco::MESH_EDGEBREAKER_ENCODING, mesh, settings);
-  if (!bytes || bytes->size() >= encoded.bytes.size()) return encoded;
-  try {
-    TriangleMesh decoded = decode(*bytes, limits, kWhere);
-    if (!sameSurface(encoded.decoded, decoded)) return encoded;
-    encoded.decoded = std::move(decoded);
-  } catch (const Error&) {
-    return encoded;  // other counts: vertices or triangles were split, dropped or merged
-  }
-  encoded.bytes = std::move(*bytes);
-  encoded.method = "edgebreaker";
+  encoded.whySequential = tryEdgebreaker(mesh, settings, limits, encoded);
   return encoded;
 }
 

@@ -35,6 +35,21 @@ TEST(Diff, EqualPacksAreEqual) {
   EXPECT_EQ(diffText(difference), "the packs are equal\n");
 }
 
+TEST(Diff, TellsAMapToTheSource) {
+  pack::WriteSettings settings;
+  settings.keepMap = true;
+  pack::Scene scene = test::smallScene();
+  const pack::Pack with = pack::parse(pack::serialize(scene, settings).bytes, "with"), without = packOf(scene);
+  const json difference = diffJson(without, with);
+  EXPECT_TRUE(std::any_of(difference["sections"].begin(), difference["sections"].end(), [](const json& s) {
+    return s.at("id") == "SMAP" && s.at("change") == "only in the second";
+  }));
+  EXPECT_CONTAINS(diffText(difference), "sourceMap.tetrahedron: \"not kept\" -> \"kept\"");
+  scene.meshes[0].sourceVertices = {4, 5, 6, 7};
+  EXPECT_CONTAINS(diffText(diffJson(with, pack::parse(pack::serialize(scene, settings).bytes, "other"))),
+                  "sourceMap.tetrahedron: \"kept\" -> \"other vertices or faces\"");
+}
+
 TEST(Diff, NamesWhatChanged) {
   const pack::Scene a = test::smallScene();
   pack::Scene b = a;

@@ -1,5 +1,9 @@
-// The packs of the three scenes, pinned: counts, a hash for each section but the provenance (which names
-// versions), and one of the decoded geometry.
+// The packs of the three scenes, pinned: counts, a hash for each section but the provenance (which names versions) and
+// the encodings (whose errors are measured with the machine's arc tangent), one of the decoded geometry, and for each
+// mesh its counts, its bytes and the hash of its geometry.
+//
+// A hash that changed does not tell how: the failing test writes the pack that it baked and says how to compare it with
+// the one from before.
 //
 // After a change that is meant: MALUS_UPDATE_GOLDEN=1 test_golden writes tests/bake/golden.json anew (and
 // fails, so that no test run passes by it); the difference belongs into the same commit, with its reason.
@@ -15,6 +19,7 @@
 #include "bake/pack/format.h"
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
+#include "meshprep/base/atomic_file.h"
 #include "tests/bake/fixtures.h"
 
 namespace malus::bake {
@@ -54,10 +59,22 @@ std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 json summaryOf(const pack::Pack& pack) {
   json sections = json::object();
   for (const pack::Section& s : pack.sections)
-    if (s.id != pack::kProvenance) sections[s.id] = {{"sizeBytes", s.sizeBytes}, {"hash", hex(s.hash)}};
+    if (s.id != pack::kProvenance && s.id != pack::kEncodings)
+      sections[s.id] = {{"sizeBytes", s.sizeBytes}, {"hash", hex(s.hash)}};
+  json meshes = json::object();
+  for (std::size_t i = 0; i < pack.scene.meshes.size(); ++i) {
+    const pack::Mesh& mesh = pack.scene.meshes[i];
+    pack::Scene alone;
+    alone.meshes = {mesh};
+    meshes[mesh.name] = {{"vertices", mesh.positions.size()},
+                         {"triangles", mesh.triangles.size()},
+                         {"encoding", pack.compression[i]},
+                         {"sizeBytes", pack.geometry[i].sizeBytes},
+                         {"geometryHash", hex(pack::canonicalGeometryHash(alone))}};
+  }
   return {{"vertices", pack.scene.vertexCount()},
           {"triangles", pack.scene.triangleCount()},
-          {"meshes", pack.scene.meshes.size()},
+          {"meshes", meshes},
           {"geometryHash", hex(pack::canonicalGeometryHash(pack.scene))},
           {"sections", sections}};
 }
@@ -86,6 +103,16 @@ std::string differences(const json& expected, const json& found) {
   return text;
 }
 
+// How the pack of today is compared with that of the commit that golden.json belongs to.
+std::string howToCompare(const std::string& name, const std::filesystem::path& today) {
+  return fmt::format(
+      "To see what changed, bake the scene with the malus of the commit before and compare:\n"
+      "  git worktree add /tmp/before $(git log -1 --format=%H -- tests/bake/golden.json)\n"
+      "  (build `malus` there) && malus bake /tmp/before/scenes/{0}/scene.json -o /tmp/{0}.pack\n"
+      "  malus info /tmp/{0}.pack --diff {1}\n",
+      name, today.string());
+}
+
 class Golden : public testing::TestWithParam<Expected> {};
 
 TEST_P(Golden, Counts) {
@@ -100,7 +127,8 @@ TEST_P(Golden, Counts) {
 
 TEST_P(Golden, Sections) {
   const std::string name = GetParam().name;
-  const json found = summaryOf(bakeScene(name).pack);
+  const Result result = bakeScene(name);
+  const json found = summaryOf(result.pack);
   json golden = readGolden();
   if (updating()) {
     if (!golden.is_object()) golden = json::object();
@@ -113,8 +141,12 @@ TEST_P(Golden, Sections) {
   ASSERT_TRUE(golden.is_object()) << kGolden << " is missing or no JSON; MALUS_UPDATE_GOLDEN=1 writes it";
   ASSERT_TRUE(golden.contains(name)) << kGolden << " does not know " << name;
   const std::string text = differences(golden[name], found);
-  EXPECT_TRUE(text.empty()) << "the pack of " << name << " is not the one of " << kGolden << ":\n"
-                            << text << "If this is meant: MALUS_UPDATE_GOLDEN=1 writes the file anew.";
+  if (text.empty()) return;
+  const std::filesystem::path today =
+      std::filesystem::path(testing::TempDir()) / fmt::format("malus-golden-{}.pack", name);
+  writeFile(today, result.bytes);
+  FAIL() << "the pack of " << name << " is not the one of " << kGolden << ":\n"
+         << text << howToCompare(name, today) << "If this is meant: MALUS_UPDATE_GOLDEN=1 writes the file anew.";
 }
 
 TEST_P(Golden, TheSameBytesTwice) {
@@ -128,6 +160,18 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::ValuesIn(kScenes), [](const au
     if (c == '-') c = '_';
   return name;
 });
+
+TEST(GoldenDifference, NamesTheMeshAndHowToCompare) {
+  pack::Scene scene = test::smallScene();
+  const json before = summaryOf(pack::parse(pack::serialize(scene, {}).bytes, "before"));
+  scene.meshes[1].positions[2].y = 0.9f;
+  const std::string text = differences(before, summaryOf(pack::parse(pack::serialize(scene, {}).bytes, "after")));
+  EXPECT_CONTAINS(text, "  /meshes/sheet/geometryHash: was ");
+  EXPECT_CONTAINS(text, "  /sections/GEOM/hash: was ");
+  EXPECT_FALSE(test::contains(text, "/meshes/tetrahedron")) << text;
+  EXPECT_FALSE(test::contains(text, "/sections/CAMR")) << text;
+  EXPECT_CONTAINS(howToCompare("engine", "/tmp/today.pack"), "malus info /tmp/engine.pack --diff /tmp/today.pack\n");
+}
 
 TEST(GoldenDifference, IsReadable) {
   const json before = {{"vertices", 36}, {"sections", {{"GEOM", {{"hash", "aa"}}}, {"OLD", 1}}}};

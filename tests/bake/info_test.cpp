@@ -36,14 +36,18 @@ TEST(Info, JsonHasWhatItPromises) {
   EXPECT_EQ(info["meshes"][1]["material"], "glass");
   EXPECT_EQ(info["meshes"][1]["sheet"], true);
   EXPECT_EQ(info["meshes"][1]["encoding"], pack.compression[1]);
+  EXPECT_EQ(info["meshes"][0]["errors"]["tiltMaxDegrees"], pack.encodings.meshes[0].deviation.tiltMaxDegrees);
+  EXPECT_EQ(info["meshes"][0]["normalBits"], pack.encodings.meshes[0].normalBits);
+  EXPECT_EQ(info["positionBits"], pack.encodings.grid.positionBits);
+  EXPECT_EQ(info["sourceMap"], false);
   ASSERT_EQ(info.at("materials").size(), 3u);
   EXPECT_EQ(info["materials"][1]["name"], "gold");
   EXPECT_EQ(info["materials"][1]["type"], "metal");
   EXPECT_EQ(info["materials"][1]["k"], json({3.4034, 2.2309, 1.8693}));
   ASSERT_EQ(info.at("effects").size(), 2u);
   EXPECT_EQ(info["effects"][0], (json{{"name", "metal"}, {"on", true}, {"reason", "there is gold"}}));
-  ASSERT_EQ(info.at("sections").size(), 9u);
-  for (std::size_t i = 0; i < 9; ++i) {
+  ASSERT_EQ(info.at("sections").size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_EQ(info["sections"][i]["id"], pack.sections[i].id);
     EXPECT_EQ(info["sections"][i]["version"], 1);
     EXPECT_EQ(info["sections"][i]["offset"], pack.sections[i].offset);
@@ -53,10 +57,27 @@ TEST(Info, JsonHasWhatItPromises) {
   EXPECT_EQ(info.at("provenance"), (json{{"malus", "0"}}));
 }
 
+TEST(Info, APackFromBeforeItToldHowItWasEncoded) {
+  pack::Pack pack = packOf(test::smallScene());
+  pack.encodings = {};
+  const json info = infoJson(pack);
+  EXPECT_TRUE(info.at("positionBits").is_null());
+  EXPECT_TRUE(info["meshes"][0]["errors"].is_null());
+  EXPECT_FALSE(test::contains(infoText(pack), "positions of"));
+}
+
+TEST(Info, NamesTheMapToTheSource) {
+  pack::WriteSettings settings;
+  settings.keepMap = true;
+  const pack::Pack pack = pack::parse(pack::serialize(test::smallScene(), settings).bytes, "test");
+  EXPECT_EQ(infoJson(pack)["sourceMap"], true);
+  EXPECT_CONTAINS(infoText(pack), "the source's vertices and faces are kept");
+}
+
 TEST(Info, TextNamesEverything) {
   const std::string text = infoText(packOf(test::smallScene()));
   for (const char* part : {"small", "8 vertices, 6 triangles, 2 lights, 64 x 48 pixels, depth 5", "tetrahedron", "gold",
-                           "(sheet)", "there is gold", "GEOM", "PROV"})
+                           "(sheet)", "there is gold", "positions of 20 bits", "GEOM", "PROV"})
     EXPECT_CONTAINS(text, part);
 }
 

@@ -49,6 +49,20 @@ TEST(Unpack, WritesWhatThePackHolds) {
   }
 }
 
+TEST(Unpack, WritesTheMapToTheSourcesWhereItIsKept) {
+  const test::TemporaryFolder folder;
+  pack::WriteSettings settings;
+  settings.keepMap = true;
+  const pack::Pack pack = pack::parse(pack::serialize(test::smallScene(), settings).bytes, "small");
+  const json document = unpack(pack, folder.path() / "out");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json map = json::parse(readTextFile(folder.path() / "out" / document.at("meshes")[i].at("map")));
+    EXPECT_EQ(map.at("vertices"), json(pack.scene.meshes[i].sourceVertices));
+    EXPECT_EQ(map.at("triangles"), json(pack.scene.meshes[i].sourceFaces));
+    EXPECT_EQ(map.at("vertices").size(), 4u);
+  }
+}
+
 TEST(Unpack, AFolderThatCannotBeIsNamed) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("taken", "");

@@ -2,53 +2,27 @@
 // from an OBJ file to the first ray. Times are a benchmark's: no test judges them.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <numbers>
-
-#include <fmt/format.h>
+#include <utility>
+#include <vector>
 
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
-#include "meshprep/compress/draco_mesh.h"
 #include "meshprep/prepare.h"
 #include "render/embree/embree.h"
 #include "render/scene/float_scene.h"
+#include "tests/bench/torus.h"
 
 namespace malus {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A torus of about `triangles` faces with waves on it, so that nothing repeats.
-fs::path torusObj(std::int64_t triangles) {
-  const fs::path path = fs::temp_directory_path() / fmt::format("malus-bench-{}-{}.obj", ::getpid(), triangles);
-  if (fs::exists(path)) return path;
-  const auto around = static_cast<std::int64_t>(std::sqrt(static_cast<double>(triangles))), across = around / 2;
-  std::string text;
-  for (std::int64_t i = 0; i < around; ++i)
-    for (std::int64_t j = 0; j < across; ++j) {
-      const double u = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(around),
-                   v = 2 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(across);
-      const double r = 0.4 + 0.02 * std::sin(7 * u + 3 * v);
-      text += fmt::format("v {:.7f} {:.7f} {:.7f}\n", (1 + r * std::cos(v)) * std::cos(u), r * std::sin(v),
-                          (1 + r * std::cos(v)) * std::sin(u));
-    }
-  for (std::int64_t i = 0; i < around; ++i)
-    for (std::int64_t j = 0; j < across; ++j) {
-      const auto at = [&](std::int64_t a, std::int64_t b) { return (a % around) * across + b % across + 1; };
-      text += fmt::format("f {} {} {} {}\n", at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
-    }
-  std::ofstream(path, std::ios::binary) << text;
-  return path;
-}
+using bench::preparedTorus;
+using bench::torusObj;
 
 pack::Scene sceneOf(std::int64_t triangles) {
-  prep::Report report;
-  const prep::Mesh mesh = prep::prepare(torusObj(triangles), {}, report);
+  const prep::Mesh mesh = preparedTorus(triangles);
   pack::Scene scene;
   scene.name = "bench";
   scene.width = scene.height = 64;
@@ -87,8 +61,13 @@ void write(benchmark::State& state) {
   const auto triangles = static_cast<double>(scene.triangleCount());
   state.counters["bytesPerTriangle"] = static_cast<double>(written.meshes[0].sizeBytes) / triangles;
   state.counters["edgebreaker"] = written.meshes[0].method == "edgebreaker" ? 1 : 0;
-  state.counters["normalErrorDegrees"] = static_cast<double>(written.meshes[0].normalErrorMaxDegrees);
-  state.counters["positionErrorMicrometres"] = 1e6 * static_cast<double>(written.meshes[0].positionErrorMax);
+  state.counters["positionBits"] = written.grid.positionBits;
+  state.counters["normalBits"] = written.meshes[0].normalBits;
+  state.counters["normalErrorDegrees"] = written.meshes[0].deviation.normalMaxDegrees;
+  state.counters["tiltDegrees"] = written.meshes[0].deviation.tiltMaxDegrees;
+  state.counters["positionErrorMicrometres"] = 1e6 * written.meshes[0].deviation.positionMax;
+  state.counters["encodeMs"] = written.meshes[0].encodeMs;
+  state.counters["decodeMs"] = written.meshes[0].decodeMs;
   countMemory(state);
 }
 

@@ -4,10 +4,12 @@
 #include <cstdio>
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/compress/draco_mesh.h"
+#include "meshprep/prepare.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -39,10 +41,12 @@ class PrepCommand : public testing::Test {
   void TearDown() override {
     std::filesystem::remove(output_);
     std::filesystem::remove(report_);
+    std::filesystem::remove(map_);
   }
   const TemporaryFile input_{".obj", test::objText(test::cube())};
   const std::filesystem::path output_ = test::temporaryPath(".mesh.drc");
   const std::filesystem::path report_ = test::temporaryPath(".json");
+  const std::filesystem::path map_ = test::temporaryPath(".json");
 };
 
 TEST_F(PrepCommand, WritesAMeshAndAReport) {
@@ -64,6 +68,54 @@ TEST_F(PrepCommand, FlatTable) {
   const std::string printed = run({input_.path().string(), "-o", output_.string(), "--flat"});
   EXPECT_TRUE(contains(printed, "before       after"));
   EXPECT_TRUE(compress::decode(readFile(output_), {8, 12}, "file").normals.empty());
+}
+
+TEST_F(PrepCommand, KeepsTheMapToTheFile) {
+  run({input_.path().string(), "-o", output_.string(), "--keep-map", map_.string()});
+  const nlohmann::json map = nlohmann::json::parse(readTextFile(map_));
+  const compress::TriangleMesh mesh = compress::decode(readFile(output_), {24, 12}, "file");
+  ASSERT_EQ(map.at("vertices").size(), 24u);  // three of each of the file's eight
+  ASSERT_EQ(map.at("triangles").size(), 12u);
+  // The numbers count in the file, or, where preparation keeps no count, in the prepared mesh.
+  Report report;
+  const Mesh prepared = prepare(input_.path(), {}, report), cube = test::cube();
+  const auto& positions = prepared.sourceVertices.empty() ? prepared.positions : cube.positions;
+  const auto& triangles = prepared.sourceFaces.empty() ? prepared.triangles : cube.triangles;
+  const auto& corners = prepared.sourceFaces.empty() ? prepared.positions : cube.positions;
+  for (std::size_t i = 0; i < 24; ++i)
+    EXPECT_LT(glm::distance(glm::dvec3(mesh.positions[i]), positions.at(map["vertices"][i].get<std::size_t>())), 1e-5);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const glm::uvec3 source = triangles.at(map["triangles"][i].get<std::size_t>());
+    glm::dvec3 before(0), after(0);
+    for (int c = 0; c < 3; ++c)
+      before += corners.at(source[c]), after += glm::dvec3(mesh.positions[mesh.triangles[i][c]]);
+    EXPECT_LT(glm::distance(before, after), 1e-5) << i;
+  }
+}
+
+TEST_F(PrepCommand, BoundsAreKeptOrAnError) {
+  const TemporaryFile ball(".obj", test::objText(test::sphere(31, 64)));
+  const auto prepared = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments = {ball.path().string(), "-o", output_.string(), "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return nlohmann::json::parse(run(arguments));
+  };
+  const nlohmann::json coarse = prepared({"--max-error", "0.01", "--max-normal-error", "5"}),
+                       fine = prepared({"--max-error", "1e-6", "--max-normal-error", "0.01"});
+  EXPECT_LE(coarse["errors"]["positionMax"], 0.01);
+  EXPECT_LE(fine["errors"]["positionMax"], 1e-6);
+  EXPECT_LE(fine["errors"]["normalMaxDegrees"], 0.01);
+  EXPECT_LT(coarse["compression"]["positionBits"], fine["compression"]["positionBits"]);
+  EXPECT_LT(coarse["compression"]["normalBits"], fine["compression"]["normalBits"]);
+  EXPECT_LT(coarse["compression"]["bytes"], fine["compression"]["bytes"]);
+  EXPECT_TRUE(fine["compression"]["warnings"].empty());
+  EXPECT_TRUE(contains(errorOf([&] {
+                         prepared({"--position-bits", "8", "--max-error", "1e-9"});
+                       }),
+                       "positions are farther off than asked for"));
+  EXPECT_EQ(prepared({"--position-bits", "9"})["compression"]["positionBits"], 9);
+  EXPECT_THROW(prepared({"--max-error", "0"}), CLI::ParseError);
+  EXPECT_THROW(prepared({"--max-normal-error", "-1"}), CLI::ParseError);
 }
 
 TEST_F(PrepCommand, SameInputSameBytes) {

@@ -47,12 +47,28 @@ TEST(Report, JsonHasEveryField) {
   EXPECT_EQ(json["certificate"]["problems"][0]["component"], 2);
   EXPECT_TRUE(test::contains(toText(report), "component 2: 3 open edges; first at a; close it"));
 
-  report.compression = {"edgebreaker", 321};
-  report.errors = {1e-6, 0.05};
+  report.compression.method = "sequential";
+  report.compression.whySequential = "edgebreaker is no smaller";
+  report.compression.bytes = 330;
+  report.compression.positionBits = 21;
+  report.compression.normalBits = 13;
+  report.compression.warnings = {"faces are tilted"};
+  report.errors.positionMax = 1e-6;
+  report.errors.normalMaxDegrees = 0.05;
+  report.errors.tiltMaxDegrees = 0.25;
   json = toJson(report);
   EXPECT_EQ(json["errors"]["positionMax"], 1e-6);
   EXPECT_EQ(json["errors"]["normalMaxDegrees"], 0.05);
-  EXPECT_EQ(json["compression"]["bytes"], 321);
+  EXPECT_EQ(json["errors"]["tiltMaxDegrees"], 0.25);
+  EXPECT_EQ(json["compression"]["bytes"], 330);
+  EXPECT_EQ(json["compression"]["bytesPerTriangle"], 30);
+  EXPECT_EQ(json["compression"]["positionBits"], 21);
+  const std::string text = toText(report);
+  EXPECT_TRUE(test::contains(text, "330 bytes, 30.00 a triangle")) << text;
+  EXPECT_TRUE(test::contains(text, "sequential: edgebreaker is no smaller")) << text;
+  EXPECT_TRUE(test::contains(text, "21 positions, 13 normals")) << text;
+  EXPECT_TRUE(test::contains(text, "tilt of a face, at most                   0.25 degrees")) << text;
+  EXPECT_TRUE(test::contains(text, "warning: faces are tilted")) << text;
 }
 
 TEST(Report, TextShowsBeforeAndAfterAndLeavesOutWhatWasNotFound) {

@@ -163,7 +163,7 @@ TEST_F(Command, InfoTellsAndVerifies) {
   const Finished text = malus({"info", pack(), "--verify"});
   EXPECT_EQ(text.exitCode, 0) << text.err;
   EXPECT_TRUE(contains(text.out, "28 vertices, 14 triangles")) << text.out;
-  EXPECT_TRUE(contains(text.out, "verified: 9 sections")) << text.out;
+  EXPECT_TRUE(contains(text.out, "verified: 10 sections")) << text.out;
   const json j = json::parse(malus({"info", pack(), "--json"}).out);
   for (const char* key :
        {"formatVersion", "name", "vertices", "triangles", "meshes", "materials", "effects", "sections", "provenance"})

@@ -96,6 +96,20 @@ TEST(Packs, AreMadeAnewWhereSomethingChangedAlone) {
   expectRefusal(malus({"bake", scenes.first, "-o", pack}), "floor.obj");
 }
 
+TEST(Packs, RedoOnlyTheChangedMesh) {
+  TwoScenes scenes;
+  const std::string pack = scenes.folder / "out.pack";
+  ASSERT_EQ(malus({"bake", scenes.first, "-o", pack}).exitCode, 0);
+  const Finished text = malus({"bake", scenes.second, "-o", pack});  // another exposure, the same meshes
+  EXPECT_TRUE(contains(text.out, "  0 of ")) << text.out;
+  const Finished again = malus({"bake", scenes.first, "-o", pack, "--json"});
+  EXPECT_EQ(json::parse(again.out).at("redone"), 0);
+  const Finished forced = malus({"bake", scenes.first, "-o", pack, "--json", "--force"});
+  const json report = json::parse(forced.out);
+  EXPECT_EQ(report.at("redone"), report.at("meshes").size());
+  EXPECT_EQ(TwoScenes::packHash(pack), scenes.firstHash);
+}
+
 // Killed at any moment: the old pack is there, or the new one, whole.
 TEST(Packs, SurviveBeingKilled) {
   TwoScenes scenes;
@@ -112,8 +126,9 @@ TEST(Packs, SurviveBeingKilled) {
     ASSERT_TRUE(hash == scenes.firstHash || hash == scenes.secondHash) << i << ": " << hash;
   }
   EXPECT_GT(killed, 20u);
-  // What the killed left behind is in nobody's way.
-  EXPECT_EQ(malus({"bake", scenes.first, "-o", pack}).exitCode, 0);
+  // What the killed left behind goes with the next bake.
+  EXPECT_EQ(malus({"bake", scenes.first, "-o", pack, "--force"}).exitCode, 0);
+  for (const std::string& name : scenes.folder.names()) EXPECT_FALSE(contains(name, ".part")) << name;
   EXPECT_EQ(TwoScenes::packHash(pack), scenes.firstHash);
 }
 

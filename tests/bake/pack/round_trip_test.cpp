@@ -180,7 +180,7 @@ TEST(PackRoundTrip, ASecondImplementationWritesTheSameFile) {
 TEST(PackRoundTrip, LayoutIsThatOfTheDocument) {
   const test::Bytes bytes = serialize(smallScene(), {}).bytes;
   const std::vector<test::RawSection> sections = test::takenApart(bytes);
-  const char* const kIds[] = {"META", "CAMR", "ENVR", "LGHT", "MATL", "MESH", "GEOM", "EFCT", "PROV"};
+  const char* const kIds[] = {"META", "CAMR", "ENVR", "LGHT", "MATL", "MESH", "GEOM", "ENCD", "EFCT", "PROV"};
   ASSERT_EQ(sections.size(), std::size(kIds));
   for (std::size_t i = 0; i < sections.size(); ++i) {
     EXPECT_EQ(sections[i].id, kIds[i]);
@@ -193,6 +193,70 @@ TEST(PackRoundTrip, LayoutIsThatOfTheDocument) {
   EXPECT_EQ(sections[3].bytes.size(), 4u + 2 * 48);
   EXPECT_EQ(sections[4].bytes.size(), 4u + 3 * 124 + 5 + 4 + 4);
   EXPECT_EQ(sections[5].bytes.size(), 4u + 2 * 40 + 11 + 5);
+  const auto reasons = [&] {
+    std::size_t letters = 0;
+    for (const MeshEncoding& m : parse(bytes, "test").encodings.meshes) letters += m.whySequential.size();
+    return letters;
+  };
+  EXPECT_EQ(sections[7].bytes.size(), 40u + 2 * 64 + reasons());
+}
+
+TEST(PackRoundTrip, EncodingsComeBack) {
+  const Written written = serialize(smallScene(), {});
+  const Pack pack = parse(written.bytes, "test");
+  ASSERT_TRUE(pack.encodings.known());
+  EXPECT_EQ(pack.encodings.grid.origin, written.grid.origin);
+  EXPECT_EQ(pack.encodings.grid.range, written.grid.range);
+  EXPECT_EQ(pack.encodings.grid.positionBits, written.grid.positionBits);
+  ASSERT_EQ(pack.encodings.meshes.size(), 2u);
+  ASSERT_EQ(pack.geometry.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const MeshEncoding& m = pack.encodings.meshes[i];
+    EXPECT_EQ(static_cast<int>(m.normalBits), written.meshes[i].normalBits);
+    EXPECT_EQ(m.deviation.positionMax, written.meshes[i].deviation.positionMax);
+    EXPECT_EQ(m.deviation.normalMaxDegrees, written.meshes[i].deviation.normalMaxDegrees);
+    EXPECT_EQ(m.deviation.tiltMaxDegrees, written.meshes[i].deviation.tiltMaxDegrees);
+    EXPECT_EQ(m.whySequential, written.meshes[i].whySequential);
+    EXPECT_EQ(pack.geometry[i].sizeBytes, written.meshes[i].sizeBytes);
+    EXPECT_EQ(static_cast<char>(written.bytes[static_cast<std::size_t>(pack.geometry[i].offset)]), 'D');
+  }
+  EXPECT_EQ(pack.encodings.meshes[1].normalBits, 0u);  // the sheet has none
+  EXPECT_FALSE(pack.hasSourceMap());
+}
+
+TEST(PackRoundTrip, TheMapToTheSourceIsKeptOnRequest) {
+  Scene scene = smallScene();
+  WriteSettings settings;
+  settings.keepMap = true;
+  scene.meshes[0].sourceVertices = {10, 20, 30, 40};
+  scene.meshes[0].sourceFaces = {7, 7, 8, 9};
+  const Written written = serialize(scene, settings);
+  const Pack pack = parse(written.bytes, "test");
+  ASSERT_TRUE(pack.hasSourceMap());
+  const Mesh &mesh = pack.scene.meshes[0], &sheet = pack.scene.meshes[1];
+  ASSERT_EQ(mesh.sourceVertices.size(), 4u);
+  ASSERT_EQ(mesh.sourceFaces.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t source = mesh.sourceVertices[i] / 10 - 1;
+    EXPECT_LT(glm::distance(mesh.positions[i], scene.meshes[0].positions[source]), 1e-5f);
+  }
+  // Without a map of its own a mesh's vertices are counted as they came.
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_LT(glm::distance(sheet.positions[i], scene.meshes[1].positions[sheet.sourceVertices[i]]), 1e-5f);
+  // It is optional, and nothing else depends on it.
+  std::vector<test::RawSection> sections = test::takenApart(written.bytes);
+  EXPECT_EQ(test::section(sections, "SMAP").flags, kOptional);
+  EXPECT_EQ(test::section(sections, "SMAP").bytes.size(), 4u * (4 + 4 + 4 + 2));
+  std::erase_if(sections, [](const test::RawSection& s) { return s.id == "SMAP"; });
+  EXPECT_EQ(canonicalGeometryHash(parse(test::putTogether(sections), "test").scene), canonicalGeometryHash(pack.scene));
+}
+
+// All the settings of one number of bits.
+WriteSettings withBits(int positionBits, int normalBits) {
+  WriteSettings settings;
+  settings.bounds.positionBits = positionBits;
+  settings.bounds.normalBits = normalBits;
+  return settings;
 }
 
 TEST(PackRoundTrip, ConstantEnvironmentHasNoTexels) {
@@ -221,8 +285,8 @@ TEST(PackRoundTrip, EqualPositionsOfDifferentMeshesDecodeEqual) {
     }
     scene.meshes.push_back(mesh);
   }
-  for (const int bits : {12, 20, 22}) {
-    const Pack pack = parse(serialize(scene, {bits, 12}).bytes, "test");
+  for (const int bits : {12, 20, 22, 26}) {
+    const Pack pack = parse(serialize(scene, withBits(bits, 12)).bytes, "test");
     for (std::uint32_t i = 0; i < kPoints; ++i) {
       const glm::vec3 p(x(i), 0.1f, 0.3333333f);
       EXPECT_EQ(nearest(pack.scene.meshes[0], p), nearest(pack.scene.meshes[1], p)) << bits << " bits, point " << i;
@@ -231,10 +295,10 @@ TEST(PackRoundTrip, EqualPositionsOfDifferentMeshesDecodeEqual) {
 }
 
 TEST(PackRoundTrip, MoreBitsComeNearer) {
-  const Written coarse = serialize(smallScene(), {8, 6}), fine = serialize(smallScene(), {20, 12});
-  EXPECT_GT(coarse.meshes[0].normalErrorMaxDegrees, fine.meshes[0].normalErrorMaxDegrees);
-  EXPECT_LE(coarse.meshes[0].positionErrorMax, 3.0f / 255 * 0.9f);
-  EXPECT_LE(fine.meshes[0].positionErrorMax, 3.0f / 1048575);
+  const Written coarse = serialize(smallScene(), withBits(8, 6)), fine = serialize(smallScene(), withBits(20, 12));
+  EXPECT_GT(coarse.meshes[0].deviation.normalMaxDegrees, fine.meshes[0].deviation.normalMaxDegrees);
+  EXPECT_LE(coarse.meshes[0].deviation.positionMax, 3.0 / 255 * 0.9);
+  EXPECT_LE(fine.meshes[0].deviation.positionMax, 3.0 / 1048575);
   EXPECT_EQ(fine.meshes.size(), 2u);
 }
 

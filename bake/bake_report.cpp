@@ -1,0 +1,109 @@
+#include "bake/bake_report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace malus::bake {
+using nlohmann::json;
+
+namespace {
+
+double perTriangle(std::size_t bytes, std::uint64_t triangles) {
+  return static_cast<double>(bytes) / static_cast<double>(std::max<std::uint64_t>(triangles, 1));
+}
+
+// Over all meshes.
+struct Totals {
+  std::size_t geometryBytes = 0, redone = 0;
+  compress::Deviation worst;
+};
+
+Totals totalsOf(const Baked& baked, const pack::Written& written) {
+  Totals totals;
+  for (const pack::MeshCompression& m : written.meshes) {
+    totals.geometryBytes += m.sizeBytes;
+    totals.redone += m.kept ? 0 : 1;
+    totals.worst.positionMax = std::max(totals.worst.positionMax, m.deviation.positionMax + baked.moved);
+    totals.worst.normalMaxDegrees = std::max(totals.worst.normalMaxDegrees, m.deviation.normalMaxDegrees);
+    totals.worst.tiltMaxDegrees = std::max(totals.worst.tiltMaxDegrees, m.deviation.tiltMaxDegrees);
+  }
+  return totals;
+}
+
+}  // namespace
+
+json bakeJson(const Baked& baked, const pack::Written& written, const std::string& output) {
+  const Totals totals = totalsOf(baked, written);
+  json meshes = json::array();
+  for (std::size_t i = 0; i < written.meshes.size(); ++i) {
+    const pack::MeshCompression& m = written.meshes[i];
+    const pack::Mesh& mesh = baked.scene.meshes[i];
+    meshes.push_back({{"name", mesh.name},
+                      {"encoding", m.method},
+                      {"whySequential", m.whySequential},
+                      {"triangles", mesh.triangles.size()},
+                      {"sizeBytes", m.sizeBytes},
+                      {"bytesPerTriangle", perTriangle(m.sizeBytes, mesh.triangles.size())},
+                      {"normalBits", m.normalBits},
+                      {"kept", m.kept},
+                      {"encodeMs", m.encodeMs},
+                      {"decodeMs", m.decodeMs},
+                      {"errors",
+                       {{"positionMax", m.deviation.positionMax + baked.moved},
+                        {"normalMaxDegrees", m.deviation.normalMaxDegrees},
+                        {"tiltMaxDegrees", m.deviation.tiltMaxDegrees},
+                        {"flipped", m.deviation.flipped},
+                        {"degenerate", m.deviation.newDegenerate}}}});
+  }
+  json preparation = json::array();
+  for (const prep::Report& report : baked.reports) preparation.push_back(prep::toJson(report));
+  return {{"name", baked.scene.name},
+          {"output", output},
+          {"upToDate", false},
+          {"sizeBytes", written.bytes.size()},
+          {"vertices", baked.scene.vertexCount()},
+          {"triangles", baked.scene.triangleCount()},
+          {"bytesPerTriangle", perTriangle(totals.geometryBytes, baked.scene.triangleCount())},
+          {"positionBits", written.grid.positionBits},
+          {"redone", totals.redone},
+          {"whyAll", written.whyAll},
+          {"meshes", meshes},
+          {"preparation", preparation},
+          {"errors",
+           {{"positionMax", totals.worst.positionMax},
+            {"normalMaxDegrees", totals.worst.normalMaxDegrees},
+            {"tiltMaxDegrees", totals.worst.tiltMaxDegrees}}},
+          {"warnings", written.warnings}};
+}
+
+std::string bakeText(const Baked& baked, const pack::Written& written, const std::string& output, bool rebaked) {
+  // Step 1: all of it.
+  const Totals totals = totalsOf(baked, written);
+  std::string text = fmt::format(
+      "{}: {} meshes, {} vertices, {} triangles -> {} ({} bytes, geometry {:.1f} bytes a triangle,\n"
+      "  positions of {} bits within {:.3g} m, normals within {:.3g} degrees, faces tilted by at most {:.3g} "
+      "degrees)\n",
+      baked.scene.name, baked.scene.meshes.size(), baked.scene.vertexCount(), baked.scene.triangleCount(), output,
+      written.bytes.size(), perTriangle(totals.geometryBytes, baked.scene.triangleCount()), written.grid.positionBits,
+      totals.worst.positionMax, totals.worst.normalMaxDegrees, totals.worst.tiltMaxDegrees);
+  if (rebaked)
+    text += fmt::format("  {} of {} meshes redone{}{}\n", totals.redone, written.meshes.size(),
+                        written.whyAll.empty() ? "" : ": ", written.whyAll);
+
+  // Step 2: mesh by mesh.
+  text += fmt::format("  {:<24}{:>10}{:>12}{:>6}{:>11}{:>11}{:>11}{:>10}{:>10}  {}\n", "mesh", "triangles",
+                      "bytes/tri.", "bits", "error m", "normals", "tilt", "encode ms", "decode ms", "method");
+  for (std::size_t i = 0; i < written.meshes.size(); ++i) {
+    const pack::MeshCompression& m = written.meshes[i];
+    const pack::Mesh& mesh = baked.scene.meshes[i];
+    text += fmt::format("  {:<24}{:>10}{:>12.2f}{:>6}{:>11.2g}{:>11.2g}{:>11.2g}{:>10.1f}{:>10.1f}  {}{}{}{}\n",
+                        mesh.name, mesh.triangles.size(), perTriangle(m.sizeBytes, mesh.triangles.size()), m.normalBits,
+                        m.deviation.positionMax + baked.moved, m.deviation.normalMaxDegrees, m.deviation.tiltMaxDegrees,
+                        m.encodeMs, m.decodeMs, m.method, m.kept ? ", kept" : "", m.whySequential.empty() ? "" : ": ",
+                        m.whySequential);
+  }
+  return text;
+}
+
+}  // namespace malus::bake

@@ -1,0 +1,154 @@
+#include "bake/pack/mesh_writer.h"
+
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bake/pack/format.h"
+#include "meshprep/base/error.h"
+#include "meshprep/compress/bounds.h"
+
+namespace malus::pack {
+
+namespace {
+
+// What becomes of one mesh: its bytes, its counts, the map to its source.
+struct Result {
+  std::span<const std::byte> bytes;
+  std::size_t vertices = 0, triangles = 0;
+  std::vector<std::uint32_t> sourceVertices, sourceFaces;  // where the map is kept
+};
+
+// Meshes of an older pack by the hash of what they were encoded from.
+class Kept {
+ public:
+  explicit Kept(const OlderPack* older) : older_(older) {
+    if (older_ == nullptr || !older_->pack->encodings.known()) return;
+    const std::vector<MeshEncoding>& meshes = older_->pack->encodings.meshes;
+    for (std::size_t i = 0; i < meshes.size(); ++i) byHash_.emplace(meshes[i].inputHash, i);
+  }
+
+  std::optional<std::size_t> find(std::uint64_t hash, const Mesh& mesh, bool keepMap) const {
+    const auto found = byHash_.find(hash);
+    if (found == byHash_.end()) return std::nullopt;
+    const Mesh& old = older_->pack->scene.meshes[found->second];
+    const bool same = old.positions.size() == mesh.positions.size() && old.triangles.size() == mesh.triangles.size() &&
+                      old.normals.size() == mesh.normals.size() && (!keepMap || !old.sourceVertices.empty());
+    return same ? std::optional(found->second) : std::nullopt;
+  }
+
+  Result take(std::size_t i, MeshEncoding& encoding, MeshCompression& report) const {
+    const Pack& pack = *older_->pack;
+    const Mesh& mesh = pack.scene.meshes[i];
+    const DracoData& data = pack.geometry[i];
+    encoding = pack.encodings.meshes[i];
+    report.method = pack.compression[i];
+    report.kept = true;
+    return {older_->bytes.subspan(static_cast<std::size_t>(data.offset), static_cast<std::size_t>(data.sizeBytes)),
+            mesh.positions.size(), mesh.triangles.size(), mesh.sourceVertices, mesh.sourceFaces};
+  }
+
+ private:
+  const OlderPack* older_;
+  std::map<std::uint64_t, std::size_t> byHash_;
+};
+
+// Through the mesh's own map to the file, where it has one.
+std::vector<std::uint32_t> composed(const std::vector<std::uint32_t>& order, const std::vector<std::uint32_t>& source) {
+  if (source.empty()) return order;
+  std::vector<std::uint32_t> result;
+  result.reserve(order.size());
+  for (const std::uint32_t i : order) result.push_back(source[i]);
+  return result;
+}
+
+// Why nothing of the older pack can be taken, where the reason lies in the grid that all meshes share.
+std::string gridChange(const compress::Grid& before, const compress::Grid& after) {
+  if (before.origin != after.origin || before.range != after.range)
+    return fmt::format(
+        "the grid that all meshes share moved: its corner was ({:g}, {:g}, {:g}) and its side {:g} m, now "
+        "({:g}, {:g}, {:g}) and {:g} m",
+        before.origin.x, before.origin.y, before.origin.z, before.range, after.origin.x, after.origin.y, after.origin.z,
+        after.range);
+  if (before.positionBits != after.positionBits)
+    return fmt::format("positions have {} bits instead of {}", after.positionBits, before.positionBits);
+  return {};
+}
+
+}  // namespace
+
+EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const OlderPack* older) {
+  // Step 1: bits.
+  std::vector<compress::MeshView> views;
+  for (const Mesh& mesh : scene.meshes) views.emplace_back(mesh.positions, mesh.normals, mesh.triangles);
+  const compress::Bits bits = compress::chooseBits(views, settings.bounds, settings.movedBefore);
+  EncodedMeshes all;
+  all.encodings.grid = bits.grid;
+  const Kept kept(older);
+  if (older != nullptr && older->pack->encodings.known())
+    all.whyAll = gridChange(older->pack->encodings.grid, bits.grid);
+
+  // Step 2: mesh by mesh, encoded or taken.
+  ByteWriter table, geometry, map;
+  table.u32(static_cast<std::uint32_t>(scene.meshes.size()));
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const Mesh& mesh = scene.meshes[i];
+    const std::string where = fmt::format("mesh '{}'", mesh.name);
+    const compress::Settings codec{bits.grid, bits.normalBits[i]};
+    const std::uint64_t hash = inputHash(mesh, codec, settings.keepMap);
+    MeshCompression report;
+    MeshEncoding encoding;
+    compress::Encoded encoded;
+    Result result;
+    if (const auto at = kept.find(hash, mesh, settings.keepMap)) {
+      result = kept.take(*at, encoding, report);
+    } else {
+      try {
+        encoded = compress::encode(views[i], codec);
+      } catch (const Error& error) {
+        throw Error(where, error.what());
+      }
+      encoding = {hash, mesh.normals.empty() ? 0u : static_cast<std::uint32_t>(codec.normalBits), encoded.deviation,
+                  encoded.whySequential};
+      report.method = encoded.method;
+      report.encodeMs = encoded.encodeMs;
+      report.decodeMs = encoded.decodeMs;
+      result = {encoded.bytes, encoded.decoded.positions.size(), encoded.decoded.triangles.size(), {}, {}};
+      if (settings.keepMap) {
+        result.sourceVertices = composed(encoded.sourceVertices, mesh.sourceVertices);
+        result.sourceFaces = composed(encoded.sourceTriangles, mesh.sourceFaces);
+      }
+    }
+    for (std::string& warning :
+         compress::judge(encoding.deviation, codec, settings.bounds, where, settings.movedBefore))
+      all.warnings.push_back(std::move(warning));
+
+    // Step 3: written down.
+    geometry.padTo(kAlignment);
+    table.text(mesh.name);
+    table.u32(mesh.material);
+    table.u32((mesh.sheet ? 1u : 0u) | (mesh.normals.empty() ? 0u : 2u));
+    table.u32(static_cast<std::uint32_t>(result.vertices));
+    table.u32(static_cast<std::uint32_t>(result.triangles));
+    table.u32(report.method == "edgebreaker" ? 1 : 0);
+    table.u64(geometry.size());
+    table.u64(result.bytes.size());
+    geometry.raw(result.bytes);
+    for (const std::uint32_t v : result.sourceVertices) map.u32(v);
+    for (const std::uint32_t f : result.sourceFaces) map.u32(f);
+    report.whySequential = encoding.whySequential;
+    report.sizeBytes = result.bytes.size();
+    report.normalBits = static_cast<int>(encoding.normalBits);
+    report.deviation = encoding.deviation;
+    all.report.push_back(std::move(report));
+    all.encodings.meshes.push_back(std::move(encoding));
+  }
+  all.table = table.take();
+  all.geometry = geometry.take();
+  all.map = map.take();
+  return all;
+}
+
+}  // namespace malus::pack

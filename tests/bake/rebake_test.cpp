@@ -1,0 +1,196 @@
+// Baking again over an older pack: what is the same is taken from there, and the bytes are those of a bake from
+// nothing.
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "bake/bake.h"
+#include "bake/bake_report.h"
+#include "bake/older_pack.h"
+#include "bake/pack/reader.h"
+#include "bake/pack/writer.h"
+#include "meshprep/base/atomic_file.h"
+#include "tests/bake/fixtures.h"
+
+namespace malus::bake {
+namespace {
+
+using nlohmann::json;
+using test::TemporaryFolder;
+
+constexpr auto kSilent = [](std::string_view) {};
+
+// A pyramid within the cube, so that its height changes no box.
+std::string pyramid(double height) {
+  return fmt::format(
+      "v -0.3 -0.3 -0.3\nv 0.3 -0.3 -0.3\nv 0.3 -0.3 0.3\nv -0.3 -0.3 0.3\nv 0 {} 0\n"
+      "f 1 2 3 4\nf 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n",
+      height);
+}
+
+class Rebake : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("cube.obj", test::kCubeObj);
+    folder_.write("square.obj", test::kSquareObj);
+    folder_.write("pyramid.obj", pyramid(0.2));
+    scene_ = json::parse(R"({
+      "malus": 1, "name": "test",
+      "camera": {"position": [0, 1, 5], "target": [0, 0, 0], "verticalFovDegrees": 30},
+      "resolution": [64, 48], "depth": 4,
+      "materials": {"gold": {"type": "metal", "preset": "gold"}},
+      "meshes": [{"name": "cube", "file": "cube.obj", "material": "gold", "instances": [{}, {"translate": [2, 0, 0]}]},
+                 {"name": "pyramid", "file": "pyramid.obj", "material": "gold"},
+                 {"name": "square", "file": "square.obj", "material": "gold"}]})");
+  }
+  SceneDescription description() { return readSceneFile(folder_.write("scene.json", scene_.dump())); }
+
+  // A bake from nothing, and one over the pack that is there; the second is kept.
+  struct Both {
+    pack::Written fresh, again;
+    Baked baked;
+  };
+  Both bakeBoth() {
+    const SceneDescription d = description();
+    Both both;
+    both.baked = bake(d, settings_, kSilent);
+    both.fresh = pack::serialize(both.baked.scene, settings_);
+    const std::optional<OlderBake> older = readOlder(pack_);
+    const bool usable = older && isOfSameVersions(*older, both.baked.scene.provenance);
+    const pack::OlderPack source{usable ? &older->pack : nullptr, usable ? older->bytes : std::span<const std::byte>()};
+    both.again = pack::write(pack_, both.baked.scene, settings_, usable ? &source : nullptr);
+    EXPECT_TRUE(both.again.bytes == both.fresh.bytes);
+    EXPECT_TRUE(readFile(pack_) == both.fresh.bytes);
+    return both;
+  }
+  static std::vector<bool> kept(const pack::Written& written) {
+    std::vector<bool> list;
+    for (const pack::MeshCompression& m : written.meshes) list.push_back(m.kept);
+    return list;
+  }
+
+  TemporaryFolder folder_;
+  json scene_;
+  pack::WriteSettings settings_;
+  std::filesystem::path pack_ = folder_.path() / "out.pack";
+};
+
+using List = std::vector<bool>;
+
+TEST_F(Rebake, OnlyTheChangedMeshIsRedone) {
+  EXPECT_EQ(kept(bakeBoth().again), (List{false, false, false, false}));
+  folder_.write("pyramid.obj", pyramid(0.25));
+  const Both both = bakeBoth();
+  EXPECT_EQ(kept(both.again), (List{true, true, false, true}));
+  EXPECT_EQ(both.again.whyAll, "");
+  EXPECT_EQ(bakeJson(both.baked, both.again, "out.pack").at("redone"), 1);
+  EXPECT_CONTAINS(bakeText(both.baked, both.again, "out.pack", true), "1 of 4 meshes redone\n");
+  // Errors of a mesh that was kept are those of when it was encoded.
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(both.again.meshes[i].deviation.positionMax, both.fresh.meshes[i].deviation.positionMax);
+    EXPECT_EQ(both.again.meshes[i].method, both.fresh.meshes[i].method);
+    EXPECT_EQ(both.again.meshes[i].whySequential, both.fresh.meshes[i].whySequential);
+  }
+  // What is no mesh redoes none; nor does another order or another name.
+  scene_["exposureEv"] = 1;
+  std::swap(scene_["meshes"][1], scene_["meshes"][2]);
+  scene_["meshes"][1]["name"] = "plate";
+  EXPECT_EQ(kept(bakeBoth().again), (List{true, true, true, true}));
+}
+
+TEST_F(Rebake, AnInstanceThatMovesWithinTheBoxIsOneMesh) {
+  bakeBoth();
+  scene_["meshes"][1]["instances"] = json::parse(R"([{"translate": [0.5, 0, 0]}])");
+  EXPECT_EQ(kept(bakeBoth().again), (List{true, true, false, true}));
+}
+
+TEST_F(Rebake, AllWhereTheGridMovesAndItSaysSo) {
+  bakeBoth();
+  scene_["meshes"][0]["instances"][1]["translate"] = {3, 0, 0};
+  const Both both = bakeBoth();
+  EXPECT_EQ(kept(both.again), (List{false, false, false, false}));
+  EXPECT_CONTAINS(both.again.whyAll, "the grid that all meshes share moved");
+  EXPECT_CONTAINS(bakeText(both.baked, both.again, "out.pack", true), "4 of 4 meshes redone: the grid");
+}
+
+TEST_F(Rebake, AllWhereTheBitsChange) {
+  bakeBoth();
+  settings_.bounds.positionBits = 21;
+  const Both both = bakeBoth();
+  EXPECT_EQ(kept(both.again), (List{false, false, false, false}));
+  EXPECT_EQ(both.again.whyAll, "positions have 21 bits instead of 20");
+  settings_.bounds.normalBits = 9;  // the square and the others have normals
+  EXPECT_EQ(kept(bakeBoth().again), (List{false, false, false, false}));
+}
+
+TEST_F(Rebake, TheMapToTheSourceIsTakenAlong) {
+  bakeBoth();
+  settings_.keepMap = true;
+  EXPECT_EQ(kept(bakeBoth().again), (List{false, false, false, false}));  // the older pack has none
+  folder_.write("pyramid.obj", pyramid(0.25));
+  EXPECT_EQ(kept(bakeBoth().again), (List{true, true, false, true}));
+  // The same mesh from a file that counts its vertices from another place.
+  pack::Scene scene = bake(description(), settings_, kSilent).scene;
+  scene.meshes[3].sourceVertices = {11, 12, 13, 14};
+  const std::optional<OlderBake> older = readOlder(pack_);
+  const pack::OlderPack source{&older->pack, older->bytes};
+  const pack::Written written = pack::serialize(scene, settings_, &source);
+  EXPECT_EQ(kept(written), (List{true, true, true, false}));
+  EXPECT_TRUE(written.bytes == pack::serialize(scene, settings_).bytes);
+  const pack::Pack pack = pack::parse(written.bytes, "test");
+  for (const std::uint32_t v : pack.scene.meshes[3].sourceVertices) EXPECT_TRUE(v >= 11 && v <= 14) << v;
+}
+
+TEST_F(Rebake, OtherVersionsAreNotTakenFrom) {
+  const std::string provenance = provenanceOf(description(), settings_);
+  OlderBake older;
+  older.pack.scene.provenance = provenance;
+  EXPECT_TRUE(isUpToDate(older, provenance));
+  EXPECT_TRUE(isOfSameVersions(older, provenance));
+  for (const char* key : {"malus", "baker", "draco"}) {
+    json changed = json::parse(provenance);
+    changed[key] = "another";
+    older.pack.scene.provenance = changed.dump();
+    EXPECT_FALSE(isOfSameVersions(older, provenance)) << key;
+  }
+  older.pack.scene.provenance = "no JSON";
+  EXPECT_FALSE(isOfSameVersions(older, provenance));
+  EXPECT_FALSE(isUpToDate(older, provenance));
+}
+
+TEST_F(Rebake, ADamagedPackIsNone) {
+  EXPECT_FALSE(readOlder(pack_).has_value());
+  bakeBoth();
+  EXPECT_TRUE(readOlder(pack_).has_value());
+  std::vector<std::byte> bytes = readFile(pack_);
+  bytes[bytes.size() / 2] ^= std::byte{1};
+  writeFile(pack_, bytes);
+  EXPECT_FALSE(readOlder(pack_).has_value());
+}
+
+TEST_F(Rebake, SettingsAreInTheProvenance) {
+  const SceneDescription d = description();
+  const std::string plain = provenanceOf(d, {});
+  std::vector<pack::WriteSettings> others(5);
+  others[0].bounds.maxError = 1e-4;
+  others[1].bounds.maxNormalErrorDegrees = 0.1;
+  others[2].bounds.positionBits = 20;
+  others[3].bounds.normalBits = 12;
+  others[4].keepMap = true;
+  for (const pack::WriteSettings& settings : others) EXPECT_NE(provenanceOf(d, settings), plain);
+}
+
+TEST_F(Rebake, ABoundThatCannotBeReachedNamesTheMesh) {
+  settings_.bounds.maxError = 1e-15;
+  const Baked baked = bake(description(), settings_, kSilent);
+  const std::string error = test::errorOf([&] { pack::serialize(baked.scene, settings_); });
+  EXPECT_TRUE(error.starts_with("mesh '")) << error;
+  EXPECT_CONTAINS(error, "': positions are farther off than asked for");
+  settings_.bounds.maxError = 1e-4;
+  const pack::Written written = pack::serialize(baked.scene, settings_);
+  EXPECT_LT(written.grid.positionBits, 20);
+  for (const pack::MeshCompression& m : written.meshes) EXPECT_LE(m.deviation.positionMax, 1e-4);
+}
+
+}  // namespace
+}  // namespace malus::bake

@@ -1,0 +1,49 @@
+// The mesh that benchmarks of meshes share: a bumpy closed surface on which nothing repeats.
+#pragma once
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "meshprep/prepare.h"
+
+namespace malus::bench {
+
+// In a file of this process: quads, about `triangles` when they are cut.
+inline std::filesystem::path torusObj(std::int64_t triangles) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("malus-bench-{}-{}.obj", ::getpid(), triangles);
+  if (std::filesystem::exists(path)) return path;
+  const auto around = static_cast<std::int64_t>(std::sqrt(static_cast<double>(triangles))), across = around / 2;
+  std::string text;
+  for (std::int64_t i = 0; i < around; ++i)
+    for (std::int64_t j = 0; j < across; ++j) {
+      const double u = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(around),
+                   v = 2 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(across);
+      const double r = 0.4 + 0.02 * std::sin(7 * u + 3 * v);
+      text += fmt::format("v {:.7f} {:.7f} {:.7f}\n", (1 + r * std::cos(v)) * std::cos(u), r * std::sin(v),
+                          (1 + r * std::cos(v)) * std::sin(u));
+    }
+  for (std::int64_t i = 0; i < around; ++i)
+    for (std::int64_t j = 0; j < across; ++j) {
+      const auto at = [&](std::int64_t a, std::int64_t b) { return (a % around) * across + b % across + 1; };
+      text += fmt::format("f {} {} {} {}\n", at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
+    }
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+// Cleaned, with normals.
+inline prep::Mesh preparedTorus(std::int64_t triangles) {
+  prep::Report report;
+  return prep::prepare(torusObj(triangles), {}, report);
+}
+
+}  // namespace malus::bench

@@ -1,0 +1,317 @@
+// Bits that keep a bound, and the map that encoding gives.
+#include "meshprep/compress/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include "meshprep/compress/deviation.h"
+#include "meshprep/compress/draco_write.h"
+#include "meshprep/compress/grid_rounding.h"
+#include "meshprep/compress/reordering.h"
+#include "meshprep/normals/crease_normals.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::compress {
+namespace {
+
+using prep::test::contains;
+using prep::test::errorOf;
+
+TriangleMesh meshOf(prep::Mesh source, bool normals = true) {
+  if (normals) prep::addCreaseNormals(source, 40);
+  TriangleMesh mesh;
+  for (const glm::dvec3& p : source.positions) mesh.positions.emplace_back(p);
+  mesh.normals = source.normals;
+  mesh.triangles = source.triangles;
+  return mesh;
+}
+
+// One slanting triangle of about the given height over a base of 1, off the grid's points.
+TriangleMesh sliver(float height) {
+  TriangleMesh mesh;
+  mesh.positions = {{0.1234567f, 0.2345678f, 0.3456789f},
+                    {1.1234567f, 0.2345678f, 0.3456789f},
+                    {0.6234567f, 0.2345678f + height, 0.3456789f + 0.7f * height}};
+  mesh.triangles = {{0, 1, 2}};
+  return mesh;
+}
+
+Bits bitsFor(const TriangleMesh& mesh, const Bounds& bounds) {
+  const MeshView view = mesh;
+  return chooseBits({&view, 1}, bounds);
+}
+
+Encoded encodedWith(const TriangleMesh& mesh, const Bits& bits) {
+  return encode(mesh, {bits.grid, bits.normalBits.front()});
+}
+
+TEST(Bounds, DefaultsRaiseNormalBitsUntilTheyAreKept) {
+  const TriangleMesh mesh = meshOf(prep::test::sphere(63, 128));
+  const Bits bits = bitsFor(mesh, {});
+  EXPECT_EQ(bits.grid.positionBits, kFirstPositionBits);
+  const Encoded encoded = encodedWith(mesh, bits);
+  EXPECT_LE(encoded.deviation.normalMaxDegrees, kDefaultNormalErrorDegrees);
+  EXPECT_LE(encoded.deviation.tiltMaxDegrees, kDefaultTiltDegrees);
+  EXPECT_TRUE(judge(encoded.deviation, {bits.grid, bits.normalBits.front()}, {}, "sphere").empty());
+  // One bit less is too few, unless it is where raising begins.
+  Bits fewer = bits;
+  if (--fewer.normalBits.front() >= kFirstNormalBits) {
+    EXPECT_GT(encodedWith(mesh, fewer).deviation.normalMaxDegrees, kDefaultNormalErrorDegrees);
+  }
+  EXPECT_GT(bits.normalBits.front(), kFirstNormalBits);  // 12 bits reach 0.058 degrees on a sphere
+}
+
+TEST(Bounds, AskedForErrorsTakeTheFewestBits) {
+  const TriangleMesh mesh = meshOf(prep::test::sphere(31, 64));
+  for (const double error : {1e-4, 1e-5, 1e-6}) {
+    Bounds bounds;
+    bounds.maxError = error;
+    const Bits bits = bitsFor(mesh, bounds);
+    EXPECT_LE(encodedWith(mesh, bits).deviation.positionMax, error);
+    Bits fewer = bits;
+    --fewer.grid.positionBits;
+    const Deviation worse = encodedWith(mesh, fewer).deviation;
+    EXPECT_TRUE(worse.positionMax > error || worse.tiltMaxDegrees > kDefaultTiltDegrees) << error;
+  }
+  for (const double error : {2.0, 0.2, 0.02}) {
+    Bounds bounds;
+    bounds.maxNormalErrorDegrees = error;
+    const Bits bits = bitsFor(mesh, bounds);
+    EXPECT_LE(encodedWith(mesh, bits).deviation.normalMaxDegrees, error);
+    Bits fewer = bits;
+    --fewer.normalBits.front();
+    EXPECT_GT(encodedWith(mesh, fewer).deviation.normalMaxDegrees, error);
+  }
+}
+
+TEST(Bounds, WhatCannotBeReachedIsAnErrorWhereItWasAskedFor) {
+  const TriangleMesh mesh = meshOf(prep::test::sphere(15, 32));
+  Bounds bounds;
+  bounds.maxError = 1e-12;
+  Bits bits = bitsFor(mesh, bounds);
+  EXPECT_EQ(bits.grid.positionBits, kMaxPositionBits);
+  const auto judged = [&] {
+    return errorOf([&] {
+      judge(encodedWith(mesh, bits).deviation, {bits.grid, bits.normalBits.front()}, bounds, "mesh 'ball'");
+    });
+  };
+  EXPECT_TRUE(contains(judged(), "mesh 'ball': positions are farther off than asked for")) << judged();
+  EXPECT_TRUE(contains(judged(), "expected at most 1e-12 m, found")) << judged();
+  EXPECT_TRUE(contains(judged(), "26 bits")) << judged();
+  bounds = {};
+  bounds.maxNormalErrorDegrees = 1e-5;
+  bits = bitsFor(mesh, bounds);
+  EXPECT_EQ(bits.normalBits.front(), kMaxNormalBits);
+  EXPECT_TRUE(contains(judged(), "normals are farther off than asked for")) << judged();
+  // What was lost before counts.
+  bounds = {};
+  bounds.maxError = 1e-5;
+  bits = bitsFor(mesh, bounds);
+  const Deviation deviation = encodedWith(mesh, bits).deviation;
+  EXPECT_TRUE(errorOf([&] { judge(deviation, {bits.grid, 12}, bounds, "x"); }).empty());
+  EXPECT_FALSE(errorOf([&] { judge(deviation, {bits.grid, 12}, bounds, "x", 1e-5); }).empty());
+}
+
+TEST(Bounds, OneGridForAllMeshes) {
+  TriangleMesh coarse = sliver(1.0f);
+  TriangleMesh fine = sliver(2e-4f);
+  for (glm::vec3& p : fine.positions) p += glm::vec3(3, 0.3f, 0.2f);
+  const MeshView views[] = {coarse, fine};
+  const Bits alone = chooseBits({views, 1}, {}), both = chooseBits(views, {});
+  EXPECT_EQ(alone.grid.positionBits, kFirstPositionBits);
+  EXPECT_GT(both.grid.positionBits, kFirstPositionBits);  // for the fine one's sake
+  EXPECT_EQ(both.grid.origin, coarse.positions[0]);
+  EXPECT_GT(both.grid.range, 3.9f);
+  for (const TriangleMesh* mesh : {&coarse, &fine})
+    EXPECT_LE(encode(*mesh, {both.grid, 12}).deviation.tiltMaxDegrees, kDefaultTiltDegrees);
+}
+
+TEST(Bounds, NoFaceLosesItsAreaOrTurnsOver) {
+  // At 20 bits of a metre the sliver's three corners fall on one line.
+  TriangleMesh mesh = sliver(2e-7f);
+  Bits bits = bitsFor(mesh, {});
+  bits.grid.positionBits = 20;
+  const Deviation lost = encodedWith(mesh, bits).deviation;
+  EXPECT_EQ(lost.newDegenerate + lost.flipped, 1u);
+  const std::vector<std::string> warnings = judge(lost, {bits.grid, 12}, {}, "mesh 'sliver'");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0], "mesh 'sliver': 1 faces lose their area with positions of 20 bits")) << warnings[0];
+  bits = bitsFor(mesh, {});
+  EXPECT_GT(bits.grid.positionBits, 20);
+  EXPECT_EQ(encodedWith(mesh, bits).deviation.newDegenerate, 0u);
+  // A face without area in the source asks for nothing.
+  mesh.positions[2] = mesh.positions[0];
+  EXPECT_EQ(bitsFor(mesh, {}).grid.positionBits, kFirstPositionBits);
+  EXPECT_EQ(encodedWith(mesh, bitsFor(mesh, {})).deviation.newDegenerate, 0u);
+}
+
+TEST(Bounds, TheMostBitsAndAWarningWhereDefaultsCannotBeKept) {
+  // A sliver a few roundings of float high: no grid in float keeps its side.
+  TriangleMesh mesh = sliver(0);
+  mesh.positions[2].y = std::nextafter(mesh.positions[2].y, 1.0f);
+  mesh.positions.push_back({1000, 1000, 1000});
+  mesh.positions.push_back({1000, 1001, 1000});
+  mesh.triangles.push_back({0, 3, 4});
+  const Bits bits = bitsFor(mesh, {});
+  EXPECT_EQ(bits.grid.positionBits, kMaxPositionBits);
+  const Encoded encoded = encodedWith(mesh, bits);
+  const auto warnings = judge(encoded.deviation, {bits.grid, bits.normalBits.front()}, {}, "mesh 'm'");
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_TRUE(contains(warnings[0], "face 0")) << warnings[0];
+}
+
+TEST(Bounds, GivenBitsAreTakenAsTheyAre) {
+  const TriangleMesh mesh = meshOf(prep::test::sphere(31, 64));
+  Bounds bounds;
+  bounds.positionBits = 9;
+  bounds.normalBits = 7;
+  const Bits bits = bitsFor(mesh, bounds);
+  EXPECT_EQ(bits.grid.positionBits, 9);
+  EXPECT_EQ(bits.normalBits.front(), 7);
+  const auto warnings = judge(encodedWith(mesh, bits).deviation, {bits.grid, 7}, bounds, "mesh 'ball'");
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_TRUE(contains(warnings[0], "mesh 'ball': normals are off by up to 1.")) << warnings[0];
+  EXPECT_TRUE(contains(warnings[1], "is tilted by")) << warnings[1];
+  bounds.positionBits = 27;
+  EXPECT_TRUE(contains(errorOf([&] { bitsFor(mesh, bounds); }), "expected 1 to 26, found 27"));
+  bounds = {};
+  bounds.maxError = 0;
+  EXPECT_TRUE(contains(errorOf([&] { bitsFor(mesh, bounds); }), "over 0"));
+}
+
+TEST(Deviation, OfAKnownMove) {
+  TriangleMesh source;
+  source.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 1, 0}};
+  source.triangles = {{0, 1, 2}};
+  source.normals.assign(3, {0, 0, 1});
+  std::vector<glm::vec3> positions = source.positions, normals = source.normals;
+  EXPECT_EQ(deviationOf(source, positions, normals).tiltMaxDegrees, 0);
+  positions[2].z += 1;  // the apex, 1 above the base: 45 degrees
+  normals[1] = {0, 0.6f, 0.8f};
+  const Deviation moved = deviationOf(source, positions, normals);
+  EXPECT_NEAR(moved.positionMax, 1, 1e-6);
+  EXPECT_NEAR(moved.tiltMaxDegrees, 45, 1e-4);
+  EXPECT_NEAR(moved.normalMaxDegrees, std::asin(0.6) * 180 / std::numbers::pi, 1e-4);
+  EXPECT_EQ(moved.flipped, 0u);
+  positions = source.positions;
+  positions[2].y -= 2;
+  EXPECT_EQ(deviationOf(source, positions, normals).flipped, 1u);
+  EXPECT_NEAR(deviationOf(source, positions, normals).tiltMaxDegrees, 180, 1e-9);
+  positions[2].y += 1;
+  EXPECT_EQ(deviationOf(source, positions, normals).newDegenerate, 1u);
+}
+
+TEST(GridRounding, IsWhatDecodingGives) {
+  const TriangleMesh mesh = meshOf(prep::test::sphere(15, 32));
+  for (const int bits : {3, 12, 20, 23, 24, 26}) {
+    Settings settings{gridFor(mesh.positions, bits), std::min(bits, 16)};
+    const Encoded encoded = encode(mesh, settings);
+    const std::vector<glm::vec3> positions = roundedPositions(mesh.positions, settings.grid),
+                                 normals = roundedNormals(mesh.normals, settings.normalBits);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      EXPECT_EQ(encoded.decoded.positions[i], positions[encoded.sourceVertices[i]]) << bits;
+      EXPECT_EQ(encoded.decoded.normals[i], normals[encoded.sourceVertices[i]]) << bits;
+    }
+  }
+}
+
+// The map is a permutation under which every decoded triangle is its source, corner by corner.
+void expectMap(const TriangleMesh& mesh, const Encoded& encoded) {
+  std::vector<std::uint32_t> vertices = encoded.sourceVertices, triangles = encoded.sourceTriangles;
+  ASSERT_EQ(vertices.size(), mesh.positions.size());
+  ASSERT_EQ(triangles.size(), mesh.triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const glm::uvec3 &t = encoded.decoded.triangles[i], &source = mesh.triangles[triangles[i]];
+    const glm::uvec3 mapped(vertices[t.x], vertices[t.y], vertices[t.z]);
+    EXPECT_TRUE(mapped == source || glm::uvec3(mapped.y, mapped.z, mapped.x) == source ||
+                glm::uvec3(mapped.z, mapped.x, mapped.y) == source)
+        << i;
+  }
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    EXPECT_LE(glm::distance(encoded.decoded.positions[i], mesh.positions[vertices[i]]),
+              encoded.deviation.positionMax * 1.001 + 1e-12);
+  std::sort(vertices.begin(), vertices.end());
+  std::sort(triangles.begin(), triangles.end());
+  for (std::size_t i = 0; i < vertices.size(); ++i) EXPECT_EQ(vertices[i], i);
+  for (std::size_t i = 0; i < triangles.size(); ++i) EXPECT_EQ(triangles[i], i);
+}
+
+TEST(SourceMap, NamesEveryVertexAndTriangleOnce) {
+  prep::Mesh open = prep::test::sphere(15, 32);
+  open.triangles.erase(open.triangles.begin() + 100, open.triangles.begin() + 300);
+  for (const bool normals : {false, true})
+    for (const prep::Mesh& m : {prep::test::sphere(15, 32), prep::test::cube(), open,
+                                prep::test::joined(prep::test::sphere(7, 9), prep::test::cube(1, {5, 5, 5})),
+                                prep::test::joined(prep::test::cube(), prep::test::cube())}) {  // every vertex twice
+      const TriangleMesh mesh = meshOf(m, normals);
+      const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
+      EXPECT_EQ(encoded.whySequential.empty(), encoded.method == "edgebreaker");
+      expectMap(mesh, encoded);
+    }
+  const TriangleMesh sphere = meshOf(prep::test::sphere(15, 32));
+  const Encoded encoded = encode(sphere, {gridFor(sphere.positions, 20), 12});
+  EXPECT_EQ(encoded.method, "edgebreaker");
+  EXPECT_NE(encoded.decoded.triangles, sphere.triangles);  // so that there was something to map
+}
+
+TEST(SourceMap, AnOpenSurfaceGoesThroughEdgebreakerWithAndWithoutNormals) {
+  // Draco orders the two differently: with positions alone it fills gaps of its list from the end.
+  prep::Mesh half = prep::test::sphere(15, 32);
+  std::erase_if(half.triangles, [&](const glm::uvec3& t) { return half.positions[t.x].y < 0; });
+  std::vector<std::uint32_t> at(half.positions.size(), 0);
+  prep::Mesh open;
+  for (glm::uvec3 t : half.triangles) {
+    for (int c = 0; c < 3; ++c) {
+      std::uint32_t& place = at[t[c]];
+      if (place == 0)
+        open.positions.push_back(half.positions[t[c]]), place = static_cast<std::uint32_t>(open.positions.size());
+      t[c] = place - 1;
+    }
+    open.triangles.push_back(t);
+  }
+  for (const bool normals : {false, true}) {
+    const TriangleMesh mesh = meshOf(open, normals);
+    const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
+    EXPECT_EQ(encoded.method, "edgebreaker") << encoded.whySequential;
+    expectMap(mesh, encoded);
+  }
+}
+
+TEST(SourceMap, AnotherMeshIsNoReordering) {
+  const TriangleMesh mesh = meshOf(prep::test::cube());
+  const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
+  std::vector<std::uint32_t> identity(mesh.positions.size());
+  for (std::uint32_t i = 0; i < identity.size(); ++i) identity[i] = i;
+  EXPECT_TRUE(sourceTriangles(mesh, mesh, identity).has_value());
+  TriangleMesh changed = mesh;
+  std::swap(changed.triangles[3].x, changed.triangles[3].y);  // turned over
+  EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
+  changed = mesh;
+  changed.triangles[3] = changed.triangles[4];  // one twice, one not
+  EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
+  changed = mesh;
+  changed.positions[5].x += 1e-6f;
+  EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
+  changed = mesh;
+  changed.normals[5] = -changed.normals[5];
+  EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
+  identity[2] = 1;  // named twice
+  EXPECT_FALSE(sourceTriangles(mesh, mesh, identity).has_value());
+}
+
+TEST(SourceMap, TellsWhyEdgebreakerWasNotTaken) {
+  prep::Mesh degenerate = prep::test::sphere(15, 32);
+  degenerate.triangles.emplace_back(3, 3, 4);
+  const TriangleMesh mesh = meshOf(degenerate, false);
+  EXPECT_TRUE(contains(encode(mesh, {gridFor(mesh.positions, 20), 12}).whySequential, "degenerate"));
+  const TriangleMesh one = sliver(1);
+  EXPECT_EQ(encode(one, {gridFor(one.positions, 20), 12}).whySequential, "edgebreaker is no smaller");
+}
+
+}  // namespace
+}  // namespace malus::compress

@@ -84,11 +84,15 @@ Mesh clean(Mesh mesh, const Options& options, Report& report) {
 
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report) {
   checkOptions(options);
-  report = {};
-  report.source = source.string();
+  return prepare(readMesh(source), source.string(), options, report);
+}
 
-  // Step 1: read.
-  const Polygons polygons = readMesh(source);
+Mesh prepare(const Polygons& polygons, const std::string& source, const Options& options, Report& report) {
+  checkOptions(options);
+
+  // Step 1: what there is.
+  report = {};
+  report.source = source;
   report.input.vertices = polygons.positions.size();
   report.input.faces = polygons.faceCount();
 

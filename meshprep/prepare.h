@@ -1,14 +1,16 @@
 // From a mesh file as a modeller leaves it to a mesh that a renderer can trust.
 //
-// read (OBJ, PLY, STL, OFF) -> triangulate -> weld -> drop degenerate faces -> drop duplicate faces -> drop
+// read (OBJ, PLY, STL, OFF, glTF) -> triangulate -> weld -> drop degenerate faces -> drop duplicate faces -> drop
 // unreferenced vertices -> orient -> normals. Every step counts what it changed and nothing is dropped
 // uncounted; a mesh that needs nothing keeps its vertices and triangles in their order. Coordinates are
 // taken as metres. Compression is separate: see compress/draco_mesh.h.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "meshprep/mesh.h"
+#include "meshprep/read/polygons.h"
 #include "meshprep/report.h"
 
 namespace malus::prep {
@@ -25,6 +27,9 @@ struct Options {
 // anything in the file that cannot be read right, options out of bounds, nothing left after cleaning; asIs
 // and not flat where the file has no normals, or one without a length.
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report);
+
+// The same from polygons that have been read; source names them in messages.
+Mesh prepare(const Polygons& polygons, const std::string& source, const Options& options, Report& report);
 
 // The same from a mesh in memory, from weld on; report.input is left to the caller.
 Mesh clean(Mesh mesh, const Options& options, Report& report);

@@ -1,4 +1,5 @@
-// A mesh file (OBJ, PLY, STL, OFF, told by its extension) as polygons.
+// A mesh file (OBJ, PLY, STL, OFF, told by its extension) as polygons. Of glTF (.gltf, .glb; read_gltf.h) every
+// instance is there, in world space.
 //
 // The file is scanned first (scan.h), then read by OpenMesh from the same bytes. OpenMesh hands over faces
 // one by one as it parses them; they are collected as they are written, not put into a half-edge structure,
@@ -14,7 +15,7 @@
 namespace malus::prep {
 
 // STL shares no vertices: three positions a face. Throws Error: unreadable file, unknown extension, no
-// vertices or faces, whatever the scan refuses, OpenMesh reading something else than the scan.
+// vertices or faces, whatever the scan or readGltf() refuses, OpenMesh reading something else than the scan.
 Polygons readMesh(const std::filesystem::path& path);
 
 }  // namespace malus::prep

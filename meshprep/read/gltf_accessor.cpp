@@ -6,7 +6,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include "meshprep/base/error.h"
 

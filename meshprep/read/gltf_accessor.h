@@ -12,10 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "meshprep/read/gltf_buffers.h"
-
-namespace tinygltf {
-class Model;
-}
+#include "meshprep/read/gltf_library.h"
 
 namespace malus::prep {
 

@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/read/gltf_rules.h"
 #include "meshprep/read/source_scene.h"
 
 namespace malus::prep {
+using gltf::findRule;
+using gltf::requiredKeys;
+using gltf::Rule;
+using gltf::Type;
 using nlohmann::json;
 
 namespace {
@@ -22,109 +26,6 @@ constexpr std::size_t kBytesPerObject = 50;
 constexpr std::int64_t kMaxIndex = 0x7fffffff;            // tinygltf keeps them in int
 constexpr std::int64_t kMaxSize = std::int64_t{1} << 53;  // what every JSON reader holds
 
-enum class Type { object, objects, index, indices, size, number, numbers, text, texts, flag, noted };
-
-// `size` numbers of an array; `required` where the object that holds it cannot do without; `note` of what is dropped.
-struct Rule {
-  std::string_view path;
-  Type type;
-  std::size_t size = 0;
-  bool required = false;
-  std::string_view note = {};
-};
-
-constexpr Rule noted(std::string_view path, std::string_view note) { return {path, Type::noted, 0, false, note}; }
-
-// Array levels do not show in a path.
-constexpr std::array kRules = {
-    Rule{"asset", Type::object, 0, true},
-    Rule{"asset/version", Type::text, 0, true},
-    Rule{"asset/minVersion", Type::text},
-    Rule{"extensionsUsed", Type::texts},
-    Rule{"extensionsRequired", Type::texts},
-    Rule{"scene", Type::index},
-    Rule{"scenes", Type::objects},
-    Rule{"scenes/nodes", Type::indices},
-    Rule{"nodes", Type::objects},
-    Rule{"nodes/name", Type::text},
-    Rule{"nodes/mesh", Type::index},
-    Rule{"nodes/children", Type::indices},
-    Rule{"nodes/matrix", Type::numbers, 16},
-    Rule{"nodes/translation", Type::numbers, 3},
-    Rule{"nodes/rotation", Type::numbers, 4},
-    Rule{"nodes/scale", Type::numbers, 3},
-    noted("nodes/skin", "skins: the pose of the file is taken"),
-    noted("nodes/camera", "cameras"),
-    Rule{"meshes", Type::objects},
-    Rule{"meshes/name", Type::text},
-    Rule{"meshes/primitives", Type::objects, 0, true},
-    Rule{"meshes/primitives/mode", Type::index},
-    Rule{"meshes/primitives/indices", Type::index},
-    Rule{"meshes/primitives/material", Type::index},
-    Rule{"meshes/primitives/attributes", Type::object, 0, true},
-    Rule{"meshes/primitives/attributes/POSITION", Type::index},
-    Rule{"meshes/primitives/attributes/NORMAL", Type::index},
-    noted("meshes/primitives/attributes/TANGENT", "tangents"),
-    noted("meshes/primitives/attributes/TEXCOORD_0", "texture coordinates"),
-    noted("meshes/primitives/attributes/COLOR_0", "colours of vertices"),
-    noted("meshes/primitives/attributes/JOINTS_0", "skins: the pose of the file is taken"),
-    noted("meshes/primitives/targets", "morph targets: the shape of the file is taken"),
-    Rule{"meshes/primitives/extensions", Type::object},
-    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression", Type::object},
-    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/bufferView", Type::index, 0, true},
-    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/attributes", Type::object, 0, true},
-    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/attributes/POSITION", Type::index},
-    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/attributes/NORMAL", Type::index},
-    Rule{"accessors", Type::objects},
-    Rule{"accessors/bufferView", Type::index},
-    Rule{"accessors/byteOffset", Type::size},
-    Rule{"accessors/componentType", Type::index, 0, true},
-    Rule{"accessors/normalized", Type::flag},
-    Rule{"accessors/count", Type::size, 0, true},
-    Rule{"accessors/type", Type::text, 0, true},
-    Rule{"accessors/sparse", Type::object},
-    Rule{"accessors/sparse/count", Type::index, 0, true},
-    Rule{"accessors/sparse/indices", Type::object, 0, true},
-    Rule{"accessors/sparse/indices/bufferView", Type::index, 0, true},
-    Rule{"accessors/sparse/indices/byteOffset", Type::index},
-    Rule{"accessors/sparse/indices/componentType", Type::index, 0, true},
-    Rule{"accessors/sparse/values", Type::object, 0, true},
-    Rule{"accessors/sparse/values/bufferView", Type::index, 0, true},
-    Rule{"accessors/sparse/values/byteOffset", Type::index},
-    Rule{"bufferViews", Type::objects},
-    Rule{"bufferViews/buffer", Type::index, 0, true},
-    Rule{"bufferViews/byteOffset", Type::size},
-    Rule{"bufferViews/byteLength", Type::size, 0, true},
-    Rule{"bufferViews/byteStride", Type::index},
-    Rule{"buffers", Type::objects},
-    Rule{"buffers/uri", Type::text},
-    Rule{"buffers/byteLength", Type::size, 0, true},
-    Rule{"materials", Type::objects},
-    Rule{"materials/name", Type::text},
-    Rule{"materials/pbrMetallicRoughness", Type::object},
-    Rule{"materials/pbrMetallicRoughness/baseColorFactor", Type::numbers, 4},
-    Rule{"materials/pbrMetallicRoughness/metallicFactor", Type::number},
-    Rule{"materials/pbrMetallicRoughness/roughnessFactor", Type::number},
-    Rule{"materials/emissiveFactor", Type::numbers, 3},
-    Rule{"materials/alphaMode", Type::text},
-    Rule{"materials/extensions", Type::object},
-    Rule{"materials/extensions/KHR_materials_ior", Type::object},
-    Rule{"materials/extensions/KHR_materials_ior/ior", Type::number},
-    Rule{"materials/extensions/KHR_materials_transmission", Type::object},
-    Rule{"materials/extensions/KHR_materials_transmission/transmissionFactor", Type::number},
-    Rule{"materials/extensions/KHR_materials_volume", Type::object},
-    Rule{"materials/extensions/KHR_materials_volume/thicknessFactor", Type::number},
-    Rule{"materials/extensions/KHR_materials_volume/attenuationDistance", Type::number},
-    Rule{"materials/extensions/KHR_materials_volume/attenuationColor", Type::numbers, 3},
-    Rule{"materials/extensions/KHR_materials_emissive_strength", Type::object},
-    Rule{"materials/extensions/KHR_materials_emissive_strength/emissiveStrength", Type::number},
-    noted("textures", "textures"),
-    noted("images", "textures"),
-    noted("animations", "animations: the pose of the file is taken"),
-    noted("skins", "skins: the pose of the file is taken"),
-    noted("cameras", "cameras"),
-};
-
 // Extensions that are read, and those that touch nothing but textures, which are left out anyway.
 constexpr std::array<std::string_view, 10> kKnownExtensions = {
     "KHR_draco_mesh_compression", "KHR_mesh_quantization",
@@ -133,82 +34,106 @@ constexpr std::array<std::string_view, 10> kKnownExtensions = {
     "KHR_texture_transform",      "KHR_texture_basisu",
     "EXT_texture_webp",           "EXT_texture_avif"};
 
-const Rule* findRule(std::string_view path) {
-  static const std::map<std::string_view, const Rule*> kByPath = [] {
-    std::map<std::string_view, const Rule*> rules;
-    for (const Rule& rule : kRules) rules.emplace(rule.path, &rule);
-    return rules;
-  }();
-  const auto found = kByPath.find(path);
-  return found == kByPath.end() ? nullptr : found->second;
-}
-
-// The required keys of the objects at each path.
-const std::vector<std::string_view>& requiredKeys(std::string_view path) {
-  static const std::map<std::string_view, std::vector<std::string_view>> kByPath = [] {
-    std::map<std::string_view, std::vector<std::string_view>> keys;
-    for (const Rule& rule : kRules) {
-      const std::size_t slash = rule.path.rfind('/');
-      const bool top = slash == std::string_view::npos;
-      if (rule.required)
-        keys[top ? std::string_view() : rule.path.substr(0, slash)].push_back(top ? rule.path
-                                                                                  : rule.path.substr(slash + 1));
-    }
-    return keys;
-  }();
-  static const std::vector<std::string_view> kNone;
-  const auto found = kByPath.find(path);
-  return found == kByPath.end() ? kNone : found->second;
-}
-
-// Decides, event by event of nlohmann's parser, what of the JSON is kept.
-class Filter {
+// Makes a document of what is kept, event by event of nlohmann's parser. (Its own filter by callback looks through the
+// whole list for every object that ends: quadratic.)
+class Builder : public json::json_sax_t {
  public:
-  Filter(std::size_t textBytes, const std::string& where, std::vector<std::string>& notes)
+  Builder(std::size_t textBytes, const std::string& where, std::vector<std::string>& notes)
       : where_(where), notes_(notes), objectsLeft_(std::max(kMinObjects, textBytes / kBytesPerObject)) {}
 
-  bool operator()(int depth, json::parse_event_t event, const json& value) {
-    if (depth > kMaxNesting)
-      throw Error(where_, "JSON is nested too deep", fmt::format("at most {} levels", kMaxNesting));
-    const auto level = static_cast<std::size_t>(depth);
-    if (event != json::parse_event_t::key && level < dropped_) dropped_ = 0;
-    switch (event) {
-      case json::parse_event_t::key:
-        return keep(level, value.get_ref<const std::string&>());
-      case json::parse_event_t::object_start:
-        if (dropped_ == 0) count();
-        if (seen_.size() < level + 1) seen_.resize(level + 1);
-        seen_[level].clear();
-        return true;
-      case json::parse_event_t::value:
-        if (dropped_ == 0 && value.is_string()) count();
-        return true;
-      default:
-        return true;
-    }
+  json take() { return std::move(root_); }
+
+  bool null() override { return put(nullptr); }
+  bool boolean(bool value) override { return put(value); }
+  bool number_integer(std::int64_t value) override { return put(value); }
+  bool number_unsigned(std::uint64_t value) override { return put(value); }
+  bool number_float(double value, const std::string&) override { return put(value); }
+  bool string(std::string& value) override {
+    if (isKept()) count();
+    return put(std::move(value));
+  }
+  bool binary(json::binary_t&) override { return false; }  // JSON has none
+  bool start_object(std::size_t) override {
+    if (isKept()) count();
+    return open(json::object());
+  }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(json::array()); }
+  bool end_array() override { return close(); }
+
+  bool key(std::string& key) override {
+    if (droppedLevels_ > 0) return true;
+    Open& object = open_.back();
+    path_.resize(object.pathSize);
+    if (!path_.empty()) path_ += '/';
+    path_ += key;
+    const Rule* rule = findRule(path_);
+    if (rule != nullptr && rule->type == Type::noted) addNote(notes_, std::string(rule->note));
+    isDropped_ = rule == nullptr || rule->type == Type::noted;
+    if (isDropped_) return true;
+    if (object.value->contains(key))
+      throw Error(where_, fmt::format("key '{}' is there twice in one object", path_), "each key once");
+    key_ = std::move(key);
+    return true;
+  }
+
+  bool parse_error(std::size_t byte, const std::string&, const json::exception& error) override {
+    constexpr int kNumberOutOfRange = 406;
+    const std::string place = fmt::format("{}, byte {} of the JSON", where_, byte > 0 ? byte - 1 : 0);
+    if (error.id == kNumberOutOfRange)
+      throw Error(place, "holds a number that no double holds", "glTF 2.0", error.what());
+    throw Error(place, "is not JSON", "glTF 2.0", error.what());
   }
 
  private:
-  // The key stands in an object at level - 1; its value is dropped with all that it holds, or kept.
-  bool keep(std::size_t level, const std::string& key) {
-    if (dropped_ > 0 && level > dropped_) return false;
-    dropped_ = 0;
-    keys_.resize(level);
-    keys_[level - 1] = key;
-    path_.clear();
-    for (const std::string& k : keys_) {
-      if (k.empty()) continue;
-      if (!path_.empty()) path_ += '/';
-      path_ += k;
+  // A list or object that is being filled.
+  struct Open {
+    json* value;
+    std::size_t pathSize;  // of its own path; lists have that of their key
+  };
+
+  bool isKept() const { return droppedLevels_ == 0 && !isDropped_; }
+
+  // Puts a kept value where it belongs.
+  json* place(json value) {
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return &root_;
     }
-    const Rule* rule = key.empty() ? nullptr : findRule(path_);
-    if (rule != nullptr && rule->type == Type::noted) addNote(notes_, std::string(rule->note));
-    if (rule == nullptr || rule->type == Type::noted) {
-      dropped_ = level;
-      return false;
+    json& parent = *open_.back().value;
+    if (parent.is_array()) {
+      parent.push_back(std::move(value));
+      return &parent.back();
     }
-    if (!seen_[level - 1].insert(rule).second)
-      throw Error(where_, fmt::format("key '{}' is there twice in one object", path_), "each key once");
+    return &(parent[key_] = std::move(value));
+  }
+
+  bool put(json value) {
+    if (isKept()) place(std::move(value));
+    if (droppedLevels_ == 0) isDropped_ = false;
+    return true;
+  }
+
+  bool open(json value) {
+    if (++levels_ > kMaxNesting)
+      throw Error(where_, "JSON is nested too deep", fmt::format("at most {} levels", kMaxNesting));
+    if (!isKept()) {
+      ++droppedLevels_;
+      isDropped_ = false;
+      return true;
+    }
+    // In a list the path is that of the list's key, which the last object may have gone below.
+    if (!open_.empty() && open_.back().value->is_array()) path_.resize(open_.back().pathSize);
+    open_.push_back({place(std::move(value)), path_.size()});
+    return true;
+  }
+
+  bool close() {
+    --levels_;
+    if (droppedLevels_ > 0)
+      --droppedLevels_;
+    else
+      open_.pop_back();
     return true;
   }
 
@@ -221,10 +146,13 @@ class Filter {
   const std::string& where_;
   std::vector<std::string>& notes_;
   std::size_t objectsLeft_;
-  std::size_t dropped_ = 0;                  // level of the key whose value is being dropped; 0: none
-  std::vector<std::string> keys_;            // that lead here, by level; empty where an array is
-  std::vector<std::set<const Rule*>> seen_;  // of the open objects, by level
-  std::string path_;
+  json root_;
+  std::vector<Open> open_;
+  std::string path_;  // of the last key
+  std::string key_;
+  int levels_ = 0;
+  int droppedLevels_ = 0;   // how deep inside of a dropped value
+  bool isDropped_ = false;  // the value of the last key is to be dropped
 };
 
 // Whether every kept value is what its rule says. Whole numbers that stand for real ones become real, because tinygltf
@@ -339,16 +267,9 @@ GltfJson parseGltfJson(std::string_view text, const std::string& where) {
   GltfJson result;
 
   // Step 1: parse what is on the whitelist.
-  Filter filter(text.size(), where, result.notes);
-  try {
-    result.document = json::parse(
-        text, [&filter](int depth, json::parse_event_t event, json& value) { return filter(depth, event, value); });
-  } catch (const json::parse_error& error) {
-    throw Error(fmt::format("{}, byte {} of the JSON", where, error.byte > 0 ? error.byte - 1 : 0), "is not JSON",
-                "glTF 2.0", error.what());
-  } catch (const json::exception& error) {  // a number such as 1e999
-    throw Error(where, "holds a number that no double holds", "glTF 2.0", error.what());
-  }
+  Builder builder(text.size(), where, result.notes);
+  json::sax_parse(text, &builder);
+  result.document = builder.take();
 
   // Step 2: types, version, extensions.
   if (!result.document.is_object()) throw Error(where, "is no glTF", "a JSON object", result.document.type_name());

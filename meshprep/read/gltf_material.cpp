@@ -3,7 +3,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include "meshprep/base/error.h"
 

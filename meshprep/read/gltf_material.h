@@ -8,11 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "meshprep/read/gltf_library.h"
 #include "meshprep/read/source_scene.h"
-
-namespace tinygltf {
-struct Material;
-}
 
 namespace malus::prep {
 

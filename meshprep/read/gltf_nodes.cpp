@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 

@@ -7,9 +7,7 @@
 
 #include <glm/mat4x4.hpp>
 
-namespace tinygltf {
-class Model;
-}
+#include "meshprep/read/gltf_library.h"
 
 namespace malus::prep {
 

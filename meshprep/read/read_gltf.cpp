@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include "meshprep/base/error.h"
 #include "meshprep/read/gltf_accessor.h"
@@ -32,18 +31,6 @@ constexpr std::size_t kMinInstancedTriangles = 4'000'000;
 constexpr std::size_t kMaxCopies = 16;
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
-
-// tinygltf shall open nothing: there are neither buffers nor images in what it is given.
-void refuseFiles(tinygltf::TinyGLTF& loader) {
-  tinygltf::FsCallbacks callbacks{};
-  callbacks.FileExists = [](const std::string&, void*) { return false; };
-  callbacks.ExpandFilePath = [](const std::string&, void*) { return std::string(); };
-  callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; };
-  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-  };
-  loader.SetFsCallbacks(callbacks);
-}
 
 // tinygltf's model of a checked document. Buffers are left out of what it reads; so are the indices of primitives,
 // because it refuses indices without a buffer view, which Draco's and sparse ones have: they go in as an attribute.
@@ -70,7 +57,6 @@ tinygltf::Model modelOf(json document, const std::string& where) {
   bool read = false;
   try {
     tinygltf::TinyGLTF loader;
-    refuseFiles(loader);
     read = loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "");
   } catch (const std::exception& failure) {
     throw Error(where, "tinygltf cannot read it", "", failure.what());

@@ -19,13 +19,8 @@ if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)
 endif()
 
-# tinygltf as Debian compiles it. Its CMake files have another name and target in every version.
+# The header alone: meshprep/read/gltf_library.h says why.
 find_path(TINYGLTF_INCLUDE tiny_gltf.h REQUIRED)
-find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
-add_library(malus_tinygltf UNKNOWN IMPORTED)
-set_target_properties(malus_tinygltf PROPERTIES IMPORTED_LOCATION "${TINYGLTF_LIBRARY}"
-                                                INTERFACE_INCLUDE_DIRECTORIES "${TINYGLTF_INCLUDE}")
-add_library(malus::tinygltf ALIAS malus_tinygltf)
 
 # OpenImageIO names an opencv4 include folder that may not be there.
 add_library(malus_openimageio INTERFACE)

@@ -2,64 +2,31 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <draco/core/draco_version.h>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <nlohmann/json.hpp>
 
 #include "bake/effects/effects.h"
 #include "bake/environment/octahedral_map.h"
 #include "bake/image/image.h"
+#include "bake/imports/import.h"
 #include "bake/pack/format.h"
 #include "bake/pack/reader.h"
+#include "bake/placement/placement.h"
 #include "bake/textures/texture.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 #include "meshprep/prepare.h"
+#include "meshprep/read/read_mesh.h"
+#include "meshprep/read/source_scene.h"
 
 namespace malus::bake {
 
 namespace {
 
 std::string hashText(const std::filesystem::path& file) { return fmt::format("{:016x}", pack::hashOf(readFile(file))); }
-
-glm::dmat3 linearPart(const Transform& transform) {
-  glm::dmat3 m(1.0);
-  for (int axis = 0; axis < 3; ++axis) m[axis][axis] = transform.scale[axis];
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = transform.rotateDegrees[axis] * std::numbers::pi / 180;
-    // Quarter turns are exact, so that what touches keeps touching.
-    const double quarter = transform.rotateDegrees[axis] / 90;
-    const bool exact = quarter == std::floor(quarter);
-    const double c = exact ? std::round(std::cos(a)) : std::cos(a), s = exact ? std::round(std::sin(a)) : std::sin(a);
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    glm::dmat3 turn(1.0);
-    turn[u][u] = c, turn[u][v] = s, turn[v][u] = -s, turn[v][v] = c;
-    m = turn * m;
-  }
-  return m;
-}
-
-// In world space, double precision; rounding to float comes after the origin is taken off.
-prep::Mesh placed(const prep::Mesh& mesh, const Transform& transform) {
-  const glm::dmat3 m = linearPart(transform);
-  const glm::dmat3 normalMatrix(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
-                                glm::cross(m[0], m[1]));  // det * inverse transpose
-  const bool mirrors = glm::dot(m[0], glm::cross(m[1], m[2])) < 0;
-  prep::Mesh result = mesh;
-  for (glm::dvec3& p : result.positions) p = m * p + transform.translate;
-  for (glm::vec3& n : result.normals) {
-    glm::dvec3 turned = normalMatrix * glm::dvec3(n);
-    if (mirrors) turned = -turned;
-    n = glm::vec3(glm::normalize(turned));
-  }
-  if (mirrors)
-    for (glm::uvec3& t : result.triangles) std::swap(t.y, t.z);
-  return result;
-}
 
 pack::Camera cameraOf(const SceneDescription& d, const glm::dvec3& origin) {
   pack::Camera camera;
@@ -78,14 +45,12 @@ pack::Camera cameraOf(const SceneDescription& d, const glm::dvec3& origin) {
   return camera;
 }
 
-void requireClosedGlass(const MeshDescription& mesh, const pack::Material& material, const prep::Report& report) {
-  if (material.kind != pack::MaterialKind::glass || mesh.sheet) return;
-  if (mesh.asIs)
-    throw Error(mesh.file.string(), fmt::format("mesh '{}': a glass body that is taken as it is", mesh.name),
-                "\"sheet\": true beside \"asIs\": true, because nobody checks that it is closed");
+void requireClosedGlass(const std::filesystem::path& file, const std::string& name, const pack::Material& material,
+                        const prep::Report& report) {
+  if (material.kind != pack::MaterialKind::glass) return;
   for (std::size_t i = 0; i < report.components.size(); ++i)
     if (!report.components[i].closed)
-      throw Error(mesh.file.string(), fmt::format("mesh '{}': component {} of a glass body is open", mesh.name, i),
+      throw Error(file.string(), fmt::format("mesh '{}': component {} of a glass body is open", name, i),
                   "a closed surface, or \"sheet\": true");
 }
 
@@ -115,7 +80,23 @@ std::string provenanceOf(const SceneDescription& d, const pack::WriteSettings& s
     add(file, file.lexically_relative(d.file.parent_path()).string());
   };
   add(d.file, d.file.filename().string());
-  for (const MeshDescription& mesh : d.meshes) addRelative(mesh.file);
+  // What an imported file refers to may be missing: that is told where it is read.
+  const auto addReferenced = [&](const std::filesystem::path& file) {
+    std::error_code ignored;
+    for (const std::filesystem::path& other : prep::referencedFiles(file))
+      if (std::filesystem::exists(other, ignored))
+        addRelative(other);
+      else
+        sources.push_back({{"file", other.lexically_relative(d.file.parent_path()).string()}, {"xxh3", "missing"}});
+  };
+  for (const MeshDescription& mesh : d.meshes) {
+    addRelative(mesh.file);
+    if (prep::isGltf(mesh.file)) addReferenced(mesh.file);
+  }
+  for (const ImportDescription& import : d.imports) {
+    addRelative(import.file);
+    addReferenced(import.file);
+  }
   if (!d.environmentImage.empty()) addRelative(d.environmentImage);
   for (const TextureDescription& texture : d.textures) addRelative(texture.file);
   return nlohmann::json{
@@ -153,6 +134,15 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   // Meshes in world space.
   std::vector<prep::Mesh> world;
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+  const auto place = [&](const prep::Mesh& mesh, const glm::dmat4& worldFromObject, pack::Mesh packed) {
+    if (scene.meshes.size() == pack::kMaxMeshes)
+      throw Error(d.file.string(), "has too many meshes", fmt::format("at most {}", pack::kMaxMeshes));
+    world.push_back(placed(mesh, worldFromObject));
+    for (const glm::dvec3& p : world.back().positions) low = glm::min(low, p), high = glm::max(high, p);
+    scene.meshes.push_back(std::move(packed));
+  };
+  UniqueNames meshNames, materialNames;
+  for (const pack::Material& material : d.materials) materialNames.take(material.name);
   for (const MeshDescription& mesh : d.meshes) {
     progress(fmt::format("preparing {}", mesh.name));
     prep::Options options;
@@ -161,21 +151,40 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     options.asIs = mesh.asIs;
     options.creaseDegrees = mesh.creaseDegrees;
     options.weldTolerance = mesh.weldTolerance;
+    const prep::Polygons polygons = prep::readMesh(mesh.file);
+    for (const std::string& note : polygons.notes) baked.notes.push_back(noteOf(mesh.file, note));
     prep::Report report;
-    const prep::Mesh prepared = prep::prepare(mesh.file, options, report);
+    const prep::Mesh prepared = prep::prepare(polygons, mesh.file.string(), options, report);
     std::uint32_t material = 0;
     while (d.materials[material].name != mesh.material) ++material;
-    requireClosedGlass(mesh, d.materials[material], report);
+    if (mesh.asIs && !mesh.sheet && d.materials[material].kind == pack::MaterialKind::glass)
+      throw Error(mesh.file.string(), fmt::format("mesh '{}': a glass body that is taken as it is", mesh.name),
+                  "\"sheet\": true beside \"asIs\": true, because nobody checks that it is closed");
+    if (!mesh.sheet) requireClosedGlass(mesh.file, mesh.name, d.materials[material], report);
     baked.reports.push_back(std::move(report));
     for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
-      world.push_back(placed(prepared, mesh.instances[i]));
-      for (const glm::dvec3& p : world.back().positions) low = glm::min(low, p), high = glm::max(high, p);
       pack::Mesh packed;
       packed.name = mesh.instances.size() == 1 ? mesh.name : fmt::format("{}.{}", mesh.name, i + 1);
+      meshNames.take(packed.name);
       packed.material = material;
       packed.sheet = mesh.sheet;
-      scene.meshes.push_back(std::move(packed));
+      place(prepared, matrixOf(mesh.instances[i]), std::move(packed));
     }
+  }
+  for (const ImportDescription& import : d.imports) {
+    progress(fmt::format("preparing {}", import.file.filename().string()));
+    Imported imported = importScene(import, scene.materials, materialNames, meshNames);
+    for (ImportedMesh& mesh : imported.meshes) {
+      const ImportedPart& part = imported.parts[mesh.part];
+      if (!mesh.sheet) requireClosedGlass(import.file, mesh.name, scene.materials[mesh.material], part.report);
+      pack::Mesh packed;
+      packed.name = std::move(mesh.name);
+      packed.material = mesh.material;
+      packed.sheet = mesh.sheet;
+      place(part.mesh, mesh.worldFromObject, std::move(packed));
+    }
+    for (ImportedPart& part : imported.parts) baked.reports.push_back(std::move(part.report));
+    baked.notes.insert(baked.notes.end(), imported.notes.begin(), imported.notes.end());
   }
 
   // Everything relative to the origin, then to float.

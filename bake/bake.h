@@ -17,7 +17,8 @@ namespace malus::bake {
 
 struct Baked {
   pack::Scene scene;
-  std::vector<prep::Report> reports;  // one a mesh of the description
+  std::vector<prep::Report> reports;  // one a mesh of the description, then one a part of an import
+  std::vector<std::string> notes;     // what files hold and is left out
 };
 
 // progress is told what is being done. Throws Error.
@@ -27,8 +28,8 @@ Baked bake(const SceneDescription& description, const pack::WriteSettings& setti
 // What the baker makes of the same sources changes with this number: raise it where tests/bake/golden.json changes.
 inline constexpr int kBakerRevision = 2;
 
-// JSON with the versions, the settings and the hashes of every source: what a pack is made of. Throws Error for a
-// source that cannot be read.
+// JSON with the versions, the settings and the hashes of every source, and of what sources refer to: what a pack is
+// made of. Throws Error for a source that cannot be read.
 std::string provenanceOf(const SceneDescription& description, const pack::WriteSettings& settings);
 
 // Whether the pack is there, whole, and made of just that.

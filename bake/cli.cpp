@@ -44,6 +44,7 @@ void runBake(const BakeArguments& arguments) {
   console::progress("compressing");
   const pack::Written written = pack::write(arguments.output, baked.scene, arguments.settings);
   console::progressDone();
+  for (const std::string& note : baked.notes) console::warn(note);
 
   std::size_t geometryBytes = 0;
   double positionError = 0, normalError = 0;
@@ -69,6 +70,7 @@ void runBake(const BakeArguments& arguments) {
                                    {"triangles", triangles},
                                    {"meshes", meshes},
                                    {"preparation", preparation},
+                                   {"notes", baked.notes},
                                    {"errors", {{"positionMax", positionError}, {"normalMaxDegrees", normalError}}}};
     fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;

@@ -242,18 +242,23 @@ Transform readTransform(StrictObject transform) {
   return result;
 }
 
+// A name of one of the scene's materials.
+void requireMaterial(const StrictObject& object, const char* key, const std::string& name,
+                     const SceneDescription& scene) {
+  std::vector<std::string> names;
+  for (const pack::Material& m : scene.materials) names.push_back(m.name);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  const std::string near = nearestName(name, names);
+  object.fail(key, fmt::format("unknown material '{}'", name),
+              near.empty() ? "a name under materials" : fmt::format("'{}' or another under materials", near));
+}
+
 MeshDescription readMesh(StrictObject mesh, const SceneDescription& scene, const std::string& where) {
   MeshDescription result;
   result.name = mesh.text("name");
   result.file = scene.file.parent_path() / mesh.text("file");
   result.material = mesh.text("material");
-  std::vector<std::string> names;
-  for (const pack::Material& m : scene.materials) names.push_back(m.name);
-  if (std::find(names.begin(), names.end(), result.material) == names.end()) {
-    const std::string near = nearestName(result.material, names);
-    mesh.fail("material", fmt::format("unknown material '{}'", result.material),
-              near.empty() ? "a name under materials" : fmt::format("'{}' or another under materials", near));
-  }
+  requireMaterial(mesh, "material", result.material, scene);
   result.flat = mesh.flag("flat", false);
   result.sheet = mesh.flag("sheet", false);
   result.asIs = mesh.flag("asIs", false);
@@ -268,6 +273,31 @@ MeshDescription readMesh(StrictObject mesh, const SceneDescription& scene, const
     result.instances.emplace_back();
   }
   mesh.finish();
+  return result;
+}
+
+ImportDescription readImport(StrictObject object, const SceneDescription& scene) {
+  ImportDescription result;
+  result.file = scene.file.parent_path() / object.text("file");
+  if (object.has("materials")) {
+    StrictObject materials = object.object("materials");
+    for (const auto& item : object.at("materials").items()) {
+      const char* name = item.key().c_str();
+      result.materials[name] = materials.text(name);
+      requireMaterial(materials, name, result.materials[name], scene);
+    }
+  }
+  if (object.has("transform")) result.transform = readTransform(object.object("transform"));
+  result.flat = object.flag("flat", false);
+  result.creaseDegrees = object.number("creaseDegrees", 0, 180, 40);
+  if (object.has("sheets")) {
+    const json& sheets = object.at("sheets");
+    const auto isText = [](const json& sheet) { return sheet.is_string(); };
+    if (!sheets.is_array() || !std::all_of(sheets.begin(), sheets.end(), isText))
+      object.fail("sheets", "is no list of names", "a list of strings");
+    result.sheets = sheets.get<std::vector<std::string>>();
+  }
+  object.finish();
   return result;
 }
 
@@ -322,8 +352,17 @@ SceneDescription readSceneFile(const std::filesystem::path& path) {
   if (scene.materials.size() > pack::kMaxMaterials)
     top.fail("materials", "too many", fmt::format("at most {}", pack::kMaxMaterials));
 
-  const json& meshes = top.at("meshes");
-  if (!meshes.is_array() || meshes.empty()) top.fail("meshes", "is no list", "a list of one mesh or more");
+  if (top.has("imports")) {
+    const json& imports = top.at("imports");
+    if (!imports.is_array()) top.fail("imports", "is no list", "a list of files");
+    for (std::size_t i = 0; i < imports.size(); ++i)
+      scene.imports.push_back(readImport({imports[i], where, fmt::format("imports[{}]", i)}, scene));
+  }
+
+  static const json kNone = json::array();
+  const json& meshes = !scene.imports.empty() && !top.has("meshes") ? kNone : top.at("meshes");
+  if (!meshes.is_array() || (meshes.empty() && scene.imports.empty()))
+    top.fail("meshes", "is no list", "a list of one mesh or more, or imports");
   std::set<std::string> names;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     StrictObject mesh(meshes[i], where, fmt::format("meshes[{}]", i));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,16 @@ struct MeshDescription {
   double creaseDegrees = 40;
   double weldTolerance = 0;
   std::vector<Transform> instances;
+};
+
+// A whole file: its parts where its instances stand.
+struct ImportDescription {
+  std::filesystem::path file;                    // absolute or relative to the working folder
+  std::map<std::string, std::string> materials;  // in the file ("": none) to those of the scene
+  Transform transform;                           // of all of it
+  bool flat = false;
+  double creaseDegrees = 40;
+  std::vector<std::string> sheets;  // names of parts or instances
 };
 
 // A picture whose values, times scale and plus offset, are a material's numbers.
@@ -64,9 +75,10 @@ struct SceneDescription {
   std::vector<pack::PointLight> lights;      // in world space
   std::vector<pack::Material> materials;
   std::vector<MeshDescription> meshes;
+  std::vector<ImportDescription> imports;
 };
 
-// Throws Error: unreadable, no JSON, a key missing, unknown or out of range, an unknown material.
+// Throws Error: unreadable, no JSON, a key missing, unknown or out of range, an unknown material, nothing to draw.
 SceneDescription readSceneFile(const std::filesystem::path& path);
 
 }  // namespace malus::bake

@@ -74,6 +74,7 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
            {{"positionMax", totals.worst.positionMax},
             {"normalMaxDegrees", totals.worst.normalMaxDegrees},
             {"tiltMaxDegrees", totals.worst.tiltMaxDegrees}}},
+          {"notes", baked.notes},
           {"warnings", written.warnings}};
 }
 

@@ -28,6 +28,7 @@ namespace {
 struct BakeArguments {
   std::string input, output;
   pack::WriteSettings settings;
+  BakeOptions options;
   bool json = false, force = false;
 };
 
@@ -35,7 +36,7 @@ void runBake(const BakeArguments& arguments) {
   // Step 1: nothing to do? What killed bakers left is in nobody's way, but of no use either.
   removeAbandoned(arguments.output);
   const SceneDescription description = readSceneFile(arguments.input);
-  const std::string provenance = provenanceOf(description, arguments.settings);
+  const std::string provenance = provenanceOf(description, arguments.settings, arguments.options);
   std::optional<OlderBake> older;
   if (!arguments.force) older = readOlder(arguments.output);
   if (older && isUpToDate(*older, provenance)) {
@@ -50,7 +51,7 @@ void runBake(const BakeArguments& arguments) {
   }
 
   // Step 2: a scene, and a pack of it.
-  const Baked baked = bake(description, arguments.settings, console::progress);
+  const Baked baked = bake(description, arguments.settings, console::progress, arguments.options);
   console::progress("compressing");
   pack::WriteSettings settings = arguments.settings;
   settings.movedBefore = baked.moved;
@@ -58,6 +59,7 @@ void runBake(const BakeArguments& arguments) {
   const pack::OlderPack source{rebaked ? &older->pack : nullptr, rebaked ? older->bytes : std::span<const std::byte>()};
   const pack::Written written = pack::write(arguments.output, baked.scene, settings, rebaked ? &source : nullptr);
   console::progressDone();
+  for (const std::string& note : baked.notes) console::warn(note);
 
   // Step 3: told.
   for (const std::string& warning : written.warnings) console::warn(warning);
@@ -92,6 +94,8 @@ void addBakeCommand(CLI::App& app) {
       ->check(CLI::Range(6, compress::kMaxNormalBits));
   command->add_flag("--keep-map", arguments->settings.keepMap,
                     "keep the source file's vertex and face of every packed vertex and triangle");
+  command->add_flag("--allow-open-glass", arguments->options.allowOpenGlass,
+                    "bake glass that is open, crossing or otherwise no body, and say so");
   command->add_flag("--force", arguments->force, "bake although the pack is up to date, every mesh anew");
   command->add_flag("--json", arguments->json, "print the result as JSON");
   command->callback([arguments] { runBake(*arguments); });

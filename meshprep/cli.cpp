@@ -21,16 +21,6 @@ namespace malus::prep {
 
 namespace {
 
-// Steps that --skip leaves out.
-const std::vector<std::pair<std::string, bool Cleaning::*>> kSteps = {
-    {"weld", &Cleaning::weld},
-    {"degenerate", &Cleaning::degenerate},
-    {"duplicates", &Cleaning::duplicates},
-    {"unreferenced", &Cleaning::unreferenced},
-    {"orient", &Cleaning::orient},
-    {"fans", &Cleaning::fans},
-};
-
 const std::map<std::string, Normals> kNormals = {
     {"crease", Normals::crease}, {"smoothing", Normals::smoothing}, {"authored", Normals::authored}};
 
@@ -91,7 +81,7 @@ void runPrep(const Arguments& arguments) {
   // Step 1: clean.
   Report report;
   Options options = arguments.options;
-  for (const auto& [name, step] : kSteps)
+  for (const auto& [name, step] : kCleaningSteps)
     if (std::find(arguments.skipped.begin(), arguments.skipped.end(), name) != arguments.skipped.end())
       options.steps.*step = false;
   options.certifyGlass = arguments.certify == "glass";
@@ -127,16 +117,17 @@ void runPrep(const Arguments& arguments) {
 void addPrepCommand(CLI::App& app) {
   CLI::App* prep = app.add_subcommand("prep", "Clean and compress a mesh");
   const auto arguments = std::make_shared<Arguments>();
-  prep->add_option("input", arguments->input, "Mesh: OBJ, PLY, STL or OFF, in metres")->required()->type_name("FILE");
+  prep->add_option("input", arguments->input, "Mesh: OBJ, PLY, STL, OFF or glTF, in metres")
+      ->required()
+      ->type_name("FILE");
   prep->add_option("-o,--output", arguments->output, "Result: a Draco file, NAME.mesh.drc")
       ->required()
       ->type_name("FILE");
   prep->add_option("--report", arguments->reportFile, "Also write the report as JSON")->type_name("FILE");
   prep->add_flag("--json", arguments->json, "Print the report as JSON");
   std::vector<std::string> steps;
-  for (const auto& [name, step] : kSteps) steps.push_back(name);
-  prep->add_option("--skip", arguments->skipped,
-                   "Steps of cleaning to leave out: " + fmt::format("{}", fmt::join(steps, ", ")))
+  for (const auto& [name, step] : kCleaningSteps) steps.emplace_back(name);
+  prep->add_option("--skip", arguments->skipped, "Steps of cleaning to leave out: " + cleaningStepNames())
       ->delimiter(',')
       ->check(CLI::IsMember(steps))
       ->type_name("STEP,...");

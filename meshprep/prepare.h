@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "meshprep/clean/rounds.h"
 #include "meshprep/mesh.h"

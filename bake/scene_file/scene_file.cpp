@@ -242,23 +242,55 @@ Transform readTransform(StrictObject transform) {
   return result;
 }
 
+// How a mesh, or every part of an import, is cleaned.
+void readCleaning(StrictObject& object, prep::Options& options) {
+  options.flat = object.flag("flat", false);
+  options.creaseDegrees = object.number("creaseDegrees", 0, 180, 40);
+  options.steps.weldTolerance = object.number("weldTolerance", 0, kFar, 0);
+  options.weldRelative = object.number("weldRelative", 0, 1, 0);
+  options.steps.dropOpposite = object.flag("dropOpposite", false);
+  options.steps.fillHoles = object.integer("fillHoles", 0, 1'000'000, 0);
+  if (!object.has("skip")) return;
+  const json& skip = object.at("skip");
+  if (!skip.is_array()) object.fail("skip", "is no list", "a list of steps");
+  for (const json& name : skip) {
+    const auto& steps = prep::kCleaningSteps;
+    const auto step = std::find_if(steps.begin(), steps.end(), [&](const auto& s) { return name == s.first; });
+    if (step == steps.end()) object.fail("skip", "names an unknown step", prep::cleaningStepNames(), name.dump());
+    options.steps.*step->second = false;
+  }
+}
+
+std::optional<prep::Normals> readNormals(StrictObject& object) {
+  const std::string name = object.text("normals", "");
+  if (name.empty()) return std::nullopt;
+  if (name == "crease") return prep::Normals::crease;
+  if (name == "smoothing") return prep::Normals::smoothing;
+  if (name == "authored") return prep::Normals::authored;
+  object.fail("normals", "unknown kind of normals", "'crease', 'smoothing' or 'authored'", fmt::format("'{}'", name));
+}
+
+// A name of one of the scene's materials.
+void requireMaterial(const StrictObject& object, const char* key, const std::string& name,
+                     const SceneDescription& scene) {
+  std::vector<std::string> names;
+  for (const pack::Material& m : scene.materials) names.push_back(m.name);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  const std::string near = nearestName(name, names);
+  object.fail(key, fmt::format("unknown material '{}'", name),
+              near.empty() ? "a name under materials" : fmt::format("'{}' or another under materials", near));
+}
+
 MeshDescription readMesh(StrictObject mesh, const SceneDescription& scene, const std::string& where) {
   MeshDescription result;
   result.name = mesh.text("name");
   result.file = scene.file.parent_path() / mesh.text("file");
   result.material = mesh.text("material");
-  std::vector<std::string> names;
-  for (const pack::Material& m : scene.materials) names.push_back(m.name);
-  if (std::find(names.begin(), names.end(), result.material) == names.end()) {
-    const std::string near = nearestName(result.material, names);
-    mesh.fail("material", fmt::format("unknown material '{}'", result.material),
-              near.empty() ? "a name under materials" : fmt::format("'{}' or another under materials", near));
-  }
-  result.flat = mesh.flag("flat", false);
-  result.sheet = mesh.flag("sheet", false);
-  result.asIs = mesh.flag("asIs", false);
-  result.creaseDegrees = mesh.number("creaseDegrees", 0, 180, 40);
-  result.weldTolerance = mesh.number("weldTolerance", 0, kFar, 0);
+  requireMaterial(mesh, "material", result.material, scene);
+  readCleaning(mesh, result.preparation);
+  result.preparation.normals = readNormals(mesh).value_or(prep::Normals::crease);
+  result.preparation.sheet = mesh.flag("sheet", false);
+  result.preparation.asIs = mesh.flag("asIs", false);
   if (mesh.has("instances")) {
     const json& instances = mesh.at("instances");
     if (!instances.is_array() || instances.empty()) mesh.fail("instances", "is no list", "a list of transforms");
@@ -268,6 +300,31 @@ MeshDescription readMesh(StrictObject mesh, const SceneDescription& scene, const
     result.instances.emplace_back();
   }
   mesh.finish();
+  return result;
+}
+
+ImportDescription readImport(StrictObject object, const SceneDescription& scene) {
+  ImportDescription result;
+  result.file = scene.file.parent_path() / object.text("file");
+  if (object.has("materials")) {
+    StrictObject materials = object.object("materials");
+    for (const auto& item : object.at("materials").items()) {
+      const char* name = item.key().c_str();
+      result.materials[name] = materials.text(name);
+      requireMaterial(materials, name, result.materials[name], scene);
+    }
+  }
+  if (object.has("transform")) result.transform = readTransform(object.object("transform"));
+  readCleaning(object, result.preparation);
+  result.normals = readNormals(object);
+  if (object.has("sheets")) {
+    const json& sheets = object.at("sheets");
+    const auto isText = [](const json& sheet) { return sheet.is_string(); };
+    if (!sheets.is_array() || !std::all_of(sheets.begin(), sheets.end(), isText))
+      object.fail("sheets", "is no list of names", "a list of strings");
+    result.sheets = sheets.get<std::vector<std::string>>();
+  }
+  object.finish();
   return result;
 }
 
@@ -322,8 +379,17 @@ SceneDescription readSceneFile(const std::filesystem::path& path) {
   if (scene.materials.size() > pack::kMaxMaterials)
     top.fail("materials", "too many", fmt::format("at most {}", pack::kMaxMaterials));
 
-  const json& meshes = top.at("meshes");
-  if (!meshes.is_array() || meshes.empty()) top.fail("meshes", "is no list", "a list of one mesh or more");
+  if (top.has("imports")) {
+    const json& imports = top.at("imports");
+    if (!imports.is_array()) top.fail("imports", "is no list", "a list of files");
+    for (std::size_t i = 0; i < imports.size(); ++i)
+      scene.imports.push_back(readImport({imports[i], where, fmt::format("imports[{}]", i)}, scene));
+  }
+
+  static const json kNone = json::array();
+  const json& meshes = !scene.imports.empty() && !top.has("meshes") ? kNone : top.at("meshes");
+  if (!meshes.is_array() || (meshes.empty() && scene.imports.empty()))
+    top.fail("meshes", "is no list", "a list of one mesh or more, or imports");
   std::set<std::string> names;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     StrictObject mesh(meshes[i], where, fmt::format("meshes[{}]", i));

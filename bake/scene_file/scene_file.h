@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "bake/pack/scene.h"
+#include "meshprep/prepare.h"
 
 namespace malus::bake {
 
@@ -24,12 +26,18 @@ struct MeshDescription {
   std::string name;
   std::filesystem::path file;  // absolute or relative to the working folder
   std::string material;
-  bool flat = false;
-  bool sheet = false;
-  bool asIs = false;
-  double creaseDegrees = 40;
-  double weldTolerance = 0;
+  prep::Options preparation;  // certifyGlass is the material's matter
   std::vector<Transform> instances;
+};
+
+// A whole file: its parts where its instances stand.
+struct ImportDescription {
+  std::filesystem::path file;                    // absolute or relative to the working folder
+  std::map<std::string, std::string> materials;  // in the file ("": none) to those of the scene
+  Transform transform;                           // of all of it
+  prep::Options preparation;                     // of every part; sheet is told by the list below
+  std::optional<prep::Normals> normals;          // as asked for; else authored where a part has them
+  std::vector<std::string> sheets;               // names of parts or instances
 };
 
 // A picture whose values, times scale and plus offset, are a material's numbers.
@@ -64,9 +72,10 @@ struct SceneDescription {
   std::vector<pack::PointLight> lights;      // in world space
   std::vector<pack::Material> materials;
   std::vector<MeshDescription> meshes;
+  std::vector<ImportDescription> imports;
 };
 
-// Throws Error: unreadable, no JSON, a key missing, unknown or out of range, an unknown material.
+// Throws Error: unreadable, no JSON, a key missing, unknown or out of range, an unknown material, nothing to draw.
 SceneDescription readSceneFile(const std::filesystem::path& path);
 
 }  // namespace malus::bake

@@ -61,9 +61,17 @@ Cleaned cleanAgain(Mesh& mesh, const Cleaning& steps) {
 
 }  // namespace
 
+std::string cleaningStepNames() {
+  std::string names;
+  for (const auto& [name, step] : kCleaningSteps) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
 Cleaned cleanInRounds(Mesh& mesh, const Cleaning& steps) {
   Cleaned first = cleanOnce(mesh, steps);
-  first.settled = !(first.fans.changed() || first.filled.filled.count > 0);
+  // Without one of the steps, what it would take away comes back in every round.
+  const bool all = steps.weld && steps.degenerate && steps.duplicates && steps.orient && steps.fans;
+  first.settled = !all || !(first.fans.changed() || first.filled.filled.count > 0);
   for (int round = 0; round < kRounds && !first.settled && !mesh.triangles.empty(); ++round) {
     const std::vector<glm::dvec3> positions = mesh.positions;
     const std::vector<glm::uvec3> triangles = mesh.triangles;

@@ -3,8 +3,14 @@
 // Steps depend on each other: what fans join may have to be turned as a whole; which backs face each other depends on
 // the sides; a face that was turned may be a copy of one that it was the back of; a lid joins what was apart. A mesh
 // that does not touch itself is done after one round. Another is cleaned again as if it were read from a file that
-// holds the result, so that cleaning what was cleaned changes nothing.
+// holds the result, so that cleaning what was cleaned changes nothing. Where a step but `unreferenced` is left out,
+// one round is made.
 #pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "meshprep/clean/degenerate_faces.h"
 #include "meshprep/clean/duplicate_faces.h"
@@ -28,6 +34,17 @@ struct Cleaning {
   double weldTolerance = 0;     // metres
   std::uint64_t fillHoles = 0;  // holes of at most so many edges
 };
+
+// The steps that can be left out, by name.
+inline const std::array<std::pair<std::string_view, bool Cleaning::*>, 6> kCleaningSteps = {{
+    {"weld", &Cleaning::weld},
+    {"degenerate", &Cleaning::degenerate},
+    {"duplicates", &Cleaning::duplicates},
+    {"unreferenced", &Cleaning::unreferenced},
+    {"orient", &Cleaning::orient},
+    {"fans", &Cleaning::fans},
+}};
+std::string cleaningStepNames();  // all of them, with commas
 
 // What each step did: the first round in full, of later ones what they dropped, cut and filled besides.
 struct Cleaned {

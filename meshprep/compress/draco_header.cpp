@@ -50,7 +50,7 @@ class Cursor {
 
 }  // namespace
 
-DracoHeader parseHeader(std::span<const std::byte> bytes, std::string_view where) {
+DracoHeader parseHeader(std::span<const std::byte> bytes, std::string_view where, int maxSeams) {
   Cursor cursor(bytes, where);
   DracoHeader header;
 
@@ -82,8 +82,9 @@ DracoHeader parseHeader(std::span<const std::byte> bytes, std::string_view where
   header.vertices = cursor.varint("a number of vertices");
   header.triangles = cursor.varint("a number of faces");
   const std::uint8_t attributeData = cursor.byte("a number of attribute connectivities");
-  if (attributeData > 1)
-    cursor.fail("Draco data with more attributes than a mesh has", "at most 1", fmt::to_string(attributeData));
+  if (attributeData > maxSeams)
+    cursor.fail("Draco data with more attributes than a mesh has", fmt::format("at most {}", maxSeams),
+                fmt::to_string(attributeData));
 
   // Draco sizes its tables by vertices + split symbols; a symbol stands for one face.
   const std::uint32_t symbols = cursor.varint("a number of symbols");

@@ -20,7 +20,7 @@ struct DracoHeader {
 };
 
 // Throws Error whose text begins with `where`: not Draco, another version, not a mesh, metadata, cut short,
-// counts that contradict each other.
-DracoHeader parseHeader(std::span<const std::byte> bytes, std::string_view where);
+// counts that contradict each other, more than maxSeams attributes with a connectivity of their own (edgebreaker).
+DracoHeader parseHeader(std::span<const std::byte> bytes, std::string_view where, int maxSeams = 1);
 
 }  // namespace malus::compress

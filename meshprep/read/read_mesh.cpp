@@ -9,8 +9,10 @@
 
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/read/read_gltf.h"
 #include "meshprep/read/scan.h"
 #include "meshprep/read/second_opinion.h"
+#include "meshprep/read/source_scene.h"
 
 namespace malus::prep {
 
@@ -31,7 +33,7 @@ Format formatOf(const std::filesystem::path& path, std::string& extension) {
   if (extension == ".ply") return Format::kPly;
   if (extension == ".stl") return Format::kStl;
   if (extension == ".off") return Format::kOff;
-  throw Error(path.string(), "is of an unknown kind", "a name that ends in .obj, .ply, .stl or .off",
+  throw Error(path.string(), "is of an unknown kind", "a name that ends in .obj, .ply, .stl, .off, .gltf or .glb",
               extension.empty() ? "no extension" : extension);
 }
 
@@ -58,6 +60,7 @@ bool hasLargeFace(const Polygons& polygons) {
 }  // namespace
 
 Polygons readMesh(const std::filesystem::path& path) {
+  if (isGltf(path)) return merged(readGltf(path));
   const std::string where = path.string();
   std::string extension;
   const Format format = formatOf(path, extension);

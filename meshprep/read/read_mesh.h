@@ -1,4 +1,5 @@
-// A mesh file (OBJ, PLY, STL, OFF, told by its extension) as polygons.
+// A mesh file (OBJ, PLY, STL, OFF, told by its extension) as polygons. Of glTF (.gltf, .glb; read_gltf.h) every
+// instance is there, in world space.
 //
 // The file is scanned (scan.h), then OpenMesh reads the same bytes, in which the scan has blanked what OpenMesh gets
 // wrong. Vertices, faces and every corner must then be those of the scan, or the file is an error; coordinates
@@ -20,8 +21,8 @@
 namespace malus::prep {
 
 // STL shares no vertices: three positions a face. Throws Error that names a line or a byte: unreadable file, unknown
-// extension, no vertices or faces, more than 65536 + 64 corners a vertex, whatever the scan refuses, OpenMesh
-// reading something else than the scan. 10 MB of any bytes take less than 2 s and 512 MB.
+// extension, no vertices or faces, whatever readGltf() refuses, more than 65536 + 64 corners a vertex, whatever the
+// scan refuses, OpenMesh reading something else than the scan. 10 MB of any bytes take less than 2 s and 512 MB.
 Polygons readMesh(const std::filesystem::path& path);
 
 }  // namespace malus::prep

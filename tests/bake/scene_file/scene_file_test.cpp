@@ -70,10 +70,10 @@ TEST(SceneFile, DefaultsAreThoseOfTheDocument) {
   EXPECT_EQ(scene.materials[0].highlightStrength, 0);
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].file, scene.file.parent_path() / "floor.obj");
-  EXPECT_FALSE(scene.meshes[0].flat);
-  EXPECT_FALSE(scene.meshes[0].sheet);
-  EXPECT_EQ(scene.meshes[0].creaseDegrees, 40);
-  EXPECT_EQ(scene.meshes[0].weldTolerance, 0);
+  EXPECT_FALSE(scene.meshes[0].preparation.flat);
+  EXPECT_FALSE(scene.meshes[0].preparation.sheet);
+  EXPECT_EQ(scene.meshes[0].preparation.creaseDegrees, 40);
+  EXPECT_EQ(scene.meshes[0].preparation.steps.weldTolerance, 0);
   ASSERT_EQ(scene.meshes[0].instances.size(), 1u);
   EXPECT_EQ(scene.meshes[0].instances[0].scale, glm::dvec3(1));
 }
@@ -132,10 +132,10 @@ TEST(SceneFile, EveryKeyIsRead) {
   ASSERT_EQ(scene.meshes.size(), 1u);
   const MeshDescription& mesh = scene.meshes[0];
   EXPECT_EQ(mesh.file, scene.file.parent_path() / "sub/one.ply");
-  EXPECT_TRUE(mesh.flat);
-  EXPECT_TRUE(mesh.sheet);
-  EXPECT_EQ(mesh.creaseDegrees, 30);
-  EXPECT_EQ(mesh.weldTolerance, 0.001);
+  EXPECT_TRUE(mesh.preparation.flat);
+  EXPECT_TRUE(mesh.preparation.sheet);
+  EXPECT_EQ(mesh.preparation.creaseDegrees, 30);
+  EXPECT_EQ(mesh.preparation.steps.weldTolerance, 0.001);
   ASSERT_EQ(mesh.instances.size(), 3u);
   EXPECT_EQ(mesh.instances[1].scale, glm::dvec3(1, -2, 3));
   EXPECT_EQ(mesh.instances[1].rotateDegrees, glm::dvec3(10, 20, 30));

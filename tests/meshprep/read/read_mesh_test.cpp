@@ -14,7 +14,7 @@ using test::TemporaryFile;
 
 TEST(ReadMesh, MissingFileFolderAndUnknownExtension) {
   EXPECT_TRUE(contains(errorOf([] { readMesh("/no/such/file.obj"); }), "/no/such/file.obj: cannot open"));
-  EXPECT_TRUE(contains(errorOf([] { readMesh("mesh.gltf"); }), ".obj, .ply, .stl or .off, found .gltf"));
+  EXPECT_TRUE(contains(errorOf([] { readMesh("mesh.fbx"); }), ".gltf or .glb, found .fbx"));
   EXPECT_TRUE(contains(errorOf([] { readMesh("mesh"); }), "no extension"));
   const std::filesystem::path folder = test::temporaryPath(".obj");
   std::filesystem::create_directory(folder);

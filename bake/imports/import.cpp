@@ -1,0 +1,154 @@
+#include "bake/imports/import.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bake/materials/source_material.h"
+#include "bake/pack/format.h"
+#include "bake/placement/placement.h"
+#include "bake/scene_file/strict_object.h"
+#include "meshprep/base/error.h"
+#include "meshprep/prepare.h"
+#include "meshprep/read/source_scene.h"
+
+namespace malus::bake {
+
+namespace {
+
+constexpr std::size_t kMaxNameBytes = 200;
+
+// Cut between two characters of UTF-8.
+std::string shortened(std::string name) {
+  if (name.size() <= kMaxNameBytes) return name;
+  std::size_t end = kMaxNameBytes;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0u) == 0x80u) --end;
+  name.resize(end);
+  return name;
+}
+
+[[noreturn]] void failUnknown(const ImportDescription& description, std::string_view what, const std::string& name,
+                              const std::vector<std::string>& names) {
+  const std::string near = nearestName(name, names);
+  throw Error(description.file.string(), fmt::format("has no {} '{}', which the scene names", what, name),
+              near.empty() ? fmt::format("one of its {}", names.size()) : fmt::format("'{}'", near));
+}
+
+// Indices into the scene's materials of the file's materials, made when they are first asked for.
+class MaterialIndices {
+ public:
+  MaterialIndices(const ImportDescription& description, const prep::SourceScene& source,
+                  std::vector<pack::Material>& materials, UniqueNames& names, std::vector<std::string>& notes)
+      : description_(description), source_(source), materials_(materials), names_(names), notes_(notes) {
+    std::vector<std::string> known = {""};
+    for (const prep::SourceMaterial& material : source.materials) known.push_back(material.name);
+    for (const auto& [name, ignored] : description.materials)
+      if (std::find(known.begin(), known.end(), name) == known.end()) failUnknown(description, "material", name, known);
+  }
+
+  std::uint32_t of(const std::optional<std::size_t>& material) {
+    const std::size_t key = material ? *material : source_.materials.size();
+    const auto found = made_.find(key);
+    if (found != made_.end()) return found->second;
+    return made_[key] = find(material);
+  }
+
+ private:
+  std::uint32_t find(const std::optional<std::size_t>& material) {
+    // Step 1: what the scene says.
+    const std::string name = material ? source_.materials[*material].name : std::string();
+    if (const auto mapped = description_.materials.find(name); mapped != description_.materials.end()) {
+      std::uint32_t index = 0;
+      while (materials_[index].name != mapped->second) ++index;  // the scene file's reader made sure that it is there
+      return index;
+    }
+
+    // Step 2: the rules.
+    if (materials_.size() >= pack::kMaxMaterials)
+      throw Error(description_.file.string(), "brings too many materials",
+                  fmt::format("at most {} in a scene", pack::kMaxMaterials));
+    pack::Material made = material ? materialOf(source_.materials[*material], notes_) : defaultMaterial();
+    if (made.name.empty()) made.name = fmt::format("material {}", *material);
+    made.name = names_.take(made.name);
+    materials_.push_back(std::move(made));
+    return static_cast<std::uint32_t>(materials_.size() - 1);
+  }
+
+  const ImportDescription& description_;
+  const prep::SourceScene& source_;
+  std::vector<pack::Material>& materials_;
+  UniqueNames& names_;
+  std::vector<std::string>& notes_;
+  std::map<std::size_t, std::uint32_t> made_;
+};
+
+}  // namespace
+
+std::string UniqueNames::take(std::string name) {
+  name = shortened(std::move(name));
+  const auto [found, isNew] = used_.emplace(name, 1);
+  if (isNew) return name;
+  for (;;) {
+    std::string next = fmt::format("{}.{}", name, ++found->second);
+    if (used_.emplace(next, 1).second) return next;
+  }
+}
+
+std::string noteOf(const std::filesystem::path& file, const std::string& note) {
+  return fmt::format("{}: left out: {}", file.string(), note);
+}
+
+Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
+                     UniqueNames& materialNames, UniqueNames& meshNames) {
+  Imported result;
+  prep::SourceScene source = prep::readSourceScene(description.file);
+  std::vector<std::string>& notes = source.notes;
+
+  // Step 1: sheets by the name of a part or an instance.
+  std::vector<std::string> known;
+  for (const prep::SourcePart& part : source.parts) known.push_back(part.name);
+  for (const prep::SourceInstance& instance : source.instances) known.push_back(instance.name);
+  for (const std::string& sheet : description.sheets)
+    if (std::find(known.begin(), known.end(), sheet) == known.end())
+      failUnknown(description, "part or instance", sheet, known);
+  const std::set<std::string> sheets(description.sheets.begin(), description.sheets.end());
+
+  // Step 2: every part, prepared in its own space as a body or as a sheet, where an instance needs it.
+  std::map<std::pair<std::size_t, bool>, std::size_t> prepared;
+  const auto partOf = [&](std::size_t index, bool sheet, bool glass) {
+    const auto [found, isNew] = prepared.emplace(std::pair(index, sheet), result.parts.size());
+    if (!isNew) return found->second;
+    const prep::SourcePart& part = source.parts[index];
+    const bool authored = !part.polygons.normals.empty() || !part.polygons.cornerNormals.empty();
+    prep::Options options = description.preparation;
+    options.sheet = sheet;
+    options.certifyGlass = glass;
+    options.normals = description.normals.value_or(authored ? prep::Normals::authored : prep::Normals::crease);
+    ImportedPart made;
+    made.mesh = prep::prepare(part.polygons, fmt::format("{}: part '{}'", description.file.string(), part.name),
+                              options, made.report);
+    result.parts.push_back(std::move(made));
+    return found->second;
+  };
+
+  // Step 3: instances.
+  const glm::dmat4 worldFromFile = matrixOf(description.transform);
+  MaterialIndices indices(description, source, materials, materialNames, notes);
+  for (const prep::SourceInstance& instance : source.instances) {
+    const prep::SourcePart& part = source.parts[instance.part];
+    ImportedMesh mesh;
+    mesh.sheet = sheets.contains(part.name) || sheets.contains(instance.name);
+    mesh.material = indices.of(part.material);
+    mesh.part = partOf(instance.part, mesh.sheet, materials[mesh.material].kind == pack::MaterialKind::glass);
+    mesh.name = meshNames.take(instance.name);
+    mesh.worldFromObject = worldFromFile * instance.worldFromObject;
+    result.meshes.push_back(std::move(mesh));
+  }
+  for (const std::string& note : notes) result.notes.push_back(noteOf(description.file, note));
+  return result;
+}
+
+}  // namespace malus::bake

@@ -1,0 +1,32 @@
+// What a file from outside says about a surface (glTF's terms, meshprep/read/source_scene.h) as one of malus's
+// materials. The first of these rules that fits:
+//
+//   emissive over 0         emitter: radiance = emissive, whose cd/m^2 are taken as the scene's unit
+//   transmission over 0.5   glass: eta = ior; with a volume, absorption = -ln(attenuation colour) / attenuation
+//                           distance per metre, a colour under 1e-6 counting as 1e-6, at most 1e9. Roughness is left
+//                           out, with a note
+//   metallic 0.5 or more    metal whose reflectance at normal incidence is the base colour r (0.001 to 0.999):
+//                           n = (1 - r) / (1 + r), k^2 = (r (n + 1)^2 - (n - 1)^2) / (1 - r), the index with the
+//                           least n (edge tint 1) of O. Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4),
+//                           2014; roughness alpha
+//   alpha 0.3 or more       lambert: albedo = base colour
+//   otherwise               paint: albedo = base colour, eta = ior, roughness alpha
+//
+// alpha = roughness^2, as glTF has it; below 0.01 it is 0. ior is bounded by what a pack holds, 1 to 1000.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bake/pack/scene.h"
+#include "meshprep/read/source_scene.h"
+
+namespace malus::bake {
+
+// Named as the source; within the bounds of a pack. What is left out is added to notes.
+pack::Material materialOf(const prep::SourceMaterial& source, std::vector<std::string>& notes);
+
+// Of parts that have none: lambert, albedo 0.8, named "default".
+pack::Material defaultMaterial();
+
+}  // namespace malus::bake

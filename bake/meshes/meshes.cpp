@@ -1,0 +1,132 @@
+#include "bake/meshes/meshes.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bake/imports/import.h"
+#include "bake/pack/format.h"
+#include "bake/placement/placement.h"
+#include "meshprep/base/error.h"
+#include "meshprep/prepare.h"
+#include "meshprep/read/read_mesh.h"
+
+namespace malus::bake {
+
+namespace {
+
+constexpr std::size_t kToldProblems = 3;
+
+// The first reasons why a mesh is no glass, component by component.
+std::string problemsOf(const prep::Certificate& certificate) {
+  std::vector<std::string> told;
+  for (const prep::Problem& p : certificate.problems)
+    if (told.size() < kToldProblems)
+      told.push_back(fmt::format("component {}: {}, {}; {}", p.component, p.what, p.where, p.repair));
+  if (certificate.problems.size() > told.size())
+    told.push_back(
+        fmt::format("and {} more, see malus prep --certify glass", certificate.problems.size() - told.size()));
+  return fmt::format("{}", fmt::join(told, "; "));
+}
+
+class Placer {
+ public:
+  Placer(const SceneDescription& description, const MeshSettings& settings, std::vector<pack::Material>& materials)
+      : description_(description), settings_(settings), materials_(materials) {
+    for (const pack::Material& material : materials) materialNames_.take(material.name);
+  }
+
+  void add(const MeshDescription& mesh) {
+    // Step 1: prepare; glass is looked at more closely.
+    const auto material =
+        static_cast<std::uint32_t>(std::find_if(materials_.begin(), materials_.end(),
+                                                [&](const pack::Material& m) { return m.name == mesh.material; }) -
+                                   materials_.begin());
+    const bool glass = materials_[material].kind == pack::MaterialKind::glass;
+    prep::Options options = mesh.preparation;
+    options.certifyGlass = glass && !options.asIs;
+    if (glass && options.asIs && !options.sheet)
+      throw Error(mesh.file.string(), fmt::format("mesh '{}': a glass body that is taken as it is", mesh.name),
+                  "\"sheet\": true beside \"asIs\": true, because nobody checks that it is closed");
+    const prep::Polygons polygons = prep::readMesh(mesh.file);
+    for (const std::string& note : polygons.notes) result_.notes.push_back(noteOf(mesh.file, note));
+    prep::Report report;
+    const prep::Mesh prepared = prep::prepare(polygons, mesh.file.string(), options, report);
+    requireCertificate(mesh.file, mesh.name, report);
+    result_.reports.push_back(std::move(report));
+
+    // Step 2: every instance.
+    for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
+      std::string name = mesh.instances.size() == 1 ? mesh.name : fmt::format("{}.{}", mesh.name, i + 1);
+      meshNames_.take(name);
+      place(prepared, matrixOf(mesh.instances[i]), std::move(name), material, options.sheet);
+    }
+  }
+
+  void add(const ImportDescription& import) {
+    Imported imported = importScene(import, materials_, materialNames_, meshNames_);
+    std::vector<char> told(imported.parts.size(), 0);
+    for (ImportedMesh& mesh : imported.meshes) {
+      const ImportedPart& part = imported.parts[mesh.part];
+      if (std::exchange(told[mesh.part], 1) == 0) requireCertificate(import.file, mesh.name, part.report);
+      place(part.mesh, mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.sheet);
+    }
+    for (ImportedPart& part : imported.parts) result_.reports.push_back(std::move(part.report));
+    result_.notes.insert(result_.notes.end(), imported.notes.begin(), imported.notes.end());
+  }
+
+  PlacedMeshes take() { return std::move(result_); }
+
+ private:
+  void requireCertificate(const std::filesystem::path& file, const std::string& name, const prep::Report& report) {
+    if (!report.certificate.checked || report.certificate.holds()) return;
+    const std::string what =
+        fmt::format("mesh '{}' is not certified as glass: {}", name, problemsOf(report.certificate));
+    if (!settings_.allowOpenGlass)
+      throw Error(file.string(), what, "a body without these, \"sheet\": true, or --allow-open-glass");
+    result_.notes.push_back(fmt::format("{}: {}", file.string(), what));
+  }
+
+  void place(const prep::Mesh& mesh, const glm::dmat4& worldFromObject, std::string name, std::uint32_t material,
+             bool sheet) {
+    if (result_.meshes.size() == pack::kMaxMeshes)
+      throw Error(description_.file.string(), "has too many meshes", fmt::format("at most {}", pack::kMaxMeshes));
+    PlacedMesh placedMesh;
+    placedMesh.world = placed(mesh, worldFromObject);
+    placedMesh.packed.name = std::move(name);
+    placedMesh.packed.material = material;
+    placedMesh.packed.sheet = sheet;
+    if (settings_.keepMap) {
+      placedMesh.packed.sourceVertices = mesh.sourceVertices;
+      placedMesh.packed.sourceFaces = mesh.sourceFaces;
+    }
+    result_.meshes.push_back(std::move(placedMesh));
+  }
+
+  const SceneDescription& description_;
+  const MeshSettings& settings_;
+  std::vector<pack::Material>& materials_;
+  UniqueNames meshNames_, materialNames_;
+  PlacedMeshes result_;
+};
+
+}  // namespace
+
+PlacedMeshes placeMeshes(const SceneDescription& description, const MeshSettings& settings,
+                         std::vector<pack::Material>& materials,
+                         const std::function<void(std::string_view)>& progress) {
+  Placer placer(description, settings, materials);
+  for (const MeshDescription& mesh : description.meshes) {
+    progress(fmt::format("preparing {}", mesh.name));
+    placer.add(mesh);
+  }
+  for (const ImportDescription& import : description.imports) {
+    progress(fmt::format("preparing {}", import.file.filename().string()));
+    placer.add(import);
+  }
+  return placer.take();
+}
+
+}  // namespace malus::bake

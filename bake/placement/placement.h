@@ -1,0 +1,19 @@
+// Where a mesh stands: transforms as matrices, and meshes moved by them, in double precision.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include "bake/scene_file/scene_file.h"
+#include "meshprep/mesh.h"
+
+namespace malus::bake {
+
+// Scale, then rotations about x, y and z, then translation. Quarter turns are exact, so that what touches keeps
+// touching.
+glm::dmat4 matrixOf(const Transform& transform);
+
+// The mesh in world space; worldFromObject is affine and regular. A mirroring one turns the faces, so that outside
+// stays outside.
+prep::Mesh placed(const prep::Mesh& mesh, const glm::dmat4& worldFromObject);
+
+}  // namespace malus::bake

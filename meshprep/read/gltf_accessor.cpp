@@ -1,0 +1,205 @@
+#include "meshprep/read/gltf_accessor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+
+namespace malus::prep {
+
+namespace {
+
+template <class Number>
+Number numberAt(const std::byte* bytes) {
+  Number value;
+  std::memcpy(&value, bytes, sizeof value);
+  return value;
+}
+
+// Bytes of a component; 0: a type that glTF does not have.
+std::size_t sizeOfComponent(int type) {
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+// A component as a number. Normalized ones by section 3.6.2.2: -1 to 1 or 0 to 1.
+double component(const std::byte* bytes, int type, bool normalized) {
+  const auto whole = [normalized](auto value) {
+    if (!normalized) return static_cast<double>(value);
+    return std::max(static_cast<double>(value) / std::numeric_limits<decltype(value)>::max(), -1.0);
+  };
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return whole(numberAt<std::int8_t>(bytes));
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return whole(numberAt<std::uint8_t>(bytes));
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return whole(numberAt<std::int16_t>(bytes));
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return whole(numberAt<std::uint16_t>(bytes));
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return numberAt<std::uint32_t>(bytes);
+    default:
+      return static_cast<double>(numberAt<float>(bytes));
+  }
+}
+
+std::uint32_t unsignedAt(const std::byte* bytes, int type) {
+  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return numberAt<std::uint8_t>(bytes);
+  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return numberAt<std::uint16_t>(bytes);
+  return numberAt<std::uint32_t>(bytes);
+}
+
+bool isUnsigned(int type) {
+  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+// `count` elements from `offset` on, `stride` apart, must lie within the view.
+std::span<const std::byte> elementsOf(std::span<const std::byte> view, std::size_t offset, std::size_t count,
+                                      std::size_t stride, std::size_t elementBytes, const std::string& place) {
+  const bool first = offset <= view.size() && elementBytes <= view.size() - offset;
+  const std::size_t fit = first ? (view.size() - offset - elementBytes) / stride + 1 : 0;
+  if (count > fit)
+    throw Error(place, "has more elements than bytes",
+                fmt::format("at most {} in a buffer view of {} bytes", fit, view.size()), fmt::to_string(count));
+  return view.subspan(offset);
+}
+
+}  // namespace
+
+std::span<const std::byte> gltfViewBytes(const tinygltf::Model& model, GltfBuffers& buffers, std::size_t index,
+                                         const std::string& where) {
+  const std::string place = fmt::format("{}: bufferViews[{}]", where, index);
+  if (index >= model.bufferViews.size())
+    throw Error(place, "is not there", fmt::format("one of {} buffer views", model.bufferViews.size()));
+  const tinygltf::BufferView& view = model.bufferViews[index];
+  const std::span<const std::byte> buffer = buffers.bytes(static_cast<std::size_t>(view.buffer));
+  if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
+    throw Error(place, "ends behind its buffer", fmt::format("at most {} bytes", buffer.size()),
+                fmt::format("{} from byte {} on", view.byteLength, view.byteOffset));
+  return buffer.subspan(view.byteOffset, view.byteLength);
+}
+
+GltfAccessor::GltfAccessor(const tinygltf::Model& model, GltfBuffers& buffers, std::size_t index,
+                           const std::string& where)
+    : place_(fmt::format("{}: accessors[{}]", where, index)) {
+  if (index >= model.accessors.size())
+    throw Error(place_, "is not there", fmt::format("one of {} accessors", model.accessors.size()));
+  const tinygltf::Accessor& accessor = model.accessors[index];
+
+  // Step 1: how large an element is.
+  const std::size_t componentBytes = sizeOfComponent(accessor.componentType);
+  if (componentBytes == 0)
+    throw Error(place_, "is of an unknown component type", "5120 to 5123, 5125 or 5126",
+                fmt::to_string(accessor.componentType));
+  if (accessor.count == 0) throw Error(place_, "has no elements", "1 or more", "0");
+  components_ = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+  componentType_ = accessor.componentType;
+  normalized_ = accessor.normalized;
+  count_ = accessor.count;
+  elementBytes_ = componentBytes * static_cast<std::size_t>(components_);
+
+  // Step 2: the dense elements.
+  stride_ = elementBytes_;
+  if (accessor.bufferView >= 0) {
+    const auto view = static_cast<std::size_t>(accessor.bufferView);
+    const std::span<const std::byte> bytes = gltfViewBytes(model, buffers, view, where);
+    if (const std::size_t stride = model.bufferViews[view].byteStride; stride != 0) {
+      if (stride < elementBytes_)
+        throw Error(place_, "has elements that overlap", fmt::format("a stride of {} bytes or more", elementBytes_),
+                    fmt::to_string(stride));
+      stride_ = stride;
+    }
+    data_ = elementsOf(bytes, accessor.byteOffset, count_, stride_, elementBytes_, place_);
+  }
+
+  // Step 3: what a sparse accessor puts in their place.
+  if (!accessor.sparse.isSparse) return;
+  const auto& sparse = accessor.sparse;
+  const auto sparseCount = static_cast<std::size_t>(sparse.count);
+  if (!isUnsigned(sparse.indices.componentType))
+    throw Error(place_, "has sparse indices of an unknown type", "5121, 5123 or 5125",
+                fmt::to_string(sparse.indices.componentType));
+  if (sparseCount == 0 || sparseCount > count_)
+    throw Error(place_, "replaces more elements than it has, or none", fmt::format("1 to {}", count_),
+                fmt::to_string(sparseCount));
+  const std::size_t indexBytes = sizeOfComponent(sparse.indices.componentType);
+  const auto viewOf = [&](int view) { return gltfViewBytes(model, buffers, static_cast<std::size_t>(view), where); };
+  const std::span<const std::byte> indices =
+      elementsOf(viewOf(sparse.indices.bufferView), static_cast<std::size_t>(sparse.indices.byteOffset), sparseCount,
+                 indexBytes, indexBytes, place_ + ".sparse.indices");
+  sparseData_ = elementsOf(viewOf(sparse.values.bufferView), static_cast<std::size_t>(sparse.values.byteOffset),
+                           sparseCount, elementBytes_, elementBytes_, place_ + ".sparse.values");
+  sparseIndices_.reserve(sparseCount);
+  for (std::size_t i = 0; i < sparseCount; ++i) {
+    const std::uint32_t value = unsignedAt(indices.data() + i * indexBytes, sparse.indices.componentType);
+    if (value >= count_ || (i > 0 && value <= sparseIndices_.back()))
+      throw Error(place_ + ".sparse.indices", fmt::format("index {} is out of order or range", i),
+                  fmt::format("ascending, below {}", count_), fmt::to_string(value));
+    sparseIndices_.push_back(value);
+  }
+}
+
+void GltfAccessor::requireVectors(bool quantized) const {
+  const bool isFloat = componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT;
+  if (components_ != 3 || (!isFloat && !(quantized && sizeOfComponent(componentType_) <= 2)))
+    throw Error(place_, "is of the wrong type", quantized ? "VEC3 of floats, shorts or bytes" : "VEC3 of floats (5126)",
+                fmt::format("{} components of type {}", components_, componentType_));
+  if (!isFloat) return;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const glm::dvec3 v = vector(i);
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+      throw Error(place_, fmt::format("element {} is not finite", i), "finite numbers",
+                  fmt::format("({}, {}, {})", v.x, v.y, v.z));
+  }
+}
+
+void GltfAccessor::requireIndices() const {
+  if (components_ != 1 || normalized_ || !isUnsigned(componentType_))
+    throw Error(place_, "is of the wrong type for indices", "SCALAR of 5121, 5123 or 5125",
+                fmt::format("{} components of type {}", components_, componentType_));
+}
+
+const std::byte* GltfAccessor::element(std::size_t i) const {
+  if (!sparseIndices_.empty()) {
+    const auto found = std::lower_bound(sparseIndices_.begin(), sparseIndices_.end(), i);
+    if (found != sparseIndices_.end() && *found == i)
+      return sparseData_.data() + static_cast<std::size_t>(found - sparseIndices_.begin()) * elementBytes_;
+  }
+  return data_.empty() ? nullptr : data_.data() + i * stride_;
+}
+
+glm::dvec3 GltfAccessor::vector(std::size_t i) const {
+  const std::byte* bytes = element(i);
+  if (bytes == nullptr) return glm::dvec3(0);
+  const std::size_t step = sizeOfComponent(componentType_);
+  return {component(bytes, componentType_, normalized_), component(bytes + step, componentType_, normalized_),
+          component(bytes + 2 * step, componentType_, normalized_)};
+}
+
+std::uint32_t GltfAccessor::wholeNumber(std::size_t i) const {
+  const std::byte* bytes = element(i);
+  return bytes == nullptr ? 0 : unsignedAt(bytes, componentType_);
+}
+
+std::uint32_t GltfAccessor::restart() const {
+  return static_cast<std::uint32_t>((std::uint64_t{1} << (8 * sizeOfComponent(componentType_))) - 1);
+}
+
+}  // namespace malus::prep

@@ -1,0 +1,182 @@
+#include "meshprep/read/gltf_buffers.h"
+
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/base/error.h"
+
+namespace malus::prep {
+
+namespace {
+
+constexpr std::size_t kHeaderBytes = 12;
+constexpr std::size_t kChunkHeaderBytes = 8;
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a;  // "JSON"
+constexpr std::uint32_t kBinChunk = 0x004e4942;   // "BIN"
+
+std::uint32_t littleEndian(std::span<const std::byte> bytes, std::size_t offset) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[offset + i]) << (8 * i);
+  return value;
+}
+
+std::string_view textOf(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// Source: S. Josefsson, RFC 4648, section 4.
+std::vector<std::byte> decodeBase64(std::string_view text, const std::string& place) {
+  static constexpr auto kValues = [] {
+    std::array<int, 256> values{};
+    values.fill(-1);
+    int next = 0;
+    for (const char c : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
+      values[static_cast<unsigned char>(c)] = next++;
+    return values;
+  }();
+  for (int padding = 0; padding < 2 && text.ends_with('='); ++padding) text.remove_suffix(1);
+  if (text.size() % 4 == 1) throw Error(place, "is no base64", "whole groups of letters", "one letter too many");
+  std::vector<std::byte> bytes;
+  bytes.reserve(text.size() / 4 * 3 + 2);
+  std::uint32_t bits = 0;
+  int held = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const int value = kValues[static_cast<unsigned char>(text[i])];
+    if (value < 0)
+      throw Error(place, fmt::format("is no base64 at letter {}", i), "A-Z, a-z, 0-9, + or /",
+                  fmt::format("byte {:#04x}", static_cast<unsigned>(static_cast<unsigned char>(text[i]))));
+    bits = (bits << 6 | static_cast<std::uint32_t>(value)) & 0xffffffu;
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    bytes.push_back(static_cast<std::byte>(bits >> held & 0xffu));
+  }
+  return bytes;
+}
+
+std::string percentDecoded(std::string_view uri, const std::string& place) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] != '%') {
+      text += uri[i];
+      continue;
+    }
+    unsigned value = 0;
+    const char* const begin = uri.data() + i + 1;
+    if (i + 2 >= uri.size() || std::from_chars(begin, begin + 2, value, 16).ptr != begin + 2)
+      throw Error(place, "has a bad percent code", "% and two hexadecimal digits", std::string(uri.substr(i, 3)));
+    text += static_cast<char>(value);
+    i += 2;
+  }
+  return text;
+}
+
+}  // namespace
+
+GltfContainer::GltfContainer(const std::filesystem::path& path) : bytes_(readFile(path)) {
+  const std::string where = path.string();
+  const std::span<const std::byte> bytes(bytes_);
+  const auto at = [&](std::size_t offset) { return fmt::format("{}, byte {}", where, offset); };
+  if (bytes.empty()) throw Error(where, "is empty", "glTF");
+
+  // Step 1: JSON, perhaps behind a byte order mark.
+  json_ = textOf(bytes);
+  if (!json_.starts_with("glTF")) {
+    if (json_.starts_with("\xef\xbb\xbf")) json_.remove_prefix(3);
+    return;
+  }
+
+  // Step 2: a GLB says how long it is.
+  if (bytes.size() < kHeaderBytes + kChunkHeaderBytes)
+    throw Error(at(bytes.size()), "is cut short", "the header of a GLB", "the end");
+  if (const std::uint32_t version = littleEndian(bytes, 4); version != 2)
+    throw Error(at(4), "is a GLB of another version", "2", fmt::to_string(version));
+  const std::size_t length = littleEndian(bytes, 8);
+  if (length != bytes.size())
+    throw Error(at(8), "has another length than it says", fmt::format("{} bytes", length),
+                fmt::format("{}", bytes.size()));
+
+  // Step 3: its chunks, JSON first, then perhaps the buffer, then what is of no concern.
+  json_ = {};
+  std::size_t chunks = 0;
+  for (std::size_t offset = kHeaderBytes; offset < length; ++chunks) {
+    if (length - offset < kChunkHeaderBytes) throw Error(at(offset), "has a bad chunk", "8 bytes of header", "the end");
+    const std::size_t size = littleEndian(bytes, offset);
+    const std::uint32_t type = littleEndian(bytes, offset + 4);
+    const std::size_t begin = offset + kChunkHeaderBytes;
+    if (size > length - begin)
+      throw Error(at(offset), "has a chunk that ends behind the file", fmt::format("at most {} bytes", length - begin),
+                  fmt::to_string(size));
+    if (chunks == 0 && type != kJsonChunk) throw Error(at(offset + 4), "has another first chunk", "JSON");
+    if (chunks == 0) json_ = textOf(bytes.subspan(begin, size));
+    if (chunks == 1 && type == kBinChunk) {
+      chunk_ = bytes.subspan(begin, size);
+      hasChunk_ = true;
+    }
+    offset = begin + size;
+  }
+}
+
+GltfBuffers::GltfBuffers(const nlohmann::json& document, const GltfContainer& container, std::filesystem::path file)
+    : container_(container), file_(std::move(file)) {
+  const auto list = document.find("buffers");
+  if (list == document.end()) return;
+  for (const nlohmann::json& buffer : *list)
+    buffers_.push_back({buffer.value("uri", ""), buffer.at("byteLength").get<std::uint64_t>(), nullptr});
+}
+
+std::span<const std::byte> GltfBuffers::bytes(std::size_t index) {
+  const std::string place = fmt::format("{}: buffers[{}]", file_.string(), index);
+  if (index >= buffers_.size()) throw Error(place, "is not there", fmt::format("one of {} buffers", buffers_.size()));
+  Buffer& buffer = buffers_[index];
+
+  std::span<const std::byte> data;
+  if (!buffer.uri.empty()) {
+    if (buffer.data == nullptr) buffer.data = load(buffer.uri, place + ".uri");
+    data = *buffer.data;
+  } else if (index == 0 && container_.hasChunk()) {
+    data = container_.chunk();
+  } else {
+    throw Error(place, "has no bytes", "a uri, or the second chunk of a GLB for buffer 0", "neither");
+  }
+  if (data.size() < buffer.byteLength)
+    throw Error(place, "has fewer bytes than it says", fmt::to_string(buffer.byteLength), fmt::to_string(data.size()));
+  return data.first(static_cast<std::size_t>(buffer.byteLength));
+}
+
+std::shared_ptr<const std::vector<std::byte>> GltfBuffers::load(const std::string& uri, const std::string& place) {
+  if (isDataUri(uri)) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64"))
+      throw Error(place, "is a data URI of another kind", "data:application/octet-stream;base64,", uri.substr(0, 40));
+    const std::string_view text = std::string_view(uri).substr(comma + 1);
+    return std::make_shared<const std::vector<std::byte>>(decodeBase64(text, place));
+  }
+  const std::filesystem::path path = gltfFileOf(file_, uri, place);
+  std::shared_ptr<const std::vector<std::byte>>& data = files_[path];
+  if (data == nullptr) {
+    data = std::make_shared<const std::vector<std::byte>>(readFile(path));
+    bytesRead_ += data->size();
+  }
+  return data;
+}
+
+std::filesystem::path gltfFileOf(const std::filesystem::path& file, std::string_view uri, const std::string& place) {
+  const std::string name = percentDecoded(uri, place);
+  const auto fail = [&] {
+    throw Error(place, "names a file that is not read", "one beside the glTF file or below",
+                "'" + name.substr(0, 80) + "'");
+  };
+  const std::size_t colon = name.find(':');
+  if (colon != std::string::npos && name.find('/') > colon) fail();  // a scheme
+  if (name.find('\0') != std::string::npos) fail();
+  const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
+  if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") fail();
+  return file.parent_path() / relative;
+}
+
+}  // namespace malus::prep

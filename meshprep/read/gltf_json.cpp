@@ -1,0 +1,282 @@
+#include "meshprep/read/gltf_json.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+#include "meshprep/read/gltf_rules.h"
+#include "meshprep/read/source_scene.h"
+
+namespace malus::prep {
+using gltf::findRule;
+using gltf::requiredKeys;
+using gltf::Rule;
+using gltf::Type;
+using nlohmann::json;
+
+namespace {
+
+constexpr int kMaxNesting = 64;
+constexpr std::size_t kMinObjects = 200'000;  // are always allowed
+constexpr std::size_t kBytesPerObject = 50;
+constexpr std::int64_t kMaxIndex = 0x7fffffff;            // tinygltf keeps them in int
+constexpr std::int64_t kMaxSize = std::int64_t{1} << 53;  // what every JSON reader holds
+
+// Extensions that are read, and those that touch nothing but textures, which are left out anyway.
+constexpr std::array<std::string_view, 10> kKnownExtensions = {
+    "KHR_draco_mesh_compression", "KHR_mesh_quantization",
+    "KHR_materials_ior",          "KHR_materials_transmission",
+    "KHR_materials_volume",       "KHR_materials_emissive_strength",
+    "KHR_texture_transform",      "KHR_texture_basisu",
+    "EXT_texture_webp",           "EXT_texture_avif"};
+
+// Makes a document of what is kept, event by event of nlohmann's parser. (Its own filter by callback looks through the
+// whole list for every object that ends: quadratic.)
+class Builder : public json::json_sax_t {
+ public:
+  Builder(std::size_t textBytes, const std::string& where, std::vector<std::string>& notes)
+      : where_(where), notes_(notes), objectsLeft_(std::max(kMinObjects, textBytes / kBytesPerObject)) {}
+
+  json take() { return std::move(root_); }
+
+  bool null() override { return put(nullptr); }
+  bool boolean(bool value) override { return put(value); }
+  bool number_integer(std::int64_t value) override { return put(value); }
+  bool number_unsigned(std::uint64_t value) override { return put(value); }
+  bool number_float(double value, const std::string&) override { return put(value); }
+  bool string(std::string& value) override {
+    if (isKept()) count();
+    return put(std::move(value));
+  }
+  bool binary(json::binary_t&) override { return false; }  // JSON has none
+  bool start_object(std::size_t) override {
+    if (isKept()) count();
+    return open(json::object());
+  }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(json::array()); }
+  bool end_array() override { return close(); }
+
+  bool key(std::string& key) override {
+    if (droppedLevels_ > 0) return true;
+    Open& object = open_.back();
+    path_.resize(object.pathSize);
+    if (!path_.empty()) path_ += '/';
+    path_ += key;
+    const Rule* rule = findRule(path_);
+    if (rule != nullptr && rule->type == Type::noted) addNote(notes_, std::string(rule->note));
+    isDropped_ = rule == nullptr || rule->type == Type::noted;
+    if (isDropped_) return true;
+    if (object.value->contains(key))
+      throw Error(where_, fmt::format("key '{}' is there twice in one object", path_), "each key once");
+    key_ = std::move(key);
+    return true;
+  }
+
+  bool parse_error(std::size_t byte, const std::string&, const json::exception& error) override {
+    constexpr int kNumberOutOfRange = 406;
+    const std::string place = fmt::format("{}, byte {} of the JSON", where_, byte > 0 ? byte - 1 : 0);
+    if (error.id == kNumberOutOfRange)
+      throw Error(place, "holds a number that no double holds", "glTF 2.0", error.what());
+    throw Error(place, "is not JSON", "glTF 2.0", error.what());
+  }
+
+ private:
+  // A list or object that is being filled.
+  struct Open {
+    json* value;
+    std::size_t pathSize;  // of its own path; lists have that of their key
+  };
+
+  bool isKept() const { return droppedLevels_ == 0 && !isDropped_; }
+
+  // Puts a kept value where it belongs.
+  json* place(json value) {
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    json& parent = *open_.back().value;
+    if (parent.is_array()) {
+      parent.push_back(std::move(value));
+      return &parent.back();
+    }
+    return &(parent[key_] = std::move(value));
+  }
+
+  bool put(json value) {
+    if (isKept()) place(std::move(value));
+    if (droppedLevels_ == 0) isDropped_ = false;
+    return true;
+  }
+
+  bool open(json value) {
+    if (++levels_ > kMaxNesting)
+      throw Error(where_, "JSON is nested too deep", fmt::format("at most {} levels", kMaxNesting));
+    if (!isKept()) {
+      ++droppedLevels_;
+      isDropped_ = false;
+      return true;
+    }
+    // In a list the path is that of the list's key, which the last object may have gone below.
+    if (!open_.empty() && open_.back().value->is_array()) path_.resize(open_.back().pathSize);
+    open_.push_back({place(std::move(value)), path_.size()});
+    return true;
+  }
+
+  bool close() {
+    --levels_;
+    if (droppedLevels_ > 0)
+      --droppedLevels_;
+    else
+      open_.pop_back();
+    return true;
+  }
+
+  void count() {
+    if (objectsLeft_-- == 0)
+      throw Error(where_, "holds more objects than its size gives reason for",
+                  fmt::format("at most {}, or one for {} bytes", kMinObjects, kBytesPerObject));
+  }
+
+  const std::string& where_;
+  std::vector<std::string>& notes_;
+  std::size_t objectsLeft_;
+  json root_;
+  std::vector<Open> open_;
+  std::string path_;  // of the last key
+  std::string key_;
+  int levels_ = 0;
+  int droppedLevels_ = 0;   // how deep inside of a dropped value
+  bool isDropped_ = false;  // the value of the last key is to be dropped
+};
+
+// Whether every kept value is what its rule says. Whole numbers that stand for real ones become real, because tinygltf
+// takes them through int in places.
+class TypeCheck {
+ public:
+  explicit TypeCheck(const std::string& where) : where_(where) {}
+
+  // path: of rules; place: for messages.
+  void object(json& value, const std::string& path, const std::string& place) const {
+    for (const std::string_view key : requiredKeys(path))
+      if (!value.contains(key)) throw Error(fmt::format("{}: {}", where_, joined(place, key)), "is missing", "it");
+    for (auto item = value.begin(); item != value.end(); ++item)
+      check(item.value(), path.empty() ? item.key() : path + "/" + item.key(), joined(place, item.key()));
+  }
+
+ private:
+  static std::string joined(const std::string& place, std::string_view key) {
+    return place.empty() ? std::string(key) : fmt::format("{}.{}", place, key);
+  }
+
+  [[noreturn]] void fail(const std::string& place, std::string_view expected, const json& found) const {
+    std::string text = found.is_structured() ? std::string(found.type_name()) : found.dump();
+    if (text.size() > 40) text = text.substr(0, 40) + "...";
+    throw Error(fmt::format("{}: {}", where_, place), "is of the wrong type", expected, text);
+  }
+
+  void wholeNumber(const json& value, const std::string& place, std::int64_t most) const {
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most))
+      fail(place, fmt::format("a whole number of 0 to {}", most), value);
+  }
+
+  void check(json& value, const std::string& path, const std::string& place) const {
+    const Rule& rule = *findRule(path);  // nothing else is kept
+    switch (rule.type) {
+      case Type::object:
+        if (!value.is_object()) fail(place, "an object", value);
+        object(value, path, place);
+        break;
+      case Type::objects:
+        if (!value.is_array()) fail(place, "a list of objects", value);
+        for (std::size_t i = 0; i < value.size(); ++i) {
+          const std::string item = fmt::format("{}[{}]", place, i);
+          if (!value[i].is_object()) fail(item, "an object", value[i]);
+          object(value[i], path, item);
+        }
+        break;
+      case Type::index:
+        wholeNumber(value, place, kMaxIndex);
+        break;
+      case Type::size:
+        wholeNumber(value, place, kMaxSize);
+        break;
+      case Type::indices:
+        if (!value.is_array()) fail(place, "a list of whole numbers", value);
+        for (const json& item : value) wholeNumber(item, place, kMaxIndex);
+        break;
+      case Type::number:
+        if (!value.is_number()) fail(place, "a number", value);
+        value = value.get<double>();
+        break;
+      case Type::numbers:
+        if (!value.is_array() || value.size() != rule.size) fail(place, fmt::format("{} numbers", rule.size), value);
+        for (json& item : value) {
+          if (!item.is_number()) fail(place, fmt::format("{} numbers", rule.size), item);
+          item = item.get<double>();
+        }
+        break;
+      case Type::text:
+        if (!value.is_string()) fail(place, "a string", value);
+        break;
+      case Type::texts:
+        if (!value.is_array()) fail(place, "a list of strings", value);
+        for (const json& item : value)
+          if (!item.is_string()) fail(place, "a list of strings", item);
+        break;
+      case Type::flag:
+        if (!value.is_boolean()) fail(place, "true or false", value);
+        break;
+      case Type::noted:
+        break;
+    }
+  }
+
+  const std::string& where_;
+};
+
+void checkVersion(const json& asset, const std::string& where) {
+  const auto isTwo = [](const std::string& version) { return version == "2" || version.starts_with("2."); };
+  const std::string version = asset.at("version").get<std::string>();
+  if (!isTwo(version)) throw Error(where + ": asset.version", "is of another version", "2.0", "'" + version + "'");
+  const std::string least = asset.value("minVersion", "2.0");
+  if (least != "2.0" && least != "2") throw Error(where + ": asset.minVersion", "is of a later version", "2.0", least);
+}
+
+void checkExtensions(const json& document, const std::string& where, std::vector<std::string>& notes) {
+  const auto known = [](const std::string& name) {
+    return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();
+  };
+  const auto names = [&](const char* key) { return document.value(key, std::vector<std::string>()); };
+  for (const std::string& name : names("extensionsRequired"))
+    if (!known(name))
+      throw Error(where + ": extensionsRequired", "names an extension that is not known",
+                  fmt::format("{}", fmt::join(kKnownExtensions, ", ")), "'" + name.substr(0, 60) + "'");
+  for (const std::string& name : names("extensionsUsed"))
+    if (!known(name)) addNote(notes, fmt::format("extension {}", name.substr(0, 60)));
+}
+
+}  // namespace
+
+GltfJson parseGltfJson(std::string_view text, const std::string& where) {
+  GltfJson result;
+
+  // Step 1: parse what is on the whitelist.
+  Builder builder(text.size(), where, result.notes);
+  json::sax_parse(text, &builder);
+  result.document = builder.take();
+
+  // Step 2: types, version, extensions.
+  if (!result.document.is_object()) throw Error(where, "is no glTF", "a JSON object", result.document.type_name());
+  TypeCheck(where).object(result.document, "", "");
+  checkVersion(result.document.at("asset"), where);
+  checkExtensions(result.document, where, result.notes);
+  return result;
+}
+
+}  // namespace malus::prep

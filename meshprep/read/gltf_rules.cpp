@@ -1,0 +1,132 @@
+#include "meshprep/read/gltf_rules.h"
+
+#include <array>
+#include <map>
+
+namespace malus::prep::gltf {
+
+namespace {
+
+constexpr Rule noted(std::string_view path, std::string_view note) { return {path, Type::noted, 0, false, note}; }
+
+// Array levels do not show in a path.
+constexpr std::array kRules = {
+    Rule{"asset", Type::object, 0, true},
+    Rule{"asset/version", Type::text, 0, true},
+    Rule{"asset/minVersion", Type::text},
+    Rule{"extensionsUsed", Type::texts},
+    Rule{"extensionsRequired", Type::texts},
+    Rule{"scene", Type::index},
+    Rule{"scenes", Type::objects},
+    Rule{"scenes/nodes", Type::indices},
+    Rule{"nodes", Type::objects},
+    Rule{"nodes/name", Type::text},
+    Rule{"nodes/mesh", Type::index},
+    Rule{"nodes/children", Type::indices},
+    Rule{"nodes/matrix", Type::numbers, 16},
+    Rule{"nodes/translation", Type::numbers, 3},
+    Rule{"nodes/rotation", Type::numbers, 4},
+    Rule{"nodes/scale", Type::numbers, 3},
+    noted("nodes/skin", "skins: the pose of the file is taken"),
+    noted("nodes/camera", "cameras"),
+    Rule{"meshes", Type::objects},
+    Rule{"meshes/name", Type::text},
+    Rule{"meshes/primitives", Type::objects, 0, true},
+    Rule{"meshes/primitives/mode", Type::index},
+    Rule{"meshes/primitives/indices", Type::index},
+    Rule{"meshes/primitives/material", Type::index},
+    Rule{"meshes/primitives/attributes", Type::object, 0, true},
+    Rule{"meshes/primitives/attributes/POSITION", Type::index},
+    Rule{"meshes/primitives/attributes/NORMAL", Type::index},
+    noted("meshes/primitives/attributes/TANGENT", "tangents"),
+    noted("meshes/primitives/attributes/TEXCOORD_0", "texture coordinates"),
+    noted("meshes/primitives/attributes/COLOR_0", "colours of vertices"),
+    noted("meshes/primitives/attributes/JOINTS_0", "skins: the pose of the file is taken"),
+    noted("meshes/primitives/targets", "morph targets: the shape of the file is taken"),
+    Rule{"meshes/primitives/extensions", Type::object},
+    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression", Type::object},
+    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/bufferView", Type::index, 0, true},
+    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/attributes", Type::object, 0, true},
+    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/attributes/POSITION", Type::index},
+    Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/attributes/NORMAL", Type::index},
+    Rule{"accessors", Type::objects},
+    Rule{"accessors/bufferView", Type::index},
+    Rule{"accessors/byteOffset", Type::size},
+    Rule{"accessors/componentType", Type::index, 0, true},
+    Rule{"accessors/normalized", Type::flag},
+    Rule{"accessors/count", Type::size, 0, true},
+    Rule{"accessors/type", Type::text, 0, true},
+    Rule{"accessors/sparse", Type::object},
+    Rule{"accessors/sparse/count", Type::index, 0, true},
+    Rule{"accessors/sparse/indices", Type::object, 0, true},
+    Rule{"accessors/sparse/indices/bufferView", Type::index, 0, true},
+    Rule{"accessors/sparse/indices/byteOffset", Type::index},
+    Rule{"accessors/sparse/indices/componentType", Type::index, 0, true},
+    Rule{"accessors/sparse/values", Type::object, 0, true},
+    Rule{"accessors/sparse/values/bufferView", Type::index, 0, true},
+    Rule{"accessors/sparse/values/byteOffset", Type::index},
+    Rule{"bufferViews", Type::objects},
+    Rule{"bufferViews/buffer", Type::index, 0, true},
+    Rule{"bufferViews/byteOffset", Type::size},
+    Rule{"bufferViews/byteLength", Type::size, 0, true},
+    Rule{"bufferViews/byteStride", Type::index},
+    Rule{"buffers", Type::objects},
+    Rule{"buffers/uri", Type::text},
+    Rule{"buffers/byteLength", Type::size, 0, true},
+    Rule{"materials", Type::objects},
+    Rule{"materials/name", Type::text},
+    Rule{"materials/pbrMetallicRoughness", Type::object},
+    Rule{"materials/pbrMetallicRoughness/baseColorFactor", Type::numbers, 4},
+    Rule{"materials/pbrMetallicRoughness/metallicFactor", Type::number},
+    Rule{"materials/pbrMetallicRoughness/roughnessFactor", Type::number},
+    Rule{"materials/emissiveFactor", Type::numbers, 3},
+    Rule{"materials/alphaMode", Type::text},
+    Rule{"materials/extensions", Type::object},
+    Rule{"materials/extensions/KHR_materials_ior", Type::object},
+    Rule{"materials/extensions/KHR_materials_ior/ior", Type::number},
+    Rule{"materials/extensions/KHR_materials_transmission", Type::object},
+    Rule{"materials/extensions/KHR_materials_transmission/transmissionFactor", Type::number},
+    Rule{"materials/extensions/KHR_materials_volume", Type::object},
+    Rule{"materials/extensions/KHR_materials_volume/thicknessFactor", Type::number},
+    Rule{"materials/extensions/KHR_materials_volume/attenuationDistance", Type::number},
+    Rule{"materials/extensions/KHR_materials_volume/attenuationColor", Type::numbers, 3},
+    Rule{"materials/extensions/KHR_materials_emissive_strength", Type::object},
+    Rule{"materials/extensions/KHR_materials_emissive_strength/emissiveStrength", Type::number},
+    noted("textures", "textures"),
+    noted("images", "textures"),
+    noted("animations", "animations: the pose of the file is taken"),
+    noted("skins", "skins: the pose of the file is taken"),
+    noted("cameras", "cameras"),
+};
+
+}  // namespace
+
+const Rule* findRule(std::string_view path) {
+  static const std::map<std::string_view, const Rule*> kByPath = [] {
+    std::map<std::string_view, const Rule*> rules;
+    for (const Rule& rule : kRules) rules.emplace(rule.path, &rule);
+    return rules;
+  }();
+  const auto found = kByPath.find(path);
+  return found == kByPath.end() ? nullptr : found->second;
+}
+
+// The required keys of the objects at each path.
+const std::vector<std::string_view>& requiredKeys(std::string_view path) {
+  static const std::map<std::string_view, std::vector<std::string_view>> kByPath = [] {
+    std::map<std::string_view, std::vector<std::string_view>> keys;
+    for (const Rule& rule : kRules) {
+      const std::size_t slash = rule.path.rfind('/');
+      const bool top = slash == std::string_view::npos;
+      if (rule.required)
+        keys[top ? std::string_view() : rule.path.substr(0, slash)].push_back(top ? rule.path
+                                                                                  : rule.path.substr(slash + 1));
+    }
+    return keys;
+  }();
+  static const std::vector<std::string_view> kNone;
+  const auto found = kByPath.find(path);
+  return found == kByPath.end() ? kNone : found->second;
+}
+
+}  // namespace malus::prep::gltf

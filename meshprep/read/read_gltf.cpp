@@ -1,0 +1,366 @@
+#include "meshprep/read/read_gltf.h"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+#include "meshprep/read/gltf_accessor.h"
+#include "meshprep/read/gltf_buffers.h"
+#include "meshprep/read/gltf_draco.h"
+#include "meshprep/read/gltf_json.h"
+#include "meshprep/read/gltf_material.h"
+#include "meshprep/read/gltf_nodes.h"
+
+namespace malus::prep {
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMinTriangles = 2'000'000;
+constexpr std::size_t kMinVertices = 6'000'000;
+constexpr std::size_t kMaxInstances = 65536;
+constexpr std::size_t kMinInstancedTriangles = 4'000'000;
+constexpr std::size_t kMaxCopies = 16;
+
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+
+// tinygltf's model of a checked document. Buffers are left out of what it reads; so are the indices of primitives,
+// because it refuses indices without a buffer view, which Draco's and sparse ones have: they go in as an attribute.
+tinygltf::Model modelOf(json document, const std::string& where) {
+  document.erase("buffers");
+  std::map<std::string, std::size_t> counts;
+  for (const char* key : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "materials"})
+    if (const auto list = document.find(key); list != document.end()) counts[key] = list->size();
+  std::size_t primitives = 0;
+  if (const auto meshes = document.find("meshes"); meshes != document.end())
+    for (json& mesh : *meshes)
+      for (json& primitive : mesh.at("primitives")) {
+        ++primitives;
+        if (const auto indices = primitive.find("indices"); indices != primitive.end()) {
+          primitive["attributes"]["indices"] = *indices;
+          primitive.erase("indices");
+        }
+      }
+  const std::string text = document.dump();
+  document = nullptr;
+
+  tinygltf::Model model;
+  std::string errors, warnings;
+  bool read = false;
+  try {
+    tinygltf::TinyGLTF loader;
+    read = loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "");
+  } catch (const std::exception& failure) {
+    throw Error(where, "tinygltf cannot read it", "", failure.what());
+  }
+  std::replace(errors.begin(), errors.end(), '\n', ' ');
+  if (!read) throw Error(where, "tinygltf cannot read it", "glTF 2.0", errors);
+
+  const auto require = [&](const char* what, std::size_t expected, std::size_t found) {
+    if (expected != found)
+      throw Error(where, fmt::format("tinygltf reads other {} than the file has", what), fmt::to_string(expected),
+                  fmt::to_string(found));
+  };
+  require("scenes", counts["scenes"], model.scenes.size());
+  require("nodes", counts["nodes"], model.nodes.size());
+  require("meshes", counts["meshes"], model.meshes.size());
+  require("accessors", counts["accessors"], model.accessors.size());
+  require("bufferViews", counts["bufferViews"], model.bufferViews.size());
+  require("materials", counts["materials"], model.materials.size());
+  std::size_t primitivesRead = 0;
+  for (const tinygltf::Mesh& mesh : model.meshes) primitivesRead += mesh.primitives.size();
+  require("primitives", primitives, primitivesRead);
+  return model;
+}
+
+// The index that an attribute or the indices of a primitive have; none where it has none.
+std::optional<std::size_t> attributeOf(const tinygltf::Primitive& primitive, const char* name) {
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end()) return std::nullopt;
+  return static_cast<std::size_t>(found->second);
+}
+
+// Makes parts of primitives and keeps account of what has been read.
+class PartReader {
+ public:
+  PartReader(const tinygltf::Model& model, GltfBuffers& buffers, std::size_t fileBytes, bool quantized,
+             std::string where)
+      : model_(model), buffers_(buffers), fileBytes_(fileBytes), quantized_(quantized), where_(std::move(where)) {
+    for (const tinygltf::Mesh& mesh : model.meshes)
+      for (const tinygltf::Primitive& primitive : mesh.primitives)
+        if (const auto position = attributeOf(primitive, "POSITION")) ++users_[*position];
+  }
+
+  // Empty where the primitive has no faces: points and lines.
+  Polygons read(const tinygltf::Primitive& primitive, const std::string& place, std::vector<std::string>& notes) {
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+      addNote(notes, "points and lines");
+      return {};
+    }
+    if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+      throw Error(place + ".mode", "is unknown", "0 to 6", fmt::to_string(primitive.mode));
+    const auto position = attributeOf(primitive, "POSITION");
+    if (!position) throw Error(place, "has no positions", "an attribute POSITION");
+    const auto draco = primitive.extensions.find(kDraco);
+    if (draco != primitive.extensions.end()) return readDraco(primitive, draco->second, *position, place);
+
+    // Step 1: the accessors.
+    const GltfAccessor& positions = vectors(*position);
+    const GltfAccessor* normals = nullptr;
+    if (const auto normal = attributeOf(primitive, "NORMAL")) {
+      normals = &vectors(*normal);
+      if (normals->count() != positions.count())
+        throw Error(place, "has another number of normals than of positions", fmt::to_string(positions.count()),
+                    fmt::to_string(normals->count()));
+    }
+
+    // Step 2: triangles of its vertices.
+    Polygons polygons;
+    polygons.corners = triangles(primitive, positions.count(), place);
+    for (std::size_t i = 3; i <= polygons.corners.size(); i += 3) polygons.firstCorner.push_back(i);
+
+    // Step 3: the vertices; those of its faces alone where primitives share them.
+    std::vector<std::uint32_t> kept;
+    if (users_.at(*position) > 1) {
+      kept = polygons.corners;
+      std::sort(kept.begin(), kept.end());
+      kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+      for (std::uint32_t& corner : polygons.corners)
+        corner = static_cast<std::uint32_t>(std::lower_bound(kept.begin(), kept.end(), corner) - kept.begin());
+    } else {
+      kept.resize(positions.count());
+      std::iota(kept.begin(), kept.end(), 0u);
+    }
+    polygons.positions.reserve(kept.size());
+    for (const std::uint32_t i : kept) polygons.positions.push_back(positions.vector(i));
+    if (normals != nullptr) {
+      polygons.normals.reserve(kept.size());
+      for (const std::uint32_t i : kept) polygons.normals.emplace_back(normals->vector(i));
+    }
+    return polygons;
+  }
+
+  std::size_t triangleCount() const { return triangles_; }
+
+ private:
+  std::size_t bytes() const { return fileBytes_ + buffers_.bytesRead(); }
+
+  void addTriangles(std::size_t count, const std::string& place) {
+    const std::size_t most = std::max(kMinTriangles, bytes() / 2);
+    if (count > most || (triangles_ += count) > most)
+      throw Error(place, "has more triangles than a file of its size may", fmt::format("at most {}", most),
+                  fmt::to_string(std::max(count, triangles_)));
+  }
+  void addVertices(std::size_t count, const std::string& place) {
+    const std::size_t most = std::max(kMinVertices, bytes());
+    if (count > most || (vertices_ += count) > most)
+      throw Error(place, "has more vertices than a file of its size may", fmt::format("at most {}", most),
+                  fmt::to_string(std::max(count, vertices_)));
+  }
+
+  // What an accessor claims, before its bytes are looked at.
+  std::size_t claimOf(std::size_t index) const {
+    const std::string place = fmt::format("{}: accessors[{}]", where_, index);
+    if (index >= model_.accessors.size())
+      throw Error(place, "is not there", fmt::format("one of {} accessors", model_.accessors.size()));
+    return model_.accessors[index].count;
+  }
+
+  // Checked once, however many primitives use it.
+  const GltfAccessor& vectors(std::size_t index) {
+    const auto found = vectors_.find(index);
+    if (found != vectors_.end()) return found->second;
+    addVertices(claimOf(index), fmt::format("{}: accessors[{}]", where_, index));
+    GltfAccessor accessor(model_, buffers_, index, where_);
+    accessor.requireVectors(quantized_);
+    return vectors_.emplace(index, std::move(accessor)).first->second;
+  }
+
+  // Three corners for every triangle of a list, strip or fan.
+  std::vector<std::uint32_t> triangles(const tinygltf::Primitive& primitive, std::size_t vertices,
+                                       const std::string& place) {
+    // Step 1: how many corners there are, and so how many triangles.
+    const auto indices = attributeOf(primitive, "indices");
+    const std::size_t count = indices ? claimOf(*indices) : vertices;
+    const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    if (count < 3 || (list && count % 3 != 0))
+      throw Error(place, "is no whole number of triangles", list ? "3 corners for each" : "3 corners or more",
+                  fmt::format("{} corners", count));
+    const std::size_t triangleCount = list ? count / 3 : count - 2;
+    addTriangles(triangleCount, place);
+
+    // Step 2: the corners.
+    std::vector<std::uint32_t> corners(count);
+    if (indices) {
+      const GltfAccessor accessor(model_, buffers_, *indices, where_);
+      accessor.requireIndices();
+      for (std::size_t i = 0; i < count; ++i) {
+        corners[i] = accessor.wholeNumber(i);
+        if (corners[i] == accessor.restart())
+          throw Error(accessor.place(), fmt::format("index {} restarts the primitive, which glTF forbids", i),
+                      fmt::format("below {}", accessor.restart()), fmt::to_string(corners[i]));
+        if (corners[i] >= vertices)
+          throw Error(accessor.place(), fmt::format("index {} names a vertex that is not there", i),
+                      fmt::format("below {}", vertices), fmt::to_string(corners[i]));
+      }
+    } else {
+      std::iota(corners.begin(), corners.end(), 0u);
+    }
+    if (list) return corners;
+
+    // Step 3: strips and fans (glTF 2.0 Specification, section 3.7.2.1).
+    std::vector<std::uint32_t> result;
+    result.reserve(3 * triangleCount);
+    for (std::size_t i = 0; i < triangleCount; ++i) {
+      const bool strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
+      const std::size_t odd = i % 2;
+      const std::array<std::size_t, 3> at =
+          strip ? std::array{i, i + 1 + odd, i + 2 - odd} : std::array{i + 1, i + 2, std::size_t{0}};
+      for (const std::size_t corner : at) result.push_back(corners[corner]);
+    }
+    return result;
+  }
+
+  Polygons readDraco(const tinygltf::Primitive& primitive, const tinygltf::Value& extension, std::size_t position,
+                     const std::string& place) {
+    // Step 1: what the accessors say. They have no bytes of their own, or other ones for readers without Draco.
+    const auto indices = attributeOf(primitive, "indices");
+    if (!indices) throw Error(place, "has Draco data and no indices", "an accessor of indices");
+    const std::size_t corners = claimOf(*indices);
+    GltfDracoClaims claims;
+    claims.vertices = claimOf(position);
+    claims.triangles = corners / 3;
+    if (corners % 3 != 0 || corners == 0)
+      throw Error(place, "is no whole number of triangles", "3 corners for each", fmt::format("{} corners", corners));
+    addTriangles(claims.triangles, place);
+    addVertices(claims.vertices, place);
+
+    // Step 2: which attributes of the data they are.
+    const tinygltf::Value& attributes = extension.Get("attributes");
+    const auto idOf = [&](const char* name) {
+      return static_cast<std::uint32_t>(attributes.Get(name).GetNumberAsInt());
+    };
+    if (!attributes.Has("POSITION"))
+      throw Error(fmt::format("{}.extensions.{}", place, kDraco), "has no positions", "an attribute POSITION");
+    claims.positionId = idOf("POSITION");
+    if (attributes.Has("NORMAL") && attributeOf(primitive, "NORMAL")) claims.normalId = idOf("NORMAL");
+
+    // Step 3: decode.
+    const auto view = static_cast<std::size_t>(extension.Get("bufferView").GetNumberAsInt());
+    GltfDracoMesh mesh = decodeGltfDraco(gltfViewBytes(model_, buffers_, view, where_), claims, place);
+    Polygons polygons;
+    polygons.positions = std::move(mesh.positions);
+    polygons.normals = std::move(mesh.normals);
+    polygons.corners = std::move(mesh.corners);
+    for (std::size_t i = 3; i <= polygons.corners.size(); i += 3) polygons.firstCorner.push_back(i);
+    return polygons;
+  }
+
+  const tinygltf::Model& model_;
+  GltfBuffers& buffers_;
+  std::size_t fileBytes_;
+  bool quantized_;
+  std::string where_;
+  std::map<std::size_t, std::size_t> users_;     // of an accessor as positions
+  std::map<std::size_t, GltfAccessor> vectors_;  // checked
+  std::size_t triangles_ = 0, vertices_ = 0;     // so far
+};
+
+std::string nameOf(const tinygltf::Mesh& mesh, std::size_t index) {
+  return mesh.name.empty() ? fmt::format("mesh {}", index) : mesh.name;
+}
+
+}  // namespace
+
+SourceScene readGltf(const std::filesystem::path& path) {
+  const std::string where = path.string();
+  SourceScene scene;
+
+  // Step 1: the document, checked, then tinygltf's model of it.
+  const GltfContainer container(path);
+  GltfJson checked = parseGltfJson(container.json(), where);
+  scene.notes = std::move(checked.notes);
+  GltfBuffers buffers(checked.document, container, path);
+  const tinygltf::Model model = modelOf(std::move(checked.document), where);
+  const bool quantized = std::find(model.extensionsUsed.begin(), model.extensionsUsed.end(), "KHR_mesh_quantization") !=
+                         model.extensionsUsed.end();
+
+  // Step 2: materials.
+  for (std::size_t i = 0; i < model.materials.size(); ++i)
+    scene.materials.push_back(
+        gltfMaterial(model.materials[i], fmt::format("{}: materials[{}]", where, i), scene.notes));
+
+  // Step 3: where meshes stand. What stands nowhere is not read.
+  const std::vector<GltfPlacement> placements = gltfPlacements(model, kMaxInstances, where, scene.notes);
+  if (placements.empty()) throw Error(where, "has no node with a mesh in its scene");
+  std::vector<bool> placed(model.meshes.size(), false);
+  for (const GltfPlacement& placement : placements) placed[placement.mesh] = true;
+  if (std::find(placed.begin(), placed.end(), false) != placed.end()) addNote(scene.notes, "meshes of no node");
+
+  // Step 4: parts.
+  PartReader reader(model, buffers, container.size(), quantized, where);
+  std::vector<std::vector<std::size_t>> partsOfMesh(model.meshes.size());
+  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+    if (!placed[m]) continue;
+    const tinygltf::Mesh& mesh = model.meshes[m];
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const tinygltf::Primitive& primitive = mesh.primitives[p];
+      const std::string place = fmt::format("{}: meshes[{}].primitives[{}]", where, m, p);
+      SourcePart part;
+      part.name = mesh.primitives.size() == 1 ? nameOf(mesh, m) : fmt::format("{}.{}", nameOf(mesh, m), p + 1);
+      if (primitive.material >= 0) {
+        part.material = static_cast<std::size_t>(primitive.material);
+        if (*part.material >= scene.materials.size())
+          throw Error(place + ".material", "names a material that is not there",
+                      fmt::format("below {}", scene.materials.size()), fmt::to_string(primitive.material));
+      }
+      part.polygons = reader.read(primitive, place, scene.notes);
+      if (part.polygons.faceCount() == 0) continue;
+      partsOfMesh[m].push_back(scene.parts.size());
+      scene.parts.push_back(std::move(part));
+    }
+  }
+  if (scene.parts.empty()) throw Error(where, "has no faces");
+
+  // Step 5: instances, of a bounded number of triangles.
+  const std::size_t most = std::max(kMinInstancedTriangles, kMaxCopies * reader.triangleCount());
+  std::size_t triangles = 0;
+  for (const GltfPlacement& placement : placements) {
+    const std::vector<std::size_t>& parts = partsOfMesh[placement.mesh];
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      triangles += scene.parts[parts[i]].polygons.faceCount();
+      if (scene.instances.size() == kMaxInstances || triangles > most)
+        throw Error(where, "has too many instances", fmt::format("at most {}, of {} triangles", kMaxInstances, most),
+                    fmt::format("{} and {} or more", scene.instances.size() + 1, triangles));
+      scene.instances.push_back({parts[i],
+                                 parts.size() == 1 ? placement.name : fmt::format("{}.{}", placement.name, i + 1),
+                                 placement.worldFromObject});
+    }
+  }
+  return scene;
+}
+
+std::vector<std::filesystem::path> gltfBufferFiles(const std::filesystem::path& path) {
+  const std::string where = path.string();
+  const GltfContainer container(path);
+  const GltfJson checked = parseGltfJson(container.json(), where);
+  std::set<std::filesystem::path> files;
+  const auto list = checked.document.find("buffers");
+  if (list == checked.document.end()) return {};
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string uri = (*list)[i].value("uri", "");
+    if (uri.empty() || isDataUri(uri)) continue;
+    files.insert(gltfFileOf(path, uri, fmt::format("{}: buffers[{}].uri", where, i)));
+  }
+  return {files.begin(), files.end()};
+}
+
+}  // namespace malus::prep

@@ -1,0 +1,216 @@
+#include "meshprep/read/read_mtl.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "meshprep/base/atomic_file.h"
+#include "meshprep/base/error.h"
+#include "meshprep/read/scan.h"
+
+namespace malus::prep {
+
+namespace {
+
+constexpr double kPlainColour = 0.8;
+constexpr std::size_t kMaxMaterials = 100'000;
+
+constexpr std::array<std::string_view, 3> kOfNoConcern = {"Ka", "sharpness", "Km"};
+constexpr std::array<std::string_view, 7> kPictures = {"bump", "disp", "decal", "refl", "norm", "Bump", "Disp"};
+
+// What the file says about one material.
+struct Statements {
+  std::string name;
+  std::optional<glm::dvec3> kd, ks, ke, tf;
+  std::optional<double> ns, ni, d, pm, pr;
+  int illum = 2;
+};
+
+double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+glm::dvec3 share(const glm::dvec3& v) { return glm::clamp(v, 0.0, 1.0); }
+
+SourceMaterial materialOf(const Statements& said, std::vector<std::string>& notes) {
+  SourceMaterial result;
+  result.name = said.name;
+  const glm::dvec3 kd = share(said.kd.value_or(glm::dvec3(kPlainColour))), ks = share(said.ks.value_or(glm::dvec3(0)));
+
+  // Step 1: metal or not, and how rough.
+  const bool shines = largest(ks) > 0 && said.illum > 1;
+  const bool metal = said.pm ? *said.pm >= 0.5 : largest(ks) > 0.5 && largest(kd) < 0.1;
+  result.metallic = said.pm ? std::clamp(*said.pm, 0.0, 1.0) : metal ? 1 : 0;
+  result.baseColour = metal && !said.pm ? ks : kd;
+  if (said.pr) {
+    result.roughness = std::clamp(*said.pr, 0.0, 1.0);
+  } else if (shines || metal) {
+    result.roughness = std::pow(2 / (std::max(said.ns.value_or(0), 0.0) + 2), 0.25);
+  }
+
+  // Step 2: light that it gives off and lets through.
+  if (said.ke) result.emissive = glm::max(*said.ke, 0.0);
+  if (said.ni && *said.ni < 1) addNote(notes, "an index of refraction under 1: 1.5 is taken");
+  if (said.ni && *said.ni >= 1) result.ior = *said.ni;
+  const bool refracts = said.illum == 4 || said.illum == 6 || said.illum == 7 || said.illum == 9;
+  if (said.d)
+    result.transmission = 1 - std::clamp(*said.d, 0.0, 1.0);
+  else if (refracts && said.tf)
+    result.transmission = largest(share(*said.tf));
+  if (said.tf) {
+    result.hasVolume = true;
+    result.attenuationColour = share(*said.tf);
+    result.attenuationDistance = 1;
+  }
+  return result;
+}
+
+// One statement of a material.
+void take(std::string_view keyword, std::string_view rest, const Lines& at, Statements& material,
+          std::vector<std::string>& notes) {
+  const auto note = [&](std::string text) { addNote(notes, std::move(text)); };
+  const auto number = [&] { return coordinate(takeWord(rest), at); };
+  const auto colour = [&](std::optional<glm::dvec3>& value) {
+    std::string_view ahead = rest;
+    const std::string_view first = takeWord(ahead);
+    if (first == "spectral" || first == "xyz") {
+      note(fmt::format("colours of material files by {}", first));
+      return;
+    }
+    const double r = number();
+    ahead = rest;
+    if (takeWord(ahead).empty()) {
+      value = glm::dvec3(r);
+      return;
+    }
+    const double g = number(), b = number();
+    value = {r, g, b};
+  };
+
+  if (keyword == "Kd")
+    colour(material.kd);
+  else if (keyword == "Ks")
+    colour(material.ks);
+  else if (keyword == "Ke")
+    colour(material.ke);
+  else if (keyword == "Tf")
+    colour(material.tf);
+  else if (keyword == "Ns")
+    material.ns = number();
+  else if (keyword == "Ni")
+    material.ni = number();
+  else if (keyword == "Pm")
+    material.pm = number();
+  else if (keyword == "Pr")
+    material.pr = number();
+  else if (keyword == "Tr")
+    material.d = 1 - number();
+  else if (keyword == "d") {
+    std::string_view ahead = rest;
+    if (takeWord(ahead) == "-halo") rest = ahead;
+    material.d = number();
+  } else if (keyword == "illum") {
+    const long long model = wholeNumber(takeWord(rest), "a whole number of 0 to 10", at);
+    if (model < 0 || model > 10)
+      at.fail("an unknown model of illumination", "a whole number of 0 to 10", fmt::to_string(model));
+    material.illum = static_cast<int>(model);
+  } else if (keyword.starts_with("map_") || std::find(kPictures.begin(), kPictures.end(), keyword) != kPictures.end()) {
+    note("textures");
+  } else if (std::find(kOfNoConcern.begin(), kOfNoConcern.end(), keyword) == kOfNoConcern.end()) {
+    note(fmt::format("statements {} of material files", quoted(keyword)));
+  }
+}
+
+}  // namespace
+
+std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, std::vector<std::string>& notes) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw Error(where, "is UTF-16 text", "ASCII or UTF-8");
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  std::vector<Statements> said;
+  Lines lines(text, where);
+  while (lines.nextStatement('#')) {
+    std::string_view rest = lines.line();
+    const std::string_view keyword = takeWord(rest);
+    if (keyword == "newmtl") {
+      rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+      if (rest.empty()) lines.fail("a material without a name", "newmtl NAME");
+      if (said.size() == kMaxMaterials) lines.fail("too many materials", fmt::format("at most {}", kMaxMaterials));
+      said.emplace_back();
+      said.back().name = nameOf(rest, lines);
+      continue;
+    }
+    if (said.empty()) lines.fail("a statement outside of a material", "newmtl NAME first", quoted(keyword));
+    take(keyword, rest, lines, said.back(), notes);
+  }
+  std::vector<SourceMaterial> materials;
+  materials.reserve(said.size());
+  for (const Statements& material : said) materials.push_back(materialOf(material, notes));
+  return materials;
+}
+
+std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notes) {
+  return parseMtl(readTextFile(path), path.string(), notes);
+}
+
+void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files) {
+  // Step 1: what the files say, by name.
+  std::map<std::string, SourceMaterial> described;
+  std::vector<std::string> missing, there;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = obj.parent_path() / std::filesystem::path(file);
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) {
+      missing.push_back(file);
+      continue;
+    }
+    there.push_back(file);
+    for (SourceMaterial& material : readMtl(path, scene.notes)) {
+      const std::string name = material.name;
+      if (!described.emplace(name, std::move(material)).second)
+        addNote(scene.notes, fmt::format("a second material {}", prep::quoted(name)));
+    }
+  }
+
+  // Step 2: what the faces name. Of the names that a mtllib statement may mean, those that are missing matter only
+  // where a material is.
+  for (SourceMaterial& material : scene.materials) {
+    const auto found = described.find(material.name);
+    if (found != described.end()) {
+      material = found->second;
+      continue;
+    }
+    for (const std::string& file : missing)
+      addNote(scene.notes, fmt::format("material file {}, which is missing", prep::quoted(file)));
+    addNote(scene.notes, fmt::format("material {}, which no file describes", prep::quoted(material.name)));
+    material.baseColour = glm::dvec3(kPlainColour);
+    material.metallic = 0;
+  }
+}
+
+std::vector<std::string> mtllibsOf(std::string_view text) {
+  std::vector<std::string> files;
+  std::set<std::string_view> seen;
+  const auto add = [&](std::string_view name) {
+    if (!name.empty() && seen.insert(name).second) files.emplace_back(name);
+  };
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view rest = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (rest.ends_with('\r')) rest.remove_suffix(1);
+    if (takeWord(rest) != "mtllib") continue;
+    const std::size_t first = rest.find_first_not_of(" \t");
+    if (first == std::string_view::npos) continue;
+    add(rest.substr(first, rest.find_last_not_of(" \t") - first + 1));
+    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) add(word);
+  }
+  return files;
+}
+
+}  // namespace malus::prep

@@ -1,0 +1,219 @@
+// Whole files in a scene: glTF with everything, OBJ with its materials.
+#include "bake/imports/import.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "bake/bake.h"
+#include "bake/pack/reader.h"
+#include "bake/pack/writer.h"
+#include "tests/bake/fixtures.h"
+#include "tests/meshprep/read/gltf_files.h"
+
+namespace malus::bake {
+namespace {
+
+using nlohmann::json;
+using test::contains;
+using test::errorOf;
+
+constexpr auto kSilent = [](std::string_view) {};
+
+// A cube from 0 to 1, outward.
+prep::Mesh unitCube() {
+  prep::Mesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+class Import : public testing::Test {
+ protected:
+  void SetUp() override {
+    // Metal, glass, a lamp; the metal twice, once mirrored, under a moved parent.
+    gltf_.document["materials"] = {
+        {{"name", "steel"},
+         {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"roughnessFactor", 0.0}}}},
+        {{"name", "water"},
+         {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 0.0}}},
+         {"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1.0}}},
+           {"KHR_materials_ior", {{"ior", 1.33}}},
+           {"KHR_materials_volume",
+            {{"thicknessFactor", 1.0}, {"attenuationDistance", 2.0}, {"attenuationColor", {0.25, 1, 1}}}}}}},
+        {{"name", "lamp"},
+         {"emissiveFactor", {1, 0.5, 0}},
+         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8.0}}}}}}};
+    gltf_.document["extensionsUsed"] = {"KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume",
+                                        "KHR_materials_emissive_strength"};
+    for (const int material : {0, 1, 2})
+      gltf_.addMesh(unitCube(), ("mesh" + std::to_string(material)).c_str(), material);
+    const int left = gltf_.add("nodes", {{"name", "left"}, {"mesh", 0}});
+    const int right =
+        gltf_.add("nodes", {{"name", "right"}, {"mesh", 0}, {"scale", {-1, 1, 1}}, {"translation", {5, 0, 0}}});
+    gltf_.addNode({{"name", "group"}, {"children", {left, right}}, {"translation", {0, 10, 0}}});
+    gltf_.addNode({{"name", "pool"}, {"mesh", 1}, {"translation", {0, 0, 8}}});
+    gltf_.addNode({{"name", "bulb"}, {"mesh", 2}, {"translation", {0, 0, -8}}});
+    folder_.write("model.glb", gltf_.glb());
+    scene_ = json::parse(R"({
+      "malus": 1, "name": "test", "origin": [0, 0, 0],
+      "camera": {"position": [0, 1, 50], "target": [0, 0, 0], "verticalFovDegrees": 30},
+      "resolution": [64, 48], "depth": 4,
+      "materials": {"gold": {"type": "metal", "preset": "gold"}},
+      "imports": [{"file": "model.glb"}]})");
+  }
+  SceneDescription description() { return readSceneFile(folder_.write("scene.json", scene_.dump())); }
+  Baked baked(const BakeOptions& options = {}) { return bake(description(), {}, kSilent, options); }
+  std::string error() {
+    return errorOf([&] { baked(); });
+  }
+
+  test::TemporaryFolder folder_;
+  prep::test::GltfFile gltf_;
+  json scene_;
+};
+
+const pack::Mesh& named(const pack::Scene& scene, std::string_view name) {
+  return *std::find_if(scene.meshes.begin(), scene.meshes.end(), [&](const pack::Mesh& m) { return m.name == name; });
+}
+
+double volume(const pack::Mesh& mesh) {
+  double sum = 0;
+  for (const glm::uvec3& t : mesh.triangles)
+    sum += glm::dot(glm::dvec3(mesh.positions[t.x]),
+                    glm::cross(glm::dvec3(mesh.positions[t.y]), glm::dvec3(mesh.positions[t.z]))) /
+           6;
+  return sum;
+}
+
+std::pair<glm::vec3, glm::vec3> box(const pack::Mesh& mesh) {
+  glm::vec3 low = mesh.positions[0], high = low;
+  for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  return {low, high};
+}
+
+TEST_F(Import, BringsInstancesWhereTheyStandAndMaterialsByRule) {
+  const Baked result = baked();
+  const pack::Scene& scene = result.scene;
+  ASSERT_EQ(scene.meshes.size(), 4u);
+  EXPECT_EQ(box(named(scene, "left")), std::pair(glm::vec3(0, 10, 0), glm::vec3(1, 11, 1)));
+  EXPECT_EQ(box(named(scene, "right")), std::pair(glm::vec3(4, 10, 0), glm::vec3(5, 11, 1)));
+  EXPECT_EQ(box(named(scene, "pool")), std::pair(glm::vec3(0, 0, 8), glm::vec3(1, 1, 9)));
+  for (const pack::Mesh& mesh : scene.meshes) EXPECT_NEAR(volume(mesh), 1, 1e-4) << mesh.name;  // outside is outside
+  ASSERT_EQ(scene.materials.size(), 4u);
+  EXPECT_EQ(scene.materials[0].name, "gold");
+  const auto material = [&](std::string_view mesh) { return scene.materials[named(scene, mesh).material]; };
+  EXPECT_EQ(material("left").name, "steel");
+  EXPECT_EQ(material("right").name, "steel");
+  EXPECT_EQ(material("left").kind, pack::MaterialKind::metal);
+  EXPECT_EQ(material("pool").kind, pack::MaterialKind::glass);
+  EXPECT_EQ(material("pool").eta, glm::dvec3(1.33));
+  EXPECT_NEAR(material("pool").absorption.x, std::log(4.0) / 2, 1e-6);
+  EXPECT_EQ(material("bulb").kind, pack::MaterialKind::emitter);
+  EXPECT_EQ(material("bulb").radiance, glm::dvec3(8, 4, 0));
+  EXPECT_EQ(result.reports.size(), 3u);  // one a part
+  // A pack holds all of it.
+  const pack::Pack again = pack::parse(pack::serialize(scene, {}).bytes, "test");
+  EXPECT_EQ(again.scene.meshes.size(), 4u);
+}
+
+TEST_F(Import, TakesTheScenesMaterialsAndTransform) {
+  scene_["imports"][0]["materials"] = {{"steel", "gold"}};
+  scene_["imports"][0]["transform"] = {{"scale", 2}, {"translate", {0, 0, 1}}};
+  const pack::Scene scene = baked().scene;
+  EXPECT_EQ(scene.materials[named(scene, "left").material].name, "gold");
+  EXPECT_EQ(box(named(scene, "left")), std::pair(glm::vec3(0, 20, 1), glm::vec3(2, 22, 3)));
+  scene_["imports"][0]["materials"] = {{"stel", "gold"}};
+  EXPECT_TRUE(contains(error(), "model.glb: has no material 'stel', which the scene names; expected 'steel'"))
+      << error();
+  scene_["imports"][0]["materials"] = {{"steel", "glod"}};
+  EXPECT_TRUE(contains(error(), "imports[0].materials.steel: unknown material 'glod'; expected 'gold'")) << error();
+}
+
+TEST_F(Import, NamesAreThereOnce) {
+  scene_["materials"]["steel"] = {{"type", "metal"}, {"preset", "chromium"}};
+  scene_["imports"].push_back({{"file", "model.glb"}});
+  const pack::Scene scene = baked().scene;
+  EXPECT_EQ(scene.meshes.size(), 8u);
+  EXPECT_EQ(scene.materials[named(scene, "left").material].name, "steel.2");
+  EXPECT_EQ(scene.materials[named(scene, "left.2").material].name, "steel.3");
+}
+
+TEST_F(Import, GlassIsCertifiedHereToo) {
+  prep::Mesh open = unitCube();
+  open.triangles.pop_back();
+  gltf_.addMesh(open, "open", 1);
+  gltf_.addNode({{"name", "broken"}, {"mesh", 3}, {"translation", {20, 0, 0}}});
+  folder_.write("model.glb", gltf_.glb());
+  EXPECT_TRUE(contains(error(), "mesh 'broken' is not certified as glass: component 0: 3 open edges")) << error();
+  EXPECT_EQ(baked({true}).notes.size(), 1u);
+  scene_["imports"][0]["sheets"] = {"brocken"};
+  EXPECT_TRUE(contains(error(), "has no part or instance 'brocken', which the scene names; expected 'broken'"))
+      << error();
+  scene_["imports"][0]["materials"] = {{"water", "gold"}};
+  scene_["imports"][0].erase("sheets");
+  EXPECT_EQ(error(), "");
+}
+
+TEST_F(Import, NormalsAreThoseOfTheFileWhereItHasSome) {
+  prep::test::GltfFile gltf;
+  prep::Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  gltf.addMesh(mesh, "tilted");
+  const glm::vec3 tilted(0.6f, 0, 0.8f);
+  gltf.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = gltf.addVectors({tilted, tilted, tilted});
+  gltf.addNode({{"mesh", 0}});
+  folder_.write("model.glb", gltf.glb());
+  EXPECT_EQ(baked().scene.meshes[0].normals[1], tilted);
+  scene_["imports"][0]["normals"] = "crease";
+  EXPECT_EQ(baked().scene.meshes[0].normals[1], glm::vec3(0, 0, 1));
+  scene_["imports"][0]["flat"] = true;
+  EXPECT_TRUE(baked().scene.meshes[0].normals.empty());
+}
+
+TEST_F(Import, ObjBringsItsMaterialFile) {
+  folder_.write("two parts.obj",
+                "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl mirror\nf 1 2 3\nusemtl "
+                "l\xc3\xa4mpchen 1\nf 1 2 4\n");
+  folder_.write("my materials.mtl",
+                "newmtl mirror\nKd 0 0 0\nKs 0.9 0.9 0.9\nNs 100000\nnewmtl l\xc3\xa4mpchen 1\nKe 3 2 1\n");
+  scene_["imports"][0] = {{"file", "two parts.obj"}};
+  const Baked result = baked();
+  ASSERT_EQ(result.scene.meshes.size(), 2u);
+  EXPECT_EQ(result.scene.materials[named(result.scene, "mirror").material].kind, pack::MaterialKind::metal);
+  EXPECT_EQ(result.scene.materials[named(result.scene, "l\xc3\xa4mpchen 1").material].radiance, glm::dvec3(3, 2, 1));
+  EXPECT_TRUE(result.notes.empty());
+
+  // What it refers to counts as a source.
+  const std::string before = provenanceOf(description(), {});
+  folder_.write("my materials.mtl", "newmtl mirror\nKd 0.5 0.5 0.5\n");
+  EXPECT_NE(provenanceOf(description(), {}), before);
+  EXPECT_EQ(baked().notes.size(), 1u);  // a material that no file describes
+}
+
+TEST_F(Import, WhatIsLeftOutIsTold) {
+  gltf_.document["cameras"] = json::array();
+  gltf_.document["animations"] = {{{"channels", json::array()}, {"samplers", json::array()}}};
+  folder_.write("model.glb", gltf_.glb());
+  const std::vector<std::string> notes = baked().notes;
+  ASSERT_FALSE(notes.empty());
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& n) {
+    return contains(n, "left out: anim");
+  })) << notes[0];
+}
+
+TEST_F(Import, ASceneNeedsMeshesOrImports) {
+  scene_.erase("imports");
+  EXPECT_TRUE(contains(error(), "meshes")) << error();
+  scene_["meshes"] = {{{"name", "all"}, {"file", "model.glb"}, {"material", "gold"}}};
+  const pack::Scene scene = baked().scene;
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_NEAR(volume(scene.meshes[0]), 4, 1e-4);
+}
+
+}  // namespace
+}  // namespace malus::bake

@@ -1,0 +1,103 @@
+#include "bake/materials/source_material.h"
+
+#include <cmath>
+#include <complex>
+
+#include <gtest/gtest.h>
+
+#include "bake/pack/format.h"
+
+namespace malus::bake {
+namespace {
+
+using Kind = pack::MaterialKind;
+
+pack::Material made(const prep::SourceMaterial& source) {
+  std::vector<std::string> ignored;
+  return materialOf(source, ignored);
+}
+
+TEST(SourceMaterial, AMetalReflectsItsBaseColour) {
+  prep::SourceMaterial source;
+  source.name = "brass";
+  source.roughness = 0;
+  for (const double r : {0.02, 0.3, 0.55, 0.9, 0.98}) {
+    source.baseColour = {r, 0.5 * r, 0.25};
+    const pack::Material metal = made(source);
+    EXPECT_EQ(metal.kind, Kind::metal);
+    EXPECT_EQ(metal.name, "brass");
+    EXPECT_EQ(metal.roughness, 0);
+    for (int c = 0; c < 3; ++c) {
+      // The reflectance at normal incidence, from the amplitude (1 - m) / (1 + m) with m = eta - i k.
+      const std::complex<double> m(metal.eta[c], -metal.k[c]);
+      EXPECT_NEAR(std::norm((1.0 - m) / (1.0 + m)), source.baseColour[c], 1e-12);
+    }
+  }
+  source.baseColour = {0, 1, 5};  // beyond what a surface can do
+  const pack::Material metal = made(source);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_TRUE(std::isfinite(metal.k[c]));
+    EXPECT_GE(std::max(metal.eta[c], metal.k[c]), pack::kMinEta);
+  }
+}
+
+TEST(SourceMaterial, GlassAbsorbsByItsVolume) {
+  prep::SourceMaterial source;
+  source.metallic = 0;
+  source.transmission = 1;
+  source.roughness = 0;
+  source.ior = 1.33;
+  EXPECT_EQ(made(source).kind, Kind::glass);
+  EXPECT_EQ(made(source).eta, glm::dvec3(1.33));
+  EXPECT_EQ(made(source).absorption, glm::dvec3(0));
+  source.hasVolume = true;
+  source.attenuationColour = {1, 0.5, 0};
+  source.attenuationDistance = 0.02;
+  const pack::Material glass = made(source);
+  // After the distance the colour is left.
+  EXPECT_NEAR(std::exp(-glass.absorption.x * 0.02), 1, 1e-12);
+  EXPECT_NEAR(std::exp(-glass.absorption.y * 0.02), 0.5, 1e-12);
+  EXPECT_NEAR(std::exp(-glass.absorption.z * 0.02), 1e-6, 1e-12);
+  source.attenuationDistance = 1e-300;
+  EXPECT_EQ(made(source).absorption.y, pack::kMaxAbsorption);
+
+  source.roughness = 0.5;
+  source.name = "frosted";
+  std::vector<std::string> notes;
+  EXPECT_EQ(materialOf(source, notes).roughness, 0);
+  EXPECT_EQ(notes, std::vector<std::string>{"the roughness of glass 'frosted'"});
+}
+
+TEST(SourceMaterial, DielectricsArePaintOrMatt) {
+  prep::SourceMaterial source;
+  source.metallic = 0.49;
+  source.baseColour = {0.1, 0.2, 0.3};
+  source.ior = 1.7;
+  source.roughness = 0.4;
+  const pack::Material paint = made(source);
+  EXPECT_EQ(paint.kind, Kind::paint);
+  EXPECT_EQ(paint.albedo, glm::dvec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(paint.eta, glm::dvec3(1.7));
+  EXPECT_NEAR(paint.roughness, 0.16, 1e-12);
+  source.roughness = 0.05;
+  EXPECT_EQ(made(source).roughness, 0);
+  source.roughness = 0.6;
+  EXPECT_EQ(made(source).kind, Kind::lambert);
+  EXPECT_EQ(made(source).albedo, glm::dvec3(0.1, 0.2, 0.3));
+}
+
+TEST(SourceMaterial, WhatGlowsIsAnEmitterWhateverElseItIs) {
+  prep::SourceMaterial source;
+  source.transmission = 1;
+  source.emissive = {0, 40, 2};
+  EXPECT_EQ(made(source).kind, Kind::emitter);
+  EXPECT_EQ(made(source).radiance, glm::dvec3(0, 40, 2));
+}
+
+TEST(SourceMaterial, PartsWithoutOneAreMatt) {
+  EXPECT_EQ(defaultMaterial().kind, Kind::lambert);
+  EXPECT_EQ(defaultMaterial().albedo, glm::dvec3(0.8));
+}
+
+}  // namespace
+}  // namespace malus::bake

@@ -1,0 +1,15 @@
+// Material files of OBJ.
+#include <string>
+
+#include "meshprep/base/error.h"
+#include "meshprep/read/read_mtl.h"
+#include "tests/fuzz/target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    std::vector<std::string> notes;
+    malus::prep::parseMtl(std::string(reinterpret_cast<const char*>(data), size), "fuzz.mtl", notes);
+  } catch (const malus::Error&) {
+  }
+  return 0;
+}

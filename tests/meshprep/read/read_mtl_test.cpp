@@ -1,0 +1,128 @@
+// Material files: the rules of read_mtl.h, one by one, and what is not a number.
+#include "meshprep/read/read_mtl.h"
+
+#include <cmath>
+
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+using test::contains;
+using test::errorOf;
+
+#define EXPECT_CONTAINS(text, part) EXPECT_TRUE(contains(text, part)) << (text)
+
+std::vector<std::string> notes;
+
+SourceMaterial one(const std::string& statements) {
+  notes.clear();
+  return parseMtl("newmtl m\n" + statements, "a.mtl", notes).at(0);
+}
+std::string errorIn(const std::string& text) {
+  return errorOf([&] {
+    std::vector<std::string> ignored;
+    parseMtl(text, "a.mtl", ignored);
+  });
+}
+
+TEST(ReadMtl, MattWithoutHighlights) {
+  for (const char* text : {"Kd 0.25 0.5 0.75\n", "Kd 0.25 0.5 0.75\r\nKs 0 0 0\r\nNs 100\r\n",
+                           "# comment\nKa 1 1 1\nKd 0.25 0.5 0.75\nKs 1 1 1\nillum 1\n"}) {
+    const SourceMaterial m = one(text);
+    EXPECT_EQ(m.name, "m");
+    EXPECT_EQ(m.baseColour, glm::dvec3(0.25, 0.5, 0.75)) << text;
+    EXPECT_EQ(m.metallic, 0);
+    EXPECT_EQ(m.roughness, 1) << text;
+    EXPECT_EQ(m.transmission, 0);
+    EXPECT_TRUE(notes.empty());
+  }
+  EXPECT_EQ(one("Kd 0.5\n").baseColour, glm::dvec3(0.5));  // one number for three
+  EXPECT_EQ(one("Kd 2 -1 0.5\n").baseColour, glm::dvec3(1, 0, 0.5));
+  EXPECT_EQ(one("").baseColour, glm::dvec3(0.8));
+}
+
+TEST(ReadMtl, HighlightsTellTheRoughness) {
+  const SourceMaterial m = one("Kd 0.5 0.5 0.5\nKs 0.2 0.2 0.2\nNs 198\nNi 1.7\n");
+  EXPECT_EQ(m.metallic, 0);
+  EXPECT_NEAR(m.roughness * m.roughness, std::sqrt(2.0 / 200), 1e-15);  // alpha 0.1
+  EXPECT_EQ(m.ior, 1.7);
+  EXPECT_EQ(one("Ks 0.2 0.2 0.2\nNs -5\n").roughness, 1);
+}
+
+TEST(ReadMtl, Metals) {
+  const SourceMaterial m = one("Kd 0.05 0 0\nKs 0.9 0.6 0.3\nNs 1000\n");
+  EXPECT_EQ(m.metallic, 1);
+  EXPECT_EQ(m.baseColour, glm::dvec3(0.9, 0.6, 0.3));
+  EXPECT_EQ(one("Kd 0.5 0 0\nKs 0.9 0.6 0.3\n").metallic, 0);
+  EXPECT_EQ(one("Kd 0 0 0\nKs 0.5 0.5 0.5\n").metallic, 0);
+  const SourceMaterial said = one("Kd 0.9 0.6 0.3\nPm 1\nPr 0.25\n");
+  EXPECT_EQ(said.metallic, 1);
+  EXPECT_EQ(said.roughness, 0.25);
+  EXPECT_EQ(said.baseColour, glm::dvec3(0.9, 0.6, 0.3));
+}
+
+TEST(ReadMtl, LightThatPassesAndLightThatIsGivenOff) {
+  EXPECT_EQ(one("d 0.25\n").transmission, 0.75);
+  EXPECT_EQ(one("d -halo 0.25\n").transmission, 0.75);
+  EXPECT_EQ(one("Tr 0.75\n").transmission, 0.75);
+  EXPECT_EQ(one("Tf 0.5 0.75 1\nillum 6\n").transmission, 1);
+  EXPECT_EQ(one("Tf 0.5 0.75 1\nillum 2\n").transmission, 0);
+  const SourceMaterial tinted = one("Tf 0.5 0.75 1\nillum 6\nd 0\n");
+  EXPECT_TRUE(tinted.hasVolume);
+  EXPECT_EQ(tinted.attenuationColour, glm::dvec3(0.5, 0.75, 1));
+  EXPECT_EQ(tinted.attenuationDistance, 1);
+  EXPECT_EQ(one("Ke 3 2 1\n").emissive, glm::dvec3(3, 2, 1));
+  EXPECT_EQ(one("Ni 0.5\n").ior, 1.5);
+  EXPECT_CONTAINS(notes.at(0), "index of refraction under 1");
+}
+
+TEST(ReadMtl, NotesAreLeftOnce) {
+  one("map_Kd a picture.png\nmap_Ks b.png\nbump c.png\nfancy 1 2\nfancy 3\nKd spectral a.rfl\nKs xyz 1 1 1\n");
+  EXPECT_EQ(notes,
+            (std::vector<std::string>{"textures", "statements \"fancy\" of material files",
+                                      "colours of material files by spectral", "colours of material files by xyz"}));
+}
+
+TEST(ReadMtl, BadStatementsTellTheirLine) {
+  EXPECT_CONTAINS(errorIn("newmtl a\n\nKd 1 nan 1\n"), "a.mtl:3: a bad number; expected a finite decimal number");
+  EXPECT_CONTAINS(errorIn("newmtl a\nKd 1 1\n"), "a.mtl:2: a bad number");
+  EXPECT_CONTAINS(errorIn("newmtl a\nNs\n"), "a.mtl:2: a bad number");
+  EXPECT_CONTAINS(errorIn("newmtl a\nd 1e999\n"), "a.mtl:2: a number out of range");
+  EXPECT_CONTAINS(errorIn("newmtl a\nillum 11\n"), "a.mtl:2: an unknown model of illumination");
+  EXPECT_CONTAINS(errorIn("newmtl a\nillum two\n"), "a.mtl:2: a bad number");
+  EXPECT_CONTAINS(errorIn("Kd 1 1 1\n"), "a.mtl:1: a statement outside of a material");
+  EXPECT_CONTAINS(errorIn("newmtl  \n"), "a.mtl:1: a material without a name");
+  EXPECT_CONTAINS(errorIn(std::string("newmtl a\n\0\n", 11)), "a.mtl:2: is not plain text");
+  EXPECT_CONTAINS(errorIn("\xff\xfen"), "UTF-16");
+  EXPECT_EQ(errorIn("\xef\xbb\xbfnewmtl a\n"), "");
+  EXPECT_EQ(errorIn(""), "");
+}
+
+TEST(ReadMtl, NamesMayHaveBlanks) {
+  std::vector<std::string> ignored;
+  const auto materials = parseMtl("newmtl red  paint \nnewmtl b\xc3\xa4\n", "a.mtl", ignored);
+  ASSERT_EQ(materials.size(), 2u);
+  EXPECT_EQ(materials[0].name, "red  paint");
+  EXPECT_EQ(materials[1].name, "b\xc3\xa4");
+  EXPECT_EQ(mtllibsOf("mtllib my file \xc3\xa4.mtl\r\nv 0 0 0\n mtllib b.mtl\nmtllib b.mtl\n#mtllib c\nmtllib\n"),
+            (std::vector<std::string>{"my file \xc3\xa4.mtl", "my", "file", "\xc3\xa4.mtl", "b.mtl"}));
+}
+
+TEST(ReadMtl, MaterialsAreDescribedByName) {
+  const test::TemporaryFile file(".mtl", "newmtl red\nKd 1 0 0\nnewmtl red\nKd 0 1 0\n");
+  SourceScene scene;
+  scene.materials.resize(2);
+  scene.materials[0].name = "red";
+  scene.materials[1].name = "blue";
+  describeMaterials(scene, file.path(), {file.path().filename().string(), "missing file.mtl"});
+  EXPECT_EQ(scene.materials[0].baseColour, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(scene.materials[1].baseColour, glm::dvec3(0.8));
+  EXPECT_EQ(scene.materials[1].metallic, 0);
+  EXPECT_EQ(scene.notes, (std::vector<std::string>{"a second material \"red\"",
+                                                   "material file \"missing file.mtl\", which is missing",
+                                                   "material \"blue\", which no file describes"}));
+}
+
+}  // namespace
+}  // namespace malus::prep

@@ -178,7 +178,11 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
   }
 
   // Step 2: what the faces name. Of the names that a mtllib statement may mean, those that are missing matter only
-  // where a material is.
+  // where a material is, and not where they are words of a name that is there.
+  std::erase_if(missing, [&](const std::string& word) {
+    return std::any_of(there.begin(), there.end(),
+                       [&](const std::string& name) { return name.find(word) != std::string::npos; });
+  });
   for (SourceMaterial& material : scene.materials) {
     const auto found = described.find(material.name);
     if (found != described.end()) {

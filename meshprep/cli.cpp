@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,9 @@ namespace {
 
 const std::map<std::string, Normals> kNormals = {
     {"crease", Normals::crease}, {"smoothing", Normals::smoothing}, {"authored", Normals::authored}};
+
+// What --skip leaves out besides the steps of cleaning.
+constexpr std::string_view kJunctions = "junctions", kIntersections = "intersections";
 
 struct Arguments {
   std::string input;
@@ -77,13 +81,18 @@ std::string mapJson(const Mesh& mesh, const compress::Encoded& encoded) {
          "\n";
 }
 
+bool skips(const Arguments& arguments, std::string_view step) {
+  return std::find(arguments.skipped.begin(), arguments.skipped.end(), step) != arguments.skipped.end();
+}
+
 void runPrep(const Arguments& arguments) {
   // Step 1: clean.
   Report report;
   Options options = arguments.options;
   for (const auto& [name, step] : kCleaningSteps)
-    if (std::find(arguments.skipped.begin(), arguments.skipped.end(), name) != arguments.skipped.end())
-      options.steps.*step = false;
+    if (skips(arguments, name)) options.steps.*step = false;
+  options.findJunctions = !skips(arguments, kJunctions);
+  options.findIntersections = !skips(arguments, kIntersections);
   options.certifyGlass = arguments.certify == "glass";
   const Mesh mesh = prepare(arguments.input, options, report);
   requireCertificate(arguments, report);
@@ -127,7 +136,9 @@ void addPrepCommand(CLI::App& app) {
   prep->add_flag("--json", arguments->json, "Print the report as JSON");
   std::vector<std::string> steps;
   for (const auto& [name, step] : kCleaningSteps) steps.emplace_back(name);
-  prep->add_option("--skip", arguments->skipped, "Steps of cleaning to leave out: " + cleaningStepNames())
+  steps.emplace_back(kJunctions);
+  steps.emplace_back(kIntersections);
+  prep->add_option("--skip", arguments->skipped, fmt::format("Steps to leave out: {}", fmt::join(steps, ", ")))
       ->delimiter(',')
       ->check(CLI::IsMember(steps))
       ->type_name("STEP,...");
@@ -137,8 +148,6 @@ void addPrepCommand(CLI::App& app) {
           "interfaces)")
       ->check(CLI::IsMember({"glass"}))
       ->type_name("glass");
-  prep->add_flag("--intersections", arguments->options.findIntersections,
-                 "Tell faces that cross, touch or lie on each other");
   prep->add_flag("--drop-opposite", arguments->options.steps.dropOpposite,
                  "Of two faces back to back, drop the later one");
   prep->add_option("--fill-holes", arguments->options.steps.fillHoles, "Fill holes of at most so many edges")

@@ -142,7 +142,7 @@ class Preparation {
 
   // What is told and left.
   void look() {
-    Junctions junctions = findJunctions(mesh_);
+    Junctions junctions = options_.findJunctions ? findJunctions(mesh_) : Junctions{};
     step("t-junctions", std::move(junctions.found));
     step("t-junctions-unchecked", junctions.complete ? 0 : 1);
     const bool wanted = options_.findIntersections || (options_.certifyGlass && !options_.sheet);

@@ -34,7 +34,8 @@ struct Options {
   double weldRelative = 0;  // steps.weldTolerance as a share of the diagonal of the mesh's box; the larger of the two
 
   // Looking, and normals.
-  bool findIntersections = false;  // tell faces that cross, touch or lie on each other
+  bool findJunctions = true;       // tell vertices that lie on a boundary edge
+  bool findIntersections = false;  // tell faces that cross, touch or lie on each other; a certificate always does
   bool certifyGlass = false;       // tell whether the mesh can be a body of glass, or a pair of sheets
   Normals normals = Normals::crease;
   double creaseDegrees = 40;  // edges sharper than this get two normals; 0 to 180

@@ -17,7 +17,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr std::uint64_t kCandidatesEach = 64;  // of a triangle, on average; a fine mesh has about 14
+constexpr std::uint64_t kCandidatesEach = 32;  // of a triangle, on average; a fine mesh has about 7
 constexpr std::uint64_t kCandidatesMore = 1u << 20u;
 
 // A triangle with the numbers of its places, turned as its test needs it.

@@ -139,5 +139,51 @@ TEST_F(PrepCommand, UsageErrorsAreThoseOfCli11) {
   EXPECT_THROW(run({input_.path().string(), "-o", output_.string(), "--weld", "-1"}), CLI::ParseError);
 }
 
+TEST_F(PrepCommand, CertifiesGlassOrFailsAndDeliversNothing) {
+  const std::string printed = run({input_.path().string(), "-o", output_.string(), "--certify", "glass", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(printed)["certificate"]["holds"], true);
+
+  Mesh open = test::cube();
+  open.triangles.pop_back();
+  const TemporaryFile file(".obj", test::objText(open));
+  std::filesystem::remove(output_);
+  const std::string error = errorOf([&] {
+    run({file.path().string(), "-o", output_.string(), "--certify", "glass", "--report", report_.string()});
+  });
+  EXPECT_TRUE(contains(error, "is not certified as glass: component 0: 3 open edges")) << error;
+  EXPECT_FALSE(std::filesystem::exists(output_));
+  const nlohmann::json report = nlohmann::json::parse(readTextFile(report_));
+  EXPECT_EQ(report["certificate"]["holds"], false);
+  EXPECT_EQ(report["certificate"]["problems"].size(), 1u);
+  EXPECT_NO_THROW(run({file.path().string(), "-o", output_.string(), "--certify", "glass", "--fill-holes", "3"}));
+}
+
+TEST_F(PrepCommand, TellsIntersectionsUnlessToldNotTo) {
+  const TemporaryFile file(".obj", test::objText(test::joined(test::cube(), test::cube(1, {0.5, 0.3, 0.2}))));
+  const auto crossing = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {file.path().string(), "-o", output_.string(), "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const nlohmann::json json = nlohmann::json::parse(run(arguments));
+    for (const nlohmann::json& step : json["steps"])
+      if (step["name"] == "faces-crossing") return step["count"].get<int>();
+    return -1;
+  };
+  EXPECT_GT(crossing({}), 0);
+  EXPECT_EQ(crossing({"--skip", "intersections"}), 0);
+  EXPECT_EQ(crossing({"--skip", "weld,junctions,intersections"}), 0);
+  EXPECT_THROW(crossing({"--skip", "everything"}), CLI::ValidationError);
+}
+
+TEST_F(PrepCommand, NormalsAreThoseAskedFor) {
+  const TemporaryFile file(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0.6 0 0.8\ns 1\nf 1//1 2//1 3//1\n");
+  const auto normal = [&](const char* kind) {
+    run({file.path().string(), "-o", output_.string(), "--normals", kind});
+    return compress::decode(readFile(output_), {3, 1}, "file").normals[0];
+  };
+  EXPECT_NEAR(normal("authored").x, 0.6, 1e-3);
+  EXPECT_NEAR(normal("smoothing").z, 1, 1e-3);
+  EXPECT_NEAR(normal("crease").z, 1, 1e-3);
+}
+
 }  // namespace
 }  // namespace malus::prep

@@ -98,6 +98,7 @@ class Preparation {
   void cleanUp() {
     Cleaning steps = options_.steps;
     steps.sheet = options_.sheet;
+    if (!report_.source.empty()) steps.where = report_.source;
     steps.weldTolerance = weldTolerance();
     Cleaned done = cleanInRounds(mesh_, steps);
     if (mesh_.triangles.empty())

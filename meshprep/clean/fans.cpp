@@ -8,8 +8,10 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "meshprep/base/error.h"
 #include "meshprep/clean/edges.h"
 #include "meshprep/clean/pieces.h"
 #include "meshprep/clean/select.h"
@@ -18,6 +20,9 @@ namespace malus::prep {
 
 namespace {
 
+// A surface has one fan a vertex. Where there are very many more, faces join vertices at random.
+constexpr std::size_t kFansPerVertex = 4;
+constexpr std::size_t kFansOfAnyMesh = 65536;
 constexpr double kSameAngle = 1e-9;  // radians: triangles that lie on each other
 
 // Two triangles that stay together on an edge, or one alone.
@@ -35,7 +40,7 @@ std::uint32_t highCorner(const EdgeUse& use) { return use.forward ? endCorner(us
 
 class Splitter {
  public:
-  explicit Splitter(Mesh& mesh) : mesh_(mesh) {}
+  Splitter(Mesh& mesh, std::string_view where) : mesh_(mesh), where_(where) {}
 
   Fans run() {
     pairUp();
@@ -166,8 +171,17 @@ class Splitter {
       return mesh_.triangles[corner / 3][static_cast<int>(corner % 3)];
     };
     std::vector<std::uint32_t> fansOf(mesh_.positions.size(), 0);
-    for (std::uint32_t corner = 0; corner < cornerCount; ++corner)
-      if (fans.find(corner) == corner) ++fansOf[vertexAt(corner)];
+    std::size_t fanCount = 0;
+    for (std::uint32_t corner = 0; corner < cornerCount; ++corner) {
+      if (fans.find(corner) != corner) continue;
+      ++fansOf[vertexAt(corner)];
+      ++fanCount;
+    }
+    const std::size_t most = kFansOfAnyMesh + kFansPerVertex * mesh_.positions.size();
+    if (fanCount > most)
+      throw Error(where_, "the faces form no surface",
+                  fmt::format("at most {} fans around {} vertices", most, mesh_.positions.size()),
+                  fmt::to_string(fanCount));
     for (std::size_t v = 0; v < fansOf.size(); ++v)
       if (fansOf[v] > 1) fans_.vertices.add([&] { return findingAt(mesh_, mesh_.positions[v], {}, {v}); });
     if (fans_.vertices.count == 0) return;
@@ -253,6 +267,7 @@ class Splitter {
   }
 
   Mesh& mesh_;
+  std::string_view where_;
   std::vector<std::uint32_t> partOf_;
   std::vector<Pair> pairs_;
   Fans fans_;
@@ -260,6 +275,6 @@ class Splitter {
 
 }  // namespace
 
-Fans splitFans(Mesh& mesh) { return Splitter(mesh).run(); }
+Fans splitFans(Mesh& mesh, std::string_view where) { return Splitter(mesh, where).run(); }
 
 }  // namespace malus::prep

@@ -11,6 +11,8 @@
 // 7(2), 2001.
 #pragma once
 
+#include <string_view>
+
 #include "meshprep/findings.h"
 
 namespace malus::prep {
@@ -23,7 +25,7 @@ struct Fans {
 };
 
 // Sides should agree (orient.h). Triangles must have three different vertices and area. Drops mesh.normals where it
-// changes anything.
-Fans splitFans(Mesh& mesh);
+// changes anything. Throws Error that names `where` for what is no surface: more than four fans a vertex, and 65536.
+Fans splitFans(Mesh& mesh, std::string_view where = "mesh");
 
 }  // namespace malus::prep

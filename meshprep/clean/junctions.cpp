@@ -17,7 +17,7 @@ namespace malus::prep {
 
 namespace {
 
-constexpr std::uint64_t kCandidatesEach = 64;  // of an edge, on average
+constexpr std::uint64_t kCandidatesEach = 8;  // of an edge, on average; its own ends are two
 constexpr std::uint64_t kCandidatesMore = 1u << 20u;
 
 }  // namespace

@@ -24,7 +24,7 @@ Cleaned cleanOnce(Mesh& mesh, const Cleaning& steps) {
 
   // Step 2: sides, fans, lids, and sides again where those joined what was apart.
   if (steps.orient) done.sides = orient(mesh, steps.sheet);
-  if (steps.fans) done.fans = splitFans(mesh);
+  if (steps.fans) done.fans = splitFans(mesh, steps.where);
   const std::vector<Loop> loops = findHoles(mesh);
   done.holes = describeHoles(mesh, loops);
   if (steps.fillHoles > 0) done.filled = fillHoles(mesh, loops, steps.fillHoles);

@@ -33,6 +33,7 @@ struct Cleaning {
   bool dropOpposite = false;    // duplicates
   double weldTolerance = 0;     // metres
   std::uint64_t fillHoles = 0;  // holes of at most so many edges
+  std::string where = "mesh";   // for messages
 };
 
 // The steps that can be left out, by name.
@@ -60,6 +61,7 @@ struct Cleaned {
 };
 
 // mesh.sourceVertices, sourceFaces and sourceCorners must be there. Everything may be dropped: sides are then empty.
+// Throws Error: a tolerance too small (weld.h), no surface (fans.h).
 Cleaned cleanInRounds(Mesh& mesh, const Cleaning& steps);
 
 }  // namespace malus::prep

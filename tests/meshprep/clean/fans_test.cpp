@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -178,6 +179,17 @@ TEST(Fans, ABodyThatTouchesItselfAlongAnEdgeIsCutThere) {
   const OrientResult sides = orient(mesh, false);
   ASSERT_EQ(sides.components.size(), 1u);
   EXPECT_NEAR(sides.components[0].signedVolume, 10, 1e-12);
+}
+
+TEST(Fans, FacesThatJoinVerticesAtRandomAreNoSurface) {
+  Mesh mesh;
+  std::mt19937 random(7);
+  for (int i = 0; i < 3000; ++i) mesh.positions.emplace_back(random() % 97, random() % 89, random() % 83);
+  while (mesh.triangles.size() < 60'000) {
+    const glm::uvec3 t(random() % 3000, random() % 3000, random() % 3000);
+    if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);
+  }
+  EXPECT_TRUE(test::contains(test::errorOf([&] { splitFans(mesh, "a.ply"); }), "a.ply: the faces form no surface"));
 }
 
 }  // namespace

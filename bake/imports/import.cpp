@@ -130,6 +130,10 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     ImportedPart made;
     made.mesh = prep::prepare(part.polygons, fmt::format("{}: part '{}'", description.file.string(), part.name),
                               options, made.report);
+    for (std::uint32_t& v : made.mesh.sourceVertices)
+      if (v != prep::kNoSource && !part.fileVertices.empty()) v = part.fileVertices[v];
+    for (std::uint32_t& f : made.mesh.sourceFaces)
+      if (!part.fileFaces.empty()) f = part.fileFaces[f];
     result.parts.push_back(std::move(made));
     return found->second;
   };

@@ -27,7 +27,8 @@ class UniqueNames {
   std::map<std::string, std::size_t> used_;  // and the last number tried
 };
 
-// In its own space; the report is that of prepare().
+// In its own space. Its mesh's sources are vertices and faces of the file; the report is that of prepare(), in which
+// they count in the part.
 struct ImportedPart {
   prep::Mesh mesh;
   prep::Report report;

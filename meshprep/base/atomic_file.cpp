@@ -53,7 +53,8 @@ void removeUnfinished() noexcept {
 }
 
 std::vector<std::byte> readFile(const fs::path& path, std::size_t maxBytes) {
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  // O_NONBLOCK: a pipe that nobody writes to would not open for ever.
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
   if (file.fd < 0) throw Error(path.string(), "cannot open", "a readable file", systemMessage(errno));
   struct stat info {};
   if (::fstat(file.fd, &info) != 0) throw Error(path.string(), "cannot read", "", systemMessage(errno));

@@ -81,20 +81,27 @@ Intersections findIntersections(const Mesh& mesh) {
     boxes.push_back({glm::min(p, glm::min(q, r)), glm::max(p, glm::max(q, r))});
   }
 
-  // Step 2: the exact test where boxes meet.
+  // Step 2: what has no area intersects nothing.
+  std::vector<char> flat(mesh.triangles.size(), 0);
+  const std::vector<std::uint32_t> place = placeOfVertices(mesh);
+  for (std::uint32_t i = 0; i < flat.size(); ++i) {
+    const Corners c = cornersOf(mesh, place, i);
+    flat[i] = CGAL::collinear(c.point[0], c.point[1], c.point[2]) ? 1 : 0;
+  }
+
+  // Step 3: the exact test where boxes meet.
   Intersections result;
   std::mutex lock;
-  const std::vector<std::uint32_t> place = placeOfVertices(mesh);
   result.complete = forOverlappingBoxes(
       boxes, boxes, 2 * kCandidatesEach * boxes.size() + kCandidatesMore, [&](std::uint32_t i, std::uint32_t j) {
-        if (i >= j) return;
+        if (i >= j || flat[i] != 0 || flat[j] != 0) return;
         const Contact contact = contactOf(cornersOf(mesh, place, i), cornersOf(mesh, place, j));
         if (contact == Contact::none) return;
         const std::lock_guard guard(lock);
         (contact == Contact::crossing ? result.crossing : result.coincident).emplace_back(i, j);
       });
 
-  // Step 3: in an order that does not depend on the threads.
+  // Step 4: in an order that does not depend on the threads.
   std::sort(result.crossing.begin(), result.crossing.end());
   std::sort(result.coincident.begin(), result.coincident.end());
   return result;

@@ -21,7 +21,7 @@ struct Intersections {
   bool complete = true;                                  // false where there are too many candidates to test all
 };
 
-// Triangles must have area.
+// Triangles without area are left out.
 Intersections findIntersections(const Mesh& mesh);
 
 Findings describePairs(const Mesh& mesh, const std::vector<Intersections::Pair>& pairs);

@@ -50,12 +50,13 @@ Cleaned cleanAgain(Mesh& mesh, const Cleaning& steps) {
   for (std::uint32_t& f : mesh.sourceFaces) f = faces[f];
   for (glm::uvec3& t : mesh.sourceCorners) t = {vertexName(t.x), vertexName(t.y), vertexName(t.z)};
   for (Findings* findings : {&done.degenerate.repeatedCorner, &done.degenerate.zeroArea, &done.degenerate.neighboursCut,
-                             &done.duplicates.same, &done.unreferenced, &done.filled.filled})
+                             &done.duplicates.same, &done.unreferenced, &done.filled.filled, &done.filled.left})
     for (Finding& finding : findings->first) {
       for (std::uint32_t& v : finding.vertices) v = vertexName(v);
       for (std::uint32_t& f : finding.faces) f = faces[f];
       std::erase(finding.vertices, kNoSource);
     }
+  for (Component& component : done.sides.components) component.firstFace = faces[component.firstFace];
   return done;
 }
 

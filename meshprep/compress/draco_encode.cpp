@@ -23,6 +23,7 @@ namespace malus::compress {
 
 namespace {
 
+constexpr float kMinExtent = 1e-30f;  // of a mesh: below, the inverse of a step leaves the range of float
 constexpr std::string_view kWhere = "mesh to compress";
 
 bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -163,6 +164,9 @@ Grid gridFor(std::span<const glm::vec3> positions, int positionBits) {
   const glm::vec3 extent = high - low;
   const float largest = std::max({extent.x, extent.y, extent.z});
   grid.origin = low;
+  if (largest > 0 && largest < kMinExtent)
+    throw Error(kWhere, "the mesh is too small", fmt::format("an extent of {} or more", kMinExtent),
+                fmt::to_string(largest));
   if (largest > 0) grid.range = largest * (1 + 4 * std::numeric_limits<float>::epsilon());
   if (!isFinite(grid.origin + grid.range)) throw Error(kWhere, "the mesh is too large", "an extent that a float holds");
   return grid;

@@ -65,7 +65,7 @@ struct Grid {
 };
 
 // The smallest cube that holds every position, with a little room for rounding. A mesh without extent gets a
-// range of 1. Throws Error where a position is not finite or the extent is beyond what a float holds.
+// range of 1. Throws Error where a position is not finite or the extent is beyond what a float holds, or below 1e-30.
 Grid gridFor(std::span<const glm::vec3> positions, int positionBits);
 
 struct Settings {

@@ -72,7 +72,7 @@ SourceMaterial gltfMaterial(const tinygltf::Material& material, const std::strin
     result.transmission =
         reader.bounded("transmissionFactor", Reader::number(*transmission, "transmissionFactor", 0), 0, 1);
   if (const auto* volume = reader.extension("KHR_materials_volume"); volume != nullptr) {
-    result.hasVolume = true;
+    result.hasVolume = Reader::number(*volume, "thicknessFactor", 0) > 0;
     if (volume->Has("attenuationColor")) {
       std::vector<double> colour;
       for (int i = 0; i < 3; ++i) colour.push_back(volume->Get("attenuationColor").Get(i).GetNumberAsDouble());
@@ -83,6 +83,7 @@ SourceMaterial gltfMaterial(const tinygltf::Material& material, const std::strin
       throw Error(place + ".attenuationDistance", "is out of range", "more than 0 metres",
                   fmt::to_string(result.attenuationDistance));
   }
+  if (result.transmission > 0 && !result.hasVolume) addNote(notes, "that walls without a volume are thin");
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <system_error>
 
@@ -144,9 +145,9 @@ double coordinate(std::string_view word, const Lines& at) {
       digits.size() > sign && (std::isdigit(static_cast<unsigned char>(digits[sign])) != 0 || digits[sign] == '.');
   double value = 0;
   const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  const bool tooLarge = status == std::errc::result_out_of_range &&
-                        digits.find_first_of("eE") != std::string_view::npos &&
-                        digits.find("e-") == std::string_view::npos && digits.find("E-") == std::string_view::npos;
+  // Out of range is too large or too small: from_chars does not say which, strtod does.
+  const bool tooLarge =
+      status == std::errc::result_out_of_range && std::isinf(std::strtod(std::string(digits).c_str(), nullptr));
   if (!decimal || stop != digits.data() + digits.size() ||
       (status != std::errc() && status != std::errc::result_out_of_range))
     at.fail("a bad number", "a finite decimal number", quoted(word));

@@ -57,6 +57,7 @@ long long wholeNumber(std::string_view word, std::string_view what, const Lines&
 // What follows a keyword, without outer blanks, as a name in UTF-8. Bytes that are no UTF-8 are taken for Latin-1, as
 // old exporters write it. Longer than kMaxNameBytes is an error at the line.
 constexpr std::size_t kMaxNameBytes = 255;
+constexpr std::size_t kMaxPathBytes = 4096;  // of a mtllib statement
 std::string nameOf(std::string_view rest, const Lines& at, std::size_t maxBytes = kMaxNameBytes);
 
 // A word for messages: shortened, never empty.

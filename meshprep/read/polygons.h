@@ -31,7 +31,7 @@ struct Polygons {
   std::vector<std::uint32_t> smoothingGroups;  // one a face (OBJ); 0: smooth with no other
   std::vector<std::uint32_t> partOf;           // one a face: index into parts
   std::vector<Part> parts;                     // empty: all faces are one part without a name
-  std::vector<std::string> materialFiles;      // that the file names (mtllib), relative to it
+  std::vector<std::string> materialFiles;      // of each mtllib statement: one name, or several with blanks between
 
   // Where each vertex and face is written: a line, from 1, or a byte, from 0. Both empty where that is not told.
   bool placesAreBytes = false;

@@ -25,6 +25,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kMinTriangles = 2'000'000;
+constexpr std::size_t kDracoTrianglesPerByte = 2;  // Draco needs half a byte and more for one
 constexpr std::size_t kMinVertices = 6'000'000;
 constexpr std::size_t kMaxInstances = 65536;
 constexpr std::size_t kMinInstancedTriangles = 4'000'000;
@@ -110,7 +111,7 @@ class PartReader {
     const auto position = attributeOf(primitive, "POSITION");
     if (!position) throw Error(place, "has no positions", "an attribute POSITION");
     const auto draco = primitive.extensions.find(kDraco);
-    if (draco != primitive.extensions.end()) return readDraco(primitive, draco->second, *position, place);
+    if (draco != primitive.extensions.end()) return readDraco(primitive, draco->second, *position, place, notes);
 
     // Step 1: the accessors.
     const GltfAccessor& positions = vectors(*position);
@@ -149,12 +150,13 @@ class PartReader {
   }
 
   std::size_t triangleCount() const { return triangles_; }
+  std::size_t vertexCount() const { return vertices_; }
 
  private:
   std::size_t bytes() const { return fileBytes_ + buffers_.bytesRead(); }
 
-  void addTriangles(std::size_t count, const std::string& place) {
-    const std::size_t most = std::max(kMinTriangles, bytes() / 2);
+  void addTriangles(std::size_t count, std::size_t backed, const std::string& place) {
+    const std::size_t most = std::max(kMinTriangles, backed);
     if (count > most || (triangles_ += count) > most)
       throw Error(place, "has more triangles than a file of its size may", fmt::format("at most {}", most),
                   fmt::to_string(std::max(count, triangles_)));
@@ -178,8 +180,8 @@ class PartReader {
   const GltfAccessor& vectors(std::size_t index) {
     const auto found = vectors_.find(index);
     if (found != vectors_.end()) return found->second;
-    addVertices(claimOf(index), fmt::format("{}: accessors[{}]", where_, index));
-    GltfAccessor accessor(model_, buffers_, index, where_);
+    GltfAccessor accessor(model_, buffers_, index, where_);  // reads its buffer, whose size bounds what may be claimed
+    addVertices(accessor.count(), accessor.place());
     accessor.requireVectors(quantized_);
     return vectors_.emplace(index, std::move(accessor)).first->second;
   }
@@ -189,26 +191,27 @@ class PartReader {
                                        const std::string& place) {
     // Step 1: how many corners there are, and so how many triangles.
     const auto indices = attributeOf(primitive, "indices");
-    const std::size_t count = indices ? claimOf(*indices) : vertices;
+    std::optional<GltfAccessor> accessor;
+    if (indices) accessor.emplace(model_, buffers_, *indices, where_);
+    const std::size_t count = accessor ? accessor->count() : vertices;
     const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
     if (count < 3 || (list && count % 3 != 0))
       throw Error(place, "is no whole number of triangles", list ? "3 corners for each" : "3 corners or more",
                   fmt::format("{} corners", count));
     const std::size_t triangleCount = list ? count / 3 : count - 2;
-    addTriangles(triangleCount, place);
+    addTriangles(triangleCount, bytes() / 2, place);
 
     // Step 2: the corners.
     std::vector<std::uint32_t> corners(count);
-    if (indices) {
-      const GltfAccessor accessor(model_, buffers_, *indices, where_);
-      accessor.requireIndices();
+    if (accessor) {
+      accessor->requireIndices();
       for (std::size_t i = 0; i < count; ++i) {
-        corners[i] = accessor.wholeNumber(i);
-        if (corners[i] == accessor.restart())
-          throw Error(accessor.place(), fmt::format("index {} restarts the primitive, which glTF forbids", i),
-                      fmt::format("below {}", accessor.restart()), fmt::to_string(corners[i]));
+        corners[i] = accessor->wholeNumber(i);
+        if (corners[i] == accessor->restart())
+          throw Error(accessor->place(), fmt::format("index {} restarts the primitive, which glTF forbids", i),
+                      fmt::format("below {}", accessor->restart()), fmt::to_string(corners[i]));
         if (corners[i] >= vertices)
-          throw Error(accessor.place(), fmt::format("index {} names a vertex that is not there", i),
+          throw Error(accessor->place(), fmt::format("index {} names a vertex that is not there", i),
                       fmt::format("below {}", vertices), fmt::to_string(corners[i]));
       }
     } else {
@@ -230,7 +233,7 @@ class PartReader {
   }
 
   Polygons readDraco(const tinygltf::Primitive& primitive, const tinygltf::Value& extension, std::size_t position,
-                     const std::string& place) {
+                     const std::string& place, std::vector<std::string>& notes) {
     // Step 1: what the accessors say. They have no bytes of their own, or other ones for readers without Draco.
     const auto indices = attributeOf(primitive, "indices");
     if (!indices) throw Error(place, "has Draco data and no indices", "an accessor of indices");
@@ -240,7 +243,9 @@ class PartReader {
     claims.triangles = corners / 3;
     if (corners % 3 != 0 || corners == 0)
       throw Error(place, "is no whole number of triangles", "3 corners for each", fmt::format("{} corners", corners));
-    addTriangles(claims.triangles, place);
+    const auto view = static_cast<std::size_t>(extension.Get("bufferView").GetNumberAsInt());
+    const std::span<const std::byte> data = gltfViewBytes(model_, buffers_, view, where_);
+    addTriangles(claims.triangles, bytes() / 2 + kDracoTrianglesPerByte * data.size(), place);
     addVertices(claims.vertices, place);
 
     // Step 2: which attributes of the data they are.
@@ -251,11 +256,12 @@ class PartReader {
     if (!attributes.Has("POSITION"))
       throw Error(fmt::format("{}.extensions.{}", place, kDraco), "has no positions", "an attribute POSITION");
     claims.positionId = idOf("POSITION");
-    if (attributes.Has("NORMAL") && attributeOf(primitive, "NORMAL")) claims.normalId = idOf("NORMAL");
+    const auto normal = attributeOf(primitive, "NORMAL");
+    if (normal && attributes.Has("NORMAL")) claims.normalId = idOf("NORMAL");
+    if (normal && !attributes.Has("NORMAL")) addNote(notes, "normals beside Draco data");
 
     // Step 3: decode.
-    const auto view = static_cast<std::size_t>(extension.Get("bufferView").GetNumberAsInt());
-    GltfDracoMesh mesh = decodeGltfDraco(gltfViewBytes(model_, buffers_, view, where_), claims, place);
+    GltfDracoMesh mesh = decodeGltfDraco(data, claims, place);
     Polygons polygons;
     polygons.positions = std::move(mesh.positions);
     polygons.normals = std::move(mesh.normals);
@@ -332,14 +338,17 @@ SourceScene readGltf(const std::filesystem::path& path) {
 
   // Step 5: instances, of a bounded number of triangles.
   const std::size_t most = std::max(kMinInstancedTriangles, kMaxCopies * reader.triangleCount());
-  std::size_t triangles = 0;
+  const std::size_t mostVertices = std::max(3 * most, reader.vertexCount());
+  std::size_t triangles = 0, vertices = 0;
   for (const GltfPlacement& placement : placements) {
     const std::vector<std::size_t>& parts = partsOfMesh[placement.mesh];
     for (std::size_t i = 0; i < parts.size(); ++i) {
       triangles += scene.parts[parts[i]].polygons.faceCount();
-      if (scene.instances.size() == kMaxInstances || triangles > most)
-        throw Error(where, "has too many instances", fmt::format("at most {}, of {} triangles", kMaxInstances, most),
-                    fmt::format("{} and {} or more", scene.instances.size() + 1, triangles));
+      vertices += scene.parts[parts[i]].polygons.positions.size();
+      if (scene.instances.size() == kMaxInstances || triangles > most || vertices > mostVertices)
+        throw Error(where, "has too many instances",
+                    fmt::format("at most {}, of {} triangles and {} vertices", kMaxInstances, most, mostVertices),
+                    fmt::format("{}, {} and {} or more", scene.instances.size() + 1, triangles, vertices));
       scene.instances.push_back({parts[i],
                                  parts.size() == 1 ? placement.name : fmt::format("{}.{}", placement.name, i + 1),
                                  placement.worldFromObject});

@@ -10,10 +10,10 @@
 // of the file. What is left out leaves a note.
 //
 // Bounds, so that a few bytes cannot ask for gigabytes: B is the size of the file and its buffers.
-//   triangles of all primitives   max(2 million, B / 2)
+//   triangles of all primitives   max(2 million, B / 2), and twice the bytes of a primitive's Draco data
 //   vertices of all accessors     max(6 million, B)
 //   instances                     65536
-//   triangles of all instances    max(4 million, 16 times those of the primitives)
+//   triangles of all instances    max(4 million, 16 times those of the primitives), and three times as many vertices
 //
 // Source: Khronos Group, "glTF 2.0 Specification", 2021, and the extensions' texts in KhronosGroup/glTF.
 #pragma once

@@ -10,8 +10,8 @@
 // uint8 and int, with whole numbers for coordinates, with faces before vertices, with other elements that have data;
 // ASCII STL with empty lines between the corners of a face; any file with a face of more than 256 corners.
 //
-// Materials are names alone here. A `mtllib` of OBJ may name one file with blanks in it or several files: the whole
-// comes first in materialFiles, the single words after it.
+// Materials are names alone here. A `mtllib` of OBJ may name one file with blanks in it or several files: read_mtl.h
+// finds out.
 #pragma once
 
 #include <filesystem>

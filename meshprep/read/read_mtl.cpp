@@ -158,18 +158,33 @@ std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vect
   return parseMtl(readTextFile(path), path.string(), notes);
 }
 
+std::vector<std::filesystem::path> materialFilesOf(const std::filesystem::path& obj,
+                                                   const std::vector<std::string>& statements) {
+  std::vector<std::filesystem::path> files;
+  const auto add = [&](std::string_view name) {
+    std::filesystem::path file = obj.parent_path() / std::filesystem::path(name);
+    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(std::move(file));
+  };
+  for (const std::string& statement : statements) {
+    std::error_code ignored;
+    const bool whole = std::filesystem::is_regular_file(obj.parent_path() / std::filesystem::path(statement), ignored);
+    std::string_view rest = statement;
+    if (whole) add(statement);
+    for (std::string_view word = takeWord(rest); !whole && !word.empty(); word = takeWord(rest)) add(word);
+  }
+  return files;
+}
+
 void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files) {
   // Step 1: what the files say, by name.
   std::map<std::string, SourceMaterial> described;
-  std::vector<std::string> missing, there;
-  for (const std::string& file : files) {
-    const std::filesystem::path path = obj.parent_path() / std::filesystem::path(file);
+  std::vector<std::string> missing;
+  for (const std::filesystem::path& path : materialFilesOf(obj, files)) {
     std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) {
-      missing.push_back(file);
+    if (!std::filesystem::is_regular_file(path, ignored)) {
+      missing.push_back(path.filename().string());
       continue;
     }
-    there.push_back(file);
     for (SourceMaterial& material : readMtl(path, scene.notes)) {
       const std::string name = material.name;
       if (!described.emplace(name, std::move(material)).second)
@@ -177,12 +192,7 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
     }
   }
 
-  // Step 2: what the faces name. Of the names that a mtllib statement may mean, those that are missing matter only
-  // where a material is, and not where they are words of a name that is there.
-  std::erase_if(missing, [&](const std::string& word) {
-    return std::any_of(there.begin(), there.end(),
-                       [&](const std::string& name) { return name.find(word) != std::string::npos; });
-  });
+  // Step 2: what the faces name. A file that is missing matters only where a material is.
   for (SourceMaterial& material : scene.materials) {
     const auto found = described.find(material.name);
     if (found != described.end()) {
@@ -197,24 +207,19 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
   }
 }
 
-std::vector<std::string> mtllibsOf(std::string_view text) {
-  std::vector<std::string> files;
-  std::set<std::string_view> seen;
-  const auto add = [&](std::string_view name) {
-    if (!name.empty() && seen.insert(name).second) files.emplace_back(name);
-  };
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view rest = text.substr(begin, end - begin);
-    begin = end + 1;
-    if (rest.ends_with('\r')) rest.remove_suffix(1);
+std::vector<std::string> mtllibsOf(std::string text, std::string_view where) {
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  std::vector<std::string> statements;
+  std::set<std::string> seen;
+  Lines lines(text, where);
+  while (lines.nextStatement('#')) {
+    lines.joinContinued();
+    std::string_view rest = lines.line();
     if (takeWord(rest) != "mtllib") continue;
-    const std::size_t first = rest.find_first_not_of(" \t");
-    if (first == std::string_view::npos) continue;
-    add(rest.substr(first, rest.find_last_not_of(" \t") - first + 1));
-    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) add(word);
+    std::string name = nameOf(rest, lines, kMaxPathBytes);
+    if (!name.empty() && seen.insert(name).second) statements.push_back(std::move(name));
   }
-  return files;
+  return statements;
 }
 
 }  // namespace malus::prep

@@ -41,7 +41,12 @@ std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vect
 // colour 0.8.
 void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files);
 
-// The files that an OBJ file may mean by mtllib, as read_mesh.h has them: the rest of the line, then its words.
-std::vector<std::string> mtllibsOf(std::string_view objText);
+// The files that mtllib statements mean: the whole of a statement where that is a file, else its words.
+std::vector<std::filesystem::path> materialFilesOf(const std::filesystem::path& obj,
+                                                   const std::vector<std::string>& statements);
+
+// The mtllib statements of an OBJ file, as Polygons::materialFiles has them, without its faces. Throws Error for what
+// is no text.
+std::vector<std::string> mtllibsOf(std::string objText, std::string_view where);
 
 }  // namespace malus::prep

@@ -20,7 +20,6 @@ namespace {
 
 constexpr long long kMaxIndex = std::numeric_limits<int>::max();  // of OpenMesh's handles
 constexpr std::uint32_t kNoNormal = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kMaxPathBytes = 4096;  // of a mtllib statement
 
 // Statements that have no say in the surface, and what they hold.
 struct Skipped {
@@ -179,12 +178,8 @@ void ObjScan::scanSmoothing(std::string_view rest) {
 
 // One name that may hold blanks, or several between blanks: all of it comes first, then the words.
 void ObjScan::scanMaterialFiles(std::string_view rest) {
-  const auto add = [this](std::string_view name) {
-    std::string file = nameOf(name, lines_, kMaxPathBytes);
-    if (!file.empty() && materialFiles_.insert(file).second) polygons_.materialFiles.push_back(std::move(file));
-  };
-  add(rest);
-  for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) add(word);
+  std::string files = nameOf(rest, lines_, kMaxPathBytes);
+  if (!files.empty() && materialFiles_.insert(files).second) polygons_.materialFiles.push_back(std::move(files));
 }
 
 void ObjScan::scanOther(std::string_view keyword, std::string_view rest) {

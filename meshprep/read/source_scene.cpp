@@ -27,12 +27,12 @@ std::string extensionOf(const std::filesystem::path& path) {
 }
 
 // The faces, with what is known about each and the vertices that they use.
-Polygons facesOf(const Polygons& source, const std::vector<std::size_t>& faces) {
-  Polygons result;
+void takeFaces(const Polygons& source, const std::vector<std::size_t>& faces, SourcePart& part) {
+  Polygons& result = part.polygons;
   result.placesAreBytes = source.placesAreBytes;
 
   // Step 1: the vertices, in their order.
-  std::vector<std::uint32_t> kept;
+  std::vector<std::uint32_t>& kept = part.fileVertices;
   for (const std::size_t f : faces)
     for (const std::uint32_t corner : source.face(f)) kept.push_back(corner);
   std::sort(kept.begin(), kept.end());
@@ -53,8 +53,8 @@ Polygons facesOf(const Polygons& source, const std::vector<std::size_t>& faces) 
     result.closeFace();
     if (!source.smoothingGroups.empty()) result.smoothingGroups.push_back(source.smoothingGroups[f]);
     if (!source.facePlaces.empty()) result.facePlaces.push_back(source.facePlaces[f]);
+    part.fileFaces.push_back(static_cast<std::uint32_t>(f));
   }
-  return result;
 }
 
 }  // namespace
@@ -96,7 +96,10 @@ SourceScene splitByMaterial(Polygons polygons) {
   for (std::size_t g = 0; g < groups.size(); ++g) {
     SourcePart part;
     part.name = names[g];
-    part.polygons = single ? std::move(polygons) : facesOf(polygons, groups[g]);
+    if (single)
+      part.polygons = std::move(polygons);
+    else
+      takeFaces(polygons, groups[g], part);
     if (!names[g].empty()) {
       part.material = scene.materials.size();
       SourceMaterial material;
@@ -123,7 +126,8 @@ SourceScene readSourceScene(const std::filesystem::path& path) {
 Polygons merged(const SourceScene& scene) {
   Polygons result;
   result.notes = scene.notes;
-  const bool normals = std::all_of(scene.parts.begin(), scene.parts.end(),
+  // Where some part has normals, the others have none: zero.
+  const bool normals = std::any_of(scene.parts.begin(), scene.parts.end(),
                                    [](const SourcePart& part) { return !part.polygons.normals.empty(); });
   for (const SourceInstance& instance : scene.instances) {
     const SourcePart& part = scene.parts[instance.part];
@@ -136,6 +140,7 @@ Polygons merged(const SourceScene& scene) {
     // Step 1: vertices, in world space.
     for (const glm::dvec3& p : source.positions)
       result.positions.push_back(m * p + glm::dvec3(instance.worldFromObject[3]));
+    if (normals && source.normals.empty()) result.normals.resize(result.positions.size(), glm::vec3(0));
     if (normals)
       for (const glm::vec3& n : source.normals) {
         const glm::dvec3 turned = normalMatrix * glm::dvec3(n) * (mirrors ? -1.0 : 1.0);
@@ -158,10 +163,8 @@ Polygons merged(const SourceScene& scene) {
 
 std::vector<std::filesystem::path> referencedFiles(const std::filesystem::path& path) {
   if (isGltf(path)) return gltfBufferFiles(path);
-  std::vector<std::filesystem::path> files;
-  if (extensionOf(path) == ".obj")
-    for (const std::string& name : mtllibsOf(readTextFile(path))) files.push_back(path.parent_path() / name);
-  return files;
+  if (extensionOf(path) != ".obj") return {};
+  return materialFilesOf(path, mtllibsOf(readTextFile(path), path.string()));
 }
 
 }  // namespace malus::prep

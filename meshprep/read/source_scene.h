@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -28,7 +29,7 @@ struct SourceMaterial {
   glm::dvec3 emissive{0.0};         // radiance, with its strength multiplied in
   double transmission = 0;          // 0 to 1
   double ior = 1.5;                 // 1 or more
-  bool hasVolume = false;           // the material says what its inside does to light:
+  bool hasVolume = false;           // the material has an inside, and says what it does to light:
   glm::dvec3 attenuationColour{1};  // what is left of white light after
   double attenuationDistance = std::numeric_limits<double>::infinity();  // metres
 };
@@ -37,6 +38,9 @@ struct SourcePart {
   std::string name;  // empty where the file gives none
   Polygons polygons;
   std::optional<std::size_t> material;  // index into materials
+
+  // The file's vertices and faces that its own are, where it is cut out of them; else empty.
+  std::vector<std::uint32_t> fileVertices, fileFaces;
 };
 
 struct SourceInstance {
@@ -66,7 +70,7 @@ SourceScene readSourceScene(const std::filesystem::path& path);
 SourceScene splitByMaterial(Polygons polygons);
 
 // Every instance in one piece, in world space: its parts are the instances. Faces of mirrored instances are turned,
-// so that outside stays outside. Normals are kept where every part has them.
+// so that outside stays outside. Where one part has normals and another has none, the other's are zero.
 Polygons merged(const SourceScene& scene);
 
 // The files that this one refers to and that make a difference: buffers of glTF, material files of OBJ. They need not

@@ -188,6 +188,14 @@ TEST_F(Import, ObjBringsItsMaterialFile) {
   EXPECT_EQ(result.scene.materials[named(result.scene, "l\xc3\xa4mpchen 1").material].radiance, glm::dvec3(3, 2, 1));
   EXPECT_TRUE(result.notes.empty());
 
+  // A map counts in the file, not in the part.
+  pack::WriteSettings keep;
+  keep.keepMap = true;
+  const pack::Scene mapped = bake(description(), keep, kSilent).scene;
+  EXPECT_EQ(named(mapped, "mirror").sourceFaces, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(named(mapped, "l\xc3\xa4mpchen 1").sourceFaces, std::vector<std::uint32_t>{1});
+  EXPECT_EQ(named(mapped, "l\xc3\xa4mpchen 1").sourceVertices, (std::vector<std::uint32_t>{0, 1, 3}));
+
   // What it refers to counts as a source.
   const std::string before = provenanceOf(description(), {});
   folder_.write("my materials.mtl", "newmtl mirror\nKd 0.5 0.5 0.5\n");

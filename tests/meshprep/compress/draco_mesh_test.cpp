@@ -204,6 +204,8 @@ TEST(DracoMesh, GridOfAPointAndOfAFarMesh) {
   EXPECT_FALSE(errorOf([&] { gridFor(bad, 20); }).empty());
   const std::vector<glm::vec3> wide = {glm::vec3(-3e38f), glm::vec3(3e38f)};
   EXPECT_TRUE(contains(errorOf([&] { gridFor(wide, 20); }), "too large"));
+  const std::vector<glm::vec3> tiny = {glm::vec3(0), glm::vec3(1e-36f)};
+  EXPECT_TRUE(contains(errorOf([&] { gridFor(tiny, 20); }), "too small"));
 }
 
 TEST(DracoMesh, RefusesBadInput) {

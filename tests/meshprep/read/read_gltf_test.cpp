@@ -219,8 +219,12 @@ TEST(ReadGltf, EveryClaimIsChecked) {
   EXPECT_CONTAINS(errorWith("/accessors/0/bufferView", 7), "bufferViews[7]: is not there");
   EXPECT_CONTAINS(errorWith("/accessors/0/count", 4), "accessors[0]: has more elements than bytes; expected at most 3");
   EXPECT_CONTAINS(errorWith("/accessors/0/count", 5'000'000), "accessors[0]: has more elements than bytes");
-  EXPECT_CONTAINS(errorWith("/accessors/0/count", 9007199254740992), "more vertices than a file of its size may");
-  EXPECT_CONTAINS(errorWith("/accessors/1/count", 9007199254740990), "more triangles than a file of its size may");
+  EXPECT_CONTAINS(errorWith("/accessors/0/count", 9007199254740992), "accessors[0]: has more elements than bytes");
+  EXPECT_CONTAINS(errorWith("/accessors/1/count", 9007199254740990), "accessors[1]: has more elements than bytes");
+  EXPECT_CONTAINS(errorWith("/accessors/0", {{"componentType", 5126}, {"count", 9007199254740992}, {"type", "VEC3"}}),
+                  "more vertices than a file of its size may");
+  EXPECT_CONTAINS(errorWith("/accessors/1", {{"componentType", 5125}, {"count", 9007199254740990}, {"type", "SCALAR"}}),
+                  "more triangles than a file of its size may");
   EXPECT_CONTAINS(errorWith("/accessors/0/count", 0), "accessors[0]: has no elements");
   EXPECT_CONTAINS(errorWith("/accessors/0/count", -1), "accessors[0].count: is of the wrong type");
   EXPECT_CONTAINS(errorWith("/accessors/0/byteOffset", 4), "accessors[0]: has more elements than bytes");
@@ -379,6 +383,18 @@ TEST(ReadGltf, InstancesAreBounded) {
   EXPECT_CONTAINS(errorIn(gltf), "has more triangles than a file of its size may");
 }
 
+TEST(ReadGltf, VerticesThatNoFaceNamesAreBoundedToo) {
+  // A claim of a million zeros without bytes, one triangle of them, and many nodes.
+  GltfFile gltf;
+  const int position = gltf.add("accessors", {{"componentType", 5126}, {"count", 1'000'000}, {"type", "VEC3"}});
+  const int indices = gltf.addIndices(std::vector<std::uint16_t>{0, 1, 2});
+  gltf.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", position}}}, {"indices", indices}}}}});
+  for (int i = 0; i < 12; ++i) gltf.addNode({{"mesh", 0}});
+  EXPECT_EQ(errorIn(gltf), "");
+  gltf.addNode({{"mesh", 0}});
+  EXPECT_CONTAINS(errorIn(gltf), "has too many instances");
+}
+
 TEST(ReadGltf, WhatIsLeftOutIsNoted) {
   GltfFile gltf = triangleFile();
   gltf.document["nodes"][0]["skin"] = 0;
@@ -445,6 +461,10 @@ TEST(ReadGltf, Materials) {
   EXPECT_CONTAINS(error("extensions/KHR_materials_ior/ior", 0.5), "materials[1].ior: is out of range");
   EXPECT_CONTAINS(error("extensions/KHR_materials_volume/attenuationDistance", 0), "more than 0 metres");
   EXPECT_EQ(error("extensions/KHR_materials_ior/ior", 0), "");
+  gltf.document["materials"][1]["extensions"]["KHR_materials_volume"].erase("thicknessFactor");
+  const SourceScene thin = readGlb(gltf);
+  EXPECT_FALSE(thin.materials[1].hasVolume);  // a wall without thickness absorbs nothing
+  EXPECT_TRUE(hasNote(thin, "that walls without a volume are thin"));
 }
 
 TEST(ReadGltf, AnotherReaderAgrees) {

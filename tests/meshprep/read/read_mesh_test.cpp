@@ -1,5 +1,7 @@
 #include "meshprep/read/read_mesh.h"
 
+#include <sys/stat.h>
+
 #include <gtest/gtest.h>
 
 #include "tests/meshprep/read/binary_files.h"
@@ -55,6 +57,13 @@ TEST(ReadMesh, NumbersOfEverySizeAgreeWithOpenMesh) {
     text += fmt::format("v 1.23456789e{} -3.4e{} {}\n", exponent, exponent, exponent / 7.0);
   const TemporaryFile file(".obj", text + "f 1 2 3\n");
   EXPECT_EQ(readMesh(file.path()).positions.size(), 84u);
+}
+
+TEST(ReadMesh, APipeIsNoFile) {
+  const std::filesystem::path pipe = test::temporaryPath(".obj");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_TRUE(test::contains(test::errorOf([&] { readMesh(pipe); }), "is not a regular file"));
+  std::filesystem::remove(pipe);
 }
 
 }  // namespace

@@ -105,8 +105,12 @@ TEST(ReadMtl, NamesMayHaveBlanks) {
   ASSERT_EQ(materials.size(), 2u);
   EXPECT_EQ(materials[0].name, "red  paint");
   EXPECT_EQ(materials[1].name, "b\xc3\xa4");
-  EXPECT_EQ(mtllibsOf("mtllib my file \xc3\xa4.mtl\r\nv 0 0 0\n mtllib b.mtl\nmtllib b.mtl\n#mtllib c\nmtllib\n"),
-            (std::vector<std::string>{"my file \xc3\xa4.mtl", "my", "file", "\xc3\xa4.mtl", "b.mtl"}));
+  EXPECT_EQ(
+      mtllibsOf(
+          "\xef\xbb\xbfmtllib my file \xc3\xa4.mtl\r\nv 0 0 0\n mtllib b.mtl\nmtllib \\\nb.mtl\n#mtllib c\nmtllib "
+          "\xe4.mtl\nmtllib\n",
+          "a.obj"),
+      (std::vector<std::string>{"my file \xc3\xa4.mtl", "b.mtl", "\xc3\xa4.mtl"}));
 }
 
 TEST(ReadMtl, MaterialsAreDescribedByName) {
@@ -115,13 +119,13 @@ TEST(ReadMtl, MaterialsAreDescribedByName) {
   scene.materials.resize(2);
   scene.materials[0].name = "red";
   scene.materials[1].name = "blue";
-  describeMaterials(scene, file.path(), {file.path().filename().string(), "missing file.mtl"});
+  describeMaterials(scene, file.path(), {file.path().filename().string(), "missing.mtl"});
   EXPECT_EQ(scene.materials[0].baseColour, glm::dvec3(1, 0, 0));
   EXPECT_EQ(scene.materials[1].baseColour, glm::dvec3(0.8));
   EXPECT_EQ(scene.materials[1].metallic, 0);
-  EXPECT_EQ(scene.notes, (std::vector<std::string>{"a second material \"red\"",
-                                                   "material file \"missing file.mtl\", which is missing",
-                                                   "material \"blue\", which no file describes"}));
+  EXPECT_EQ(scene.notes,
+            (std::vector<std::string>{"a second material \"red\"", "material file \"missing.mtl\", which is missing",
+                                      "material \"blue\", which no file describes"}));
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST(ScanObj, GroupsObjectsAndMaterialsMakeParts) {
   EXPECT_EQ(polygons.parts,
             (std::vector<Part>{{"", ""}, {"Glas-Schale \xc3\xa4 \xe2\x98\x83", "gold"}, {"front side", "gold"}}));
   EXPECT_EQ(polygons.partOf, (std::vector<std::uint32_t>{0, 1, 1, 2, 1, 0}));
-  EXPECT_EQ(polygons.materialFiles, (std::vector<std::string>{"my colours.mtl", "my", "colours.mtl"}));
+  EXPECT_EQ(polygons.materialFiles, (std::vector<std::string>{"my colours.mtl"}));
 }
 
 TEST(ScanObj, FilesWithoutGroupsHaveNoParts) {

@@ -188,6 +188,19 @@ TEST(PlyVariants, FacesBeforeVertices) {
   EXPECT_TRUE(contains(refusal(header(elements) + "4 0 1 2 4\n" + kFourPoints), ".ply:10:"));
 }
 
+TEST(PlyVariants, NumbersThatNoDoubleHolds) {
+  // Read by the scan alone, because of the type of the lists' lengths.
+  const auto withX = [](const std::string& x) {
+    return header("element vertex 4\n" + kXyz + "element face 1\nproperty list ushort int vertex_indices\n") + x +
+           " 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n";
+  };
+  for (const std::string& large :
+       {"1" + std::string(310, '0'), "1" + std::string(310, '0') + "e-1", std::string("-1e999")})
+    EXPECT_TRUE(contains(refusal(withX(large)), "a number out of range")) << large.substr(0, 5);
+  for (const std::string& small : {"0." + std::string(400, '0') + "1", std::string("1e-999"), std::string("-1e-400")})
+    EXPECT_EQ(read(withX(small)).positions[0].x, 0) << small.substr(0, 5);
+}
+
 TEST(PlyVariants, WholeNumbersAsCoordinates) {
   const std::string elements =
       "element vertex 3\nproperty int x\nproperty short y\nproperty uchar z\nelement face 1\nproperty list uchar int "

@@ -77,7 +77,11 @@ TEST(SourceScene, MergedInstancesAreParts) {
 TEST(SourceScene, FilesThatAreReferredTo) {
   const TemporaryFile file(".obj", "mtllib a b.mtl\n" + test::objText(test::cube()));
   const std::filesystem::path folder = file.path().parent_path();
-  EXPECT_EQ(referencedFiles(file.path()), (std::vector{folder / "a b.mtl", folder / "a", folder / "b.mtl"}));
+  EXPECT_EQ(referencedFiles(file.path()), (std::vector{folder / "a", folder / "b.mtl"}));
+  const TemporaryFile mtl(".mtl", "newmtl a\n");
+  const std::string name = mtl.path().filename().string();
+  const TemporaryFile one(".obj", "mtllib " + name + "\n" + test::objText(test::cube()));
+  EXPECT_EQ(referencedFiles(one.path()), std::vector{mtl.path()});
   const TemporaryFile other(".off", "mtllib a.mtl\n");
   EXPECT_TRUE(referencedFiles(other.path()).empty());
 }

@@ -74,8 +74,9 @@ SourceMaterial gltfMaterial(const tinygltf::Material& material, const std::strin
   if (const auto* volume = reader.extension("KHR_materials_volume"); volume != nullptr) {
     result.hasVolume = Reader::number(*volume, "thicknessFactor", 0) > 0;
     if (volume->Has("attenuationColor")) {
-      std::vector<double> colour;
-      for (int i = 0; i < 3; ++i) colour.push_back(volume->Get("attenuationColor").Get(i).GetNumberAsDouble());
+      std::vector<double> colour(3);
+      for (int i = 0; i < 3; ++i)
+        colour[static_cast<std::size_t>(i)] = volume->Get("attenuationColor").Get(i).GetNumberAsDouble();
       result.attenuationColour = reader.colour("attenuationColor", colour, 1);
     }
     result.attenuationDistance = Reader::number(*volume, "attenuationDistance", kInfinity);

@@ -92,22 +92,21 @@ SourceScene splitByMaterial(Polygons polygons) {
   }
 
   // Step 2: a part for each. One part is the file as it is.
-  const bool single = groups.size() <= 1;
+  scene.parts.resize(groups.size());
+  if (groups.size() == 1)
+    scene.parts.front().polygons = std::move(polygons);
+  else
+    for (std::size_t g = 0; g < groups.size(); ++g) takeFaces(polygons, groups[g], scene.parts[g]);
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    SourcePart part;
+    SourcePart& part = scene.parts[g];
     part.name = names[g];
-    if (single)
-      part.polygons = std::move(polygons);
-    else
-      takeFaces(polygons, groups[g], part);
     if (!names[g].empty()) {
       part.material = scene.materials.size();
       SourceMaterial material;
       material.name = names[g];
       scene.materials.push_back(std::move(material));
     }
-    scene.instances.push_back({scene.parts.size(), part.name, glm::dmat4(1.0)});
-    scene.parts.push_back(std::move(part));
+    scene.instances.push_back({g, part.name, glm::dmat4(1.0)});
   }
   return scene;
 }

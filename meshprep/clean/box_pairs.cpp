@@ -1,12 +1,10 @@
 #include "meshprep/clean/box_pairs.h"
 
-#include <algorithm>
 #include <atomic>
 #include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
-#include <boost/function_output_iterator.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -21,14 +19,14 @@ using Point = bg::model::point<double, 3, bg::cs::cartesian>;
 using TreeBox = bg::model::box<Point>;
 using Entry = std::pair<TreeBox, std::uint32_t>;
 
-constexpr std::size_t kBlock = 256;  // boxes between two looks at the number of pairs
+constexpr std::uint64_t kBatch = 1024;  // pairs of a box between two looks at the number of all
 
 TreeBox treeBox(const Box& box) { return {{box.low.x, box.low.y, box.low.z}, {box.high.x, box.high.y, box.high.z}}; }
 
 }  // namespace
 
 bool forOverlappingBoxes(std::span<const Box> a, std::span<const Box> b, std::uint64_t most,
-                         const std::function<void(std::uint32_t, std::uint32_t)>& visit) {
+                         const std::function<bool(std::uint32_t, std::uint32_t)>& visit) {
   // Step 1: the tree, packed from all entries at once.
   std::vector<Entry> entries;
   entries.reserve(b.size());
@@ -36,19 +34,19 @@ bool forOverlappingBoxes(std::span<const Box> a, std::span<const Box> b, std::ui
   const bg::index::rtree<Entry, bg::index::quadratic<16>> tree(entries);
   entries = {};
 
-  // Step 2: one query for each box, block after block until there are too many pairs.
+  // Step 2: one query for each box, until there are too many pairs.
   std::atomic<std::uint64_t> pairs{0};
-  for (std::size_t begin = 0; begin < a.size(); begin += kBlock) {
-    if (pairs > most) return false;
-    tbb::parallel_for(begin, std::min(begin + kBlock, a.size()), [&](std::size_t i) {
-      std::uint64_t found = 0;
-      tree.query(bg::index::intersects(treeBox(a[i])), boost::make_function_output_iterator([&](const Entry& entry) {
-                   ++found;
-                   visit(static_cast<std::uint32_t>(i), entry.second);
-                 }));
-      pairs += found;
-    });
-  }
+  tbb::parallel_for(std::size_t{0}, a.size(), [&](std::size_t i) {
+    if (pairs.load(std::memory_order_relaxed) > most) return;
+    std::uint64_t found = 0;
+    for (auto entry = tree.qbegin(bg::index::intersects(treeBox(a[i]))); entry != tree.qend(); ++entry) {
+      if (visit(static_cast<std::uint32_t>(i), entry->second)) ++found;
+      if (found < kBatch) continue;
+      pairs += std::exchange(found, 0);
+      if (pairs.load(std::memory_order_relaxed) > most) return;
+    }
+    pairs += found;
+  });
   return pairs <= most;
 }
 

@@ -52,15 +52,17 @@ Junctions findJunctions(const Mesh& mesh) {
       edgeBoxes, vertexBoxes, kCandidatesEach * edges.size() + kCandidatesMore, [&](std::uint32_t e, std::uint32_t i) {
         const EdgeUse& edge = edges[e];
         const std::uint32_t v = vertices[i];
-        if (place[v] == place[edge.low] || place[v] == place[edge.high]) return;
+        if (place[v] == place[edge.low] || place[v] == place[edge.high]) return true;
         const glm::dvec3 along = mesh.positions[edge.high] - mesh.positions[edge.low];
         const glm::dvec3 toVertex = mesh.positions[v] - mesh.positions[edge.low];
         const double share = glm::dot(toVertex, along) / glm::dot(along, along);
         const double off = glm::distance(toVertex, share * along);
-        if (!(share > 0 && share < 1 && off <= kJunctionTolerance * glm::length(along))) return;
+        if (!(share > 0 && share < 1 && off <= kJunctionTolerance * glm::length(along))) return true;
         const std::lock_guard guard(lock);
         pairs.emplace_back(v, e);
+        return true;
       });
+  if (!result.complete) return result;
 
   // Step 3: in an order that does not depend on the threads.
   std::sort(pairs.begin(), pairs.end());

@@ -11,7 +11,7 @@ inline constexpr double kJunctionTolerance = 1e-6;
 
 struct Junctions {
   Findings found;        // vertices: the one on the edge, then the edge's; faces: the edge's
-  bool complete = true;  // false where there are too many candidates to look at all of them
+  bool complete = true;  // false, and nothing found, where there are too many candidates to look at
 };
 
 Junctions findJunctions(const Mesh& mesh);

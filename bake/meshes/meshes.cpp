@@ -60,7 +60,7 @@ class Placer {
     // Step 2: every instance.
     for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
       std::string name = mesh.instances.size() == 1 ? mesh.name : fmt::format("{}.{}", mesh.name, i + 1);
-      meshNames_.take(name);
+      name = meshNames_.take(name);
       place(prepared, matrixOf(mesh.instances[i]), std::move(name), material, options.sheet);
     }
   }

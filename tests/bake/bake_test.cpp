@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -108,6 +109,15 @@ TEST_F(Bake, InstancesBecomeMeshesInWorldSpace) {
   EXPECT_EQ(centre(scene.meshes[2]), glm::vec3(0, 10, 0));
   EXPECT_EQ(extent(scene.meshes[2]), glm::vec3(1, 2, 3));
   for (const pack::Mesh& mesh : scene.meshes) expectOutward(mesh);
+}
+
+TEST_F(Bake, MeshesHaveNamesOfTheirOwn) {
+  instances(R"([{}, {"translate": [3, 0, 0]}])");
+  scene_["meshes"].push_back({{"name", "cube.1"}, {"file", "cube.obj"}, {"material", "gold"}});
+  std::set<std::string> names;
+  for (const pack::Mesh& mesh : baked().meshes) names.insert(mesh.name);
+  EXPECT_EQ(names.size(), 3u);
+  EXPECT_EQ(names.count("cube.1"), 1u);
 }
 
 TEST_F(Bake, MirroringScalesKeepOutsideOutside) {

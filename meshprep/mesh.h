@@ -17,7 +17,8 @@ struct Mesh {
 
   // Where they come from: the vertex of the file, from 0, that each vertex is (the first of those that became it;
   // kNoSource for a new one), the face of the file that each triangle is cut from, and the vertices of the file that
-  // it names. Empty where nobody keeps count: a mesh made in memory.
+  // it names (after a second round of cleaning, of those that became one, the first). Empty where nobody keeps count:
+  // a mesh made in memory.
   std::vector<std::uint32_t> sourceVertices;
   std::vector<std::uint32_t> sourceFaces;
   std::vector<glm::uvec3> sourceCorners;

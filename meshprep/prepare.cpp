@@ -89,9 +89,11 @@ class Preparation {
   }
 
   double weldTolerance() const {
-    if (options_.weldRelative == 0 || mesh_.positions.empty()) return options_.steps.weldTolerance;
-    glm::dvec3 low = mesh_.positions.front(), high = low;
-    for (const glm::dvec3& p : mesh_.positions) low = glm::min(low, p), high = glm::max(high, p);
+    if (options_.weldRelative == 0 || mesh_.triangles.empty()) return options_.steps.weldTolerance;
+    glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+    for (const glm::uvec3& t : mesh_.triangles)  // what no face names may lie anywhere
+      for (int k = 0; k < 3; ++k)
+        low = glm::min(low, mesh_.positions[t[k]]), high = glm::max(high, mesh_.positions[t[k]]);
     return std::max(options_.steps.weldTolerance, options_.weldRelative * glm::distance(low, high));
   }
 
@@ -108,6 +110,7 @@ class Preparation {
     step("welds-refused", std::move(done.welded.refused));
     step("faces-dropped-repeated-corner", std::move(done.degenerate.repeatedCorner));
     step("faces-dropped-zero-area", std::move(done.degenerate.zeroArea));
+    step("edges-collapsed", std::move(done.degenerate.edgesCollapsed));
     step("faces-cut-beside-zero-area", std::move(done.degenerate.neighboursCut));
     step("faces-dropped-duplicate", std::move(done.duplicates.same));
     step(steps.dropOpposite ? "faces-dropped-opposite" : "faces-opposite", std::move(done.duplicates.opposite));
@@ -143,14 +146,18 @@ class Preparation {
 
   // What is told and left.
   void look() {
-    Junctions junctions = options_.findJunctions ? findJunctions(mesh_) : Junctions{};
-    step("t-junctions", std::move(junctions.found));
-    step("t-junctions-unchecked", junctions.complete ? 0 : 1);
-    const bool wanted = options_.findIntersections || (options_.certifyGlass && !options_.sheet);
-    const Intersections intersections = wanted ? findIntersections(mesh_) : Intersections{};
-    step("faces-crossing", describePairs(mesh_, intersections.crossing));
-    step("faces-coincident", describePairs(mesh_, intersections.coincident));
-    step("faces-crossing-unchecked", intersections.complete ? 0 : 1);
+    if (options_.findJunctions) {
+      Junctions junctions = findJunctions(mesh_);
+      step("t-junctions", std::move(junctions.found));
+      step("t-junctions-unchecked", junctions.complete ? 0 : 1);
+    }
+    Intersections intersections;
+    if (options_.findIntersections || (options_.certifyGlass && !options_.sheet)) {
+      intersections = findIntersections(mesh_);
+      step("faces-crossing", describePairs(mesh_, intersections.crossing));
+      step("faces-coincident", describePairs(mesh_, intersections.coincident));
+      step("faces-crossing-unchecked", intersections.complete ? 0 : 1);
+    }
     if (options_.certifyGlass) report_.certificate = certifyGlass(mesh_, options_.sheet, {sides_, intersections});
   }
 
@@ -222,7 +229,12 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
 
   // Step 1: triangles.
   TriangulateCounts counts;
-  Mesh mesh = triangulate(polygons, counts);
+  Mesh mesh;
+  try {
+    mesh = triangulate(polygons, counts);
+  } catch (const Error& error) {  // which names the face alone
+    throw Error(source, error.what());
+  }
   report.steps.push_back({"polygons-triangulated", counts.polygons, {}});
   report.steps.push_back({"polygons-concave", counts.concave, {}});
   report.steps.push_back({"polygons-non-planar", counts.nonPlanar, {}});

@@ -115,6 +115,10 @@ Certificate certifyGlass(const Mesh& mesh, bool sheet, const GlassEvidence& evid
     if (!c.orientable) oneSided[i].add(where);
     if (c.closed && c.orientable && !c.hasVolume) hollow[i].add(where);
   }
+  if (const std::uint64_t wrong = evidence.sides.applied ? 0 : evidence.sides.flipped.count; wrong > 0)
+    certificate.problems.push_back(
+        {0, wrong == 1 ? "1 face that looks the wrong way" : fmt::format("{} faces that look the wrong way", wrong),
+         "first: " + describe(evidence.sides.flipped.first.front()), "let the cleaning turn them (orient)"});
   report(oneSided, "surface with one side alone", "surfaces with one side alone", "cut the band where it twists",
          certificate);
   if (sheet) {

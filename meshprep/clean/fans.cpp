@@ -81,10 +81,10 @@ class Splitter {
 
   // Pairs those among `candidates` (indices into edge, by angle) whose backs face each other. A triangle that runs from
   // low to high has its back toward smaller angles: it closes a bracket that the other kind opens.
-  static void matchBrackets(std::span<const EdgeUse> edge, std::vector<std::size_t>& candidates,
-                            std::vector<Pair>& pairs) {
+  // matched: one an index, set for those paired.
+  static void matchBrackets(std::span<const EdgeUse> edge, std::span<const std::size_t> candidates,
+                            std::vector<char>& matched, std::vector<Pair>& pairs) {
     std::vector<std::size_t> open;
-    std::vector<char> matched(edge.size(), 0);
     for (int turn = 0; turn < 2; ++turn)  // twice around: the first bracket may close one that opens last
       for (const std::size_t i : candidates) {
         if (matched[i] != 0) continue;
@@ -96,7 +96,6 @@ class Splitter {
           open.pop_back();
         }
       }
-    std::erase_if(candidates, [&](std::size_t i) { return matched[i] != 0; });
   }
 
   std::vector<Pair> pairsOf(std::span<const EdgeUse> edge) const {
@@ -114,22 +113,18 @@ class Splitter {
 
     // Step 2: first within a part, then among all that are left.
     std::vector<Pair> pairs;
-    std::vector<std::uint32_t> parts;
-    for (const EdgeUse& use : edge) parts.push_back(partOf_[use.triangle]);
-    std::sort(parts.begin(), parts.end());
-    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-    std::vector<char> left(edge.size(), 0);
-    for (const std::uint32_t part : parts) {
-      std::vector<std::size_t> own;
-      for (const std::size_t i : order)
-        if (partOf_[edge[i].triangle] == part) own.push_back(i);
-      matchBrackets(edge, own, pairs);
-      for (const std::size_t i : own) left[i] = 1;
+    std::vector<char> matched(edge.size(), 0);
+    std::vector<std::size_t> byPart = order;
+    const auto partOf = [&](std::size_t i) { return partOf_[edge[i].triangle]; };
+    std::stable_sort(byPart.begin(), byPart.end(), [&](std::size_t a, std::size_t b) { return partOf(a) < partOf(b); });
+    for (std::size_t begin = 0, end = 0; begin < byPart.size(); begin = end) {
+      while (end < byPart.size() && partOf(byPart[end]) == partOf(byPart[begin])) ++end;
+      matchBrackets(edge, std::span(byPart).subspan(begin, end - begin), matched, pairs);
     }
-    std::vector<std::size_t> rest;
-    for (const std::size_t i : order)
-      if (left[i] != 0) rest.push_back(i);
-    matchBrackets(edge, rest, pairs);
+    std::vector<std::size_t> rest = order;
+    std::erase_if(rest, [&](std::size_t i) { return matched[i] != 0; });
+    matchBrackets(edge, rest, matched, pairs);
+    std::erase_if(rest, [&](std::size_t i) { return matched[i] != 0; });
     for (const std::size_t i : rest) pairs.push_back({edge[i], {}, true});
     return pairs;
   }
@@ -232,10 +227,22 @@ class Splitter {
   void cutTriangle(const EdgeUse& use, std::uint32_t m) {
     const glm::uvec3 t = mesh_.triangles[use.triangle];
     const std::uint32_t to = t[(use.corner + 1) % 3], apex = t[(use.corner + 2) % 3];
+    const glm::uvec3 corners = mesh_.sourceCorners.empty() ? t : mesh_.sourceCorners[use.triangle];
+    const glm::vec3 toNormal =
+        mesh_.cornerNormals.empty() ? glm::vec3(0) : mesh_.cornerNormals[3 * use.triangle + (use.corner + 1u) % 3];
     mesh_.triangles[use.triangle][(use.corner + 1) % 3] = m;
     if (!mesh_.sourceCorners.empty()) mesh_.sourceCorners[use.triangle][(use.corner + 1) % 3] = kNoSource;
     if (!mesh_.cornerNormals.empty()) mesh_.cornerNormals[3 * use.triangle + (use.corner + 1u) % 3] = glm::vec3(0);
+    const std::size_t half = mesh_.triangles.size();
     addTriangle(mesh_, {m, to, apex}, use.triangle);
+    const std::size_t toCorner = (use.corner + 1u) % 3, apexCorner = (use.corner + 2u) % 3;
+    if (!mesh_.sourceCorners.empty())
+      mesh_.sourceCorners[half] = {kNoSource, corners[static_cast<int>(toCorner)],
+                                   corners[static_cast<int>(apexCorner)]};
+    if (!mesh_.cornerNormals.empty()) {
+      mesh_.cornerNormals[3 * half + 1] = toNormal;
+      mesh_.cornerNormals[3 * half + 2] = mesh_.cornerNormals[3 * use.triangle + apexCorner];
+    }
   }
 
   void cutCrowdedEdges() {

@@ -36,7 +36,7 @@ Finding describeHole(const Mesh& mesh, const Loop& loop, std::string_view also) 
 
 std::vector<Loop> findHoles(const Mesh& mesh) {
   // Step 1: where each boundary edge leads, against the way that its triangle runs along it.
-  std::unordered_map<std::uint32_t, std::uint32_t> next;
+  std::unordered_multimap<std::uint32_t, std::uint32_t> next;
   std::vector<std::uint32_t> starts;
   forEachEdge(edgeUses(mesh.triangles), [&](std::span<const EdgeUse> edge) {
     if (edge.size() != 1) return;
@@ -68,6 +68,8 @@ Findings describeHoles(const Mesh& mesh, const std::vector<Loop>& loops) {
 }
 
 FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t maxEdges) {
+  if (loops.empty()) return {};
+
   // Step 1: a face beside each hole, by the hole's first vertex.
   std::unordered_map<std::uint32_t, std::size_t> beside;
   for (const Loop& loop : loops) beside.emplace(loop.front(), 0);

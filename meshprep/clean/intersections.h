@@ -18,7 +18,7 @@ struct Intersections {
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  // triangles of the mesh, the smaller first
   std::vector<Pair> crossing;                            // sorted
   std::vector<Pair> coincident;                          // the same three places; sorted
-  bool complete = true;                                  // false where there are too many candidates to test all
+  bool complete = true;                                  // false, and the lists empty, where there are too many to test
 };
 
 // Triangles without area are left out.

@@ -18,7 +18,7 @@ namespace malus::prep {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr double kVolumeTolerance = 1e-9;  // of the box's diagonal cubed: nothing to tell a side by
+constexpr double kVolumeTolerance = 1e-12;  // of the area times the box's diagonal: rounding, no side to tell by
 
 // A neighbour through an edge of two triangles.
 struct Link {
@@ -91,15 +91,15 @@ class Orienter {
   // where it touches itself or other parts along an edge.
   void findClosed() {
     forEachEdge(uses_, [&](std::span<const EdgeUse> edge) {
-      for (const EdgeUse& use : edge) {
-        Part& part = parts_[partOf_[use.triangle]];
-        int balance = 0, count = 0;
-        for (const EdgeUse& other : edge) {
-          if (partOf_[other.triangle] != partOf_[use.triangle]) continue;
-          ++count;
-          balance += other.forward != (turned_[other.triangle] != 0) ? 1 : -1;
-        }
-        if (part.orientable ? balance != 0 : count % 2 != 0) part.closed = false;
+      std::vector<std::pair<std::uint32_t, int>> ways;  // of each use: part, and 1 or -1 as it runs
+      for (const EdgeUse& use : edge)
+        ways.emplace_back(partOf_[use.triangle], use.forward != (turned_[use.triangle] != 0) ? 1 : -1);
+      std::sort(ways.begin(), ways.end());
+      for (std::size_t begin = 0, end = 0; begin < ways.size(); begin = end) {
+        int balance = 0;
+        for (; end < ways.size() && ways[end].first == ways[begin].first; ++end) balance += ways[end].second;
+        Part& part = parts_[ways[begin].first];
+        if (part.orientable ? balance != 0 : (end - begin) % 2 != 0) part.closed = false;
       }
     });
   }
@@ -141,12 +141,15 @@ class Orienter {
 
   bool hasVolume(const Part& part, double volume) const {
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-    for (const std::uint32_t t : part.triangles)
-      for (int corner = 0; corner < 3; ++corner) {
-        low = glm::min(low, mesh_.positions[mesh_.triangles[t][corner]]);
-        high = glm::max(high, mesh_.positions[mesh_.triangles[t][corner]]);
-      }
-    return std::abs(volume) > kVolumeTolerance * std::pow(glm::length(high - low), 3.0);
+    double area = 0;
+    for (const std::uint32_t t : part.triangles) {
+      const glm::uvec3 v = mesh_.triangles[t];
+      const glm::dvec3 &a = mesh_.positions[v.x], &b = mesh_.positions[v.y], &c = mesh_.positions[v.z];
+      low = glm::min(low, glm::min(a, glm::min(b, c)));
+      high = glm::max(high, glm::max(a, glm::max(b, c)));
+      area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+    return std::abs(volume) > kVolumeTolerance * area * glm::length(high - low);
   }
 
   void turnOutward() {
@@ -173,11 +176,8 @@ class Orienter {
 
     // Step 2: what lies inside what.
     std::vector<Nesting> nesting(shells.size());
-    if (shells.size() <= kMaxShells) {
-      nesting = nestShells(shells, mesh_.positions);
-    } else {
+    if (shells.size() > kMaxShells || !nestShells(shells, mesh_.positions, nesting))
       result_.nestingUnchecked = shells.size();
-    }
 
     // Step 3: turn. A parent is at an even depth where its child is at an odd one, so it decides alone.
     for (std::size_t i = 0; i < shells.size(); ++i) {

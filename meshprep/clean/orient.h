@@ -27,6 +27,7 @@ struct OrientResult {
   std::vector<Component> components;       // in the order of their first triangles
   std::vector<std::uint32_t> componentOf;  // of every triangle
   Findings flipped;                        // triangles turned over
+  bool applied = true;                     // false where the mesh was left as it is, and this tells what would be done
   std::uint64_t nested = 0;                // components kept with the one around them
   std::uint64_t notOrientable = 0;         // components without two sides
   std::uint64_t withoutVolume = 0;         // closed components whose outside cannot be told

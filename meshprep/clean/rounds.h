@@ -3,8 +3,8 @@
 // Steps depend on each other: what fans join may have to be turned as a whole; which backs face each other depends on
 // the sides; a face that was turned may be a copy of one that it was the back of; a lid joins what was apart. A mesh
 // that does not touch itself is done after one round. Another is cleaned again as if it were read from a file that
-// holds the result, so that cleaning what was cleaned changes nothing. Where a step but `unreferenced` is left out,
-// one round is made.
+// holds the result, so that cleaning what was cleaned changes nothing; what that drops, cuts and fills is told as well.
+// Where a step but `unreferenced` is left out, one round is made.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ namespace malus::prep {
 // Which steps are made, and how.
 struct Cleaning {
   bool weld = true;
-  bool degenerate = true;
+  bool degenerate = true;  // without it there are no fans either
   bool duplicates = true;
   bool unreferenced = true;
   bool orient = true;

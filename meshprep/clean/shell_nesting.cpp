@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kSamples = 16;
 constexpr double kInside = 0.75;
+constexpr std::uint64_t kMaxWork = 1u << 28u;  // angles of triangles: some seconds
 
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
@@ -33,12 +34,13 @@ Box boxOf(const Shell& shell, std::span<const glm::dvec3> positions) {
 }
 
 bool isWithin(const Box& inner, const Box& outer) {
-  return glm::all(glm::greaterThan(inner.low, outer.low)) && glm::all(glm::lessThan(inner.high, outer.high));
+  return glm::all(glm::greaterThanEqual(inner.low, outer.low)) && glm::all(glm::lessThanEqual(inner.high, outer.high));
 }
 
-bool isInside(const Shell& inner, const Shell& outer, std::span<const glm::dvec3> positions) {
+bool isInside(const Shell& inner, const Shell& outer, std::span<const glm::dvec3> positions, std::uint64_t& work) {
   const std::size_t count = std::min(kSamples, inner.triangles.size());
   for (std::size_t i = 0; i < count; ++i) {
+    work += outer.triangles.size();
     const glm::dvec3 p = positions[inner.triangles[i * inner.triangles.size() / count].x];
     if (std::abs(windingNumber(outer, positions, p)) <= kInside) return false;
   }
@@ -59,7 +61,7 @@ double windingNumber(const Shell& shell, std::span<const glm::dvec3> positions, 
   return solidAngle / (4 * glm::pi<double>());
 }
 
-std::vector<Nesting> nestShells(std::span<const Shell> shells, std::span<const glm::dvec3> positions) {
+bool nestShells(std::span<const Shell> shells, std::span<const glm::dvec3> positions, std::vector<Nesting>& nesting) {
   std::vector<Box> boxes;
   for (const Shell& shell : shells) boxes.push_back(boxOf(shell, positions));
 
@@ -68,17 +70,22 @@ std::vector<Nesting> nestShells(std::span<const Shell> shells, std::span<const g
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return shells[a].volume > shells[b].volume; });
-  std::vector<Nesting> nesting(shells.size());
+  nesting.assign(shells.size(), {});
+  std::uint64_t work = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::size_t inner = order[i];
     for (std::size_t j = i; j-- > 0;) {
       const std::size_t outer = order[j];
-      if (!isWithin(boxes[inner], boxes[outer]) || !isInside(shells[inner], shells[outer], positions)) continue;
+      if (!isWithin(boxes[inner], boxes[outer]) || !isInside(shells[inner], shells[outer], positions, work)) continue;
       nesting[inner] = {outer, nesting[outer].depth + 1};
       break;
     }
+    if (work > kMaxWork) {
+      nesting.assign(shells.size(), {});
+      return false;
+    }
   }
-  return nesting;
+  return true;
 }
 
 }  // namespace malus::prep

@@ -23,9 +23,10 @@ struct Nesting {
 // More shells than this are not compared with each other.
 inline constexpr std::size_t kMaxShells = 4096;
 
-// A shell is inside another where its box lies within the other's and 16 of its vertices, evenly chosen,
-// have a winding number of more than 3/4. Shells that only poke into each other are not nested.
-std::vector<Nesting> nestShells(std::span<const Shell> shells, std::span<const glm::dvec3> positions);
+// A shell is inside another where its box lies within the other's (or touches it from inside) and 16 of its vertices,
+// evenly chosen, have a winding number of more than 3/4. Shells that only poke into each other are not nested. Returns
+// false, having told nothing, where that takes more than 2^28 angles of triangles. nesting: one a shell.
+bool nestShells(std::span<const Shell> shells, std::span<const glm::dvec3> positions, std::vector<Nesting>& nesting);
 
 // How often the shell winds around p: 1 or -1 inside, 0 outside, about 1/2 on the surface.
 double windingNumber(const Shell& shell, std::span<const glm::dvec3> positions, const glm::dvec3& p);

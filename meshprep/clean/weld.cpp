@@ -1,10 +1,10 @@
 #include "meshprep/clean/weld.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "meshprep/base/error.h"
-#include "meshprep/clean/edges.h"
+#include "meshprep/clean/degenerate_faces.h"
 #include "meshprep/clean/select.h"
 
 namespace malus::prep {
@@ -115,17 +115,43 @@ std::vector<std::uint32_t> firstOfPlace(const Mesh& mesh, double tolerance, cons
   return first;
 }
 
-// The vertices of edges with more than two triangles, where vertex v stands for become[v].
-std::vector<char> onCrowdedEdges(const Mesh& mesh, const std::vector<std::uint32_t>& become) {
-  std::vector<glm::uvec3> triangles;
+// The vertices of edges that became one of several, and have more than two triangles by that. Copies of faces and faces
+// without area, which later steps take away, do not count.
+std::vector<char> onCrowdedEdges(const Mesh& mesh, const std::vector<std::uint32_t>& same,
+                                 const std::vector<std::uint32_t>& become) {
+  // Step 1: faces, once each.
+  std::vector<std::array<std::uint32_t, 6>> faces;  // as they become, sorted; as they are
   for (const glm::uvec3& t : mesh.triangles) {
-    const glm::uvec3 now{become[t.x], become[t.y], become[t.z]};
-    if (now.x != now.y && now.y != now.z && now.z != now.x) triangles.push_back(now);
+    std::array<std::pair<std::uint32_t, std::uint32_t>, 3> v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t corner = t[static_cast<int>(k)];
+      v[k] = {become[corner], same[corner]};
+    }
+    std::sort(v.begin(), v.end());
+    if (v[0].first == v[1].first || v[1].first == v[2].first) continue;
+    if (isWithoutArea(mesh.positions[v[0].first], mesh.positions[v[1].first], mesh.positions[v[2].first])) continue;
+    faces.push_back({v[0].first, v[1].first, v[2].first, v[0].second, v[1].second, v[2].second});
   }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end(),
+                          [](const auto& a, const auto& b) { return std::equal(a.begin(), a.begin() + 3, b.begin()); }),
+              faces.end());
+
+  // Step 2: their edges, as they become and as they are.
+  std::vector<std::array<std::uint32_t, 4>> edges;
+  for (const auto& f : faces)
+    for (const auto& [i, j] : {std::pair(0u, 1u), std::pair(0u, 2u), std::pair(1u, 2u)})
+      edges.push_back({f[i], f[j], std::min(f[3 + i], f[3 + j]), std::max(f[3 + i], f[3 + j])});
+  std::sort(edges.begin(), edges.end());
+
+  // Step 3: crowded by joining.
   std::vector<char> crowded(mesh.positions.size(), 0);
-  forEachEdge(edgeUses(triangles), [&](std::span<const EdgeUse> edge) {
-    if (edge.size() > 2) crowded[edge[0].low] = crowded[edge[0].high] = 1;
-  });
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    bool several = false;
+    for (; end < edges.size() && edges[end][0] == edges[begin][0] && edges[end][1] == edges[begin][1]; ++end)
+      several = several || edges[end][2] != edges[begin][2] || edges[end][3] != edges[begin][3];
+    if (several && end - begin > 2) crowded[edges[begin][0]] = crowded[edges[begin][1]] = 1;
+  }
   return crowded;
 }
 
@@ -138,21 +164,19 @@ Weld weld(Mesh& mesh, double tolerance) {
   std::vector<std::uint32_t> become = same;
   Weld result;
   if (tolerance > 0) {
-    std::vector<char> isFirst(count, 0);
-    for (std::uint32_t i = 0; i < count; ++i) isFirst[i] = same[i] == i ? 1 : 0;
+    std::vector<char> isFirst(count, 0);  // and named by a face: what nobody names pulls nothing to it
+    for (const glm::uvec3& t : mesh.triangles) isFirst[same[t.x]] = isFirst[same[t.y]] = isFirst[same[t.z]] = 1;
     std::vector<std::uint32_t> near = firstOfPlace(mesh, tolerance, isFirst);
 
     // Step 2: apart again where an edge got a third triangle by it. What stays apart may free or crowd other edges.
-    const std::vector<char> crowdedBefore = onCrowdedEdges(mesh, same);
     bool changed = true;
     for (int round = 0; changed; ++round) {
       changed = false;
       for (std::uint32_t i = 0; i < count; ++i) become[i] = near[same[i]];
-      const std::vector<char> crowded = onCrowdedEdges(mesh, become);
+      const std::vector<char> crowded = onCrowdedEdges(mesh, same, become);
       for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t to = near[i];
-        const bool byTolerance = crowded[to] != 0 && (crowdedBefore[i] == 0 || crowdedBefore[to] == 0);
-        if (isFirst[i] == 0 || to == i || !(byTolerance || round == kRounds)) continue;
+        if (isFirst[i] == 0 || to == i || !(crowded[to] != 0 || round == kRounds)) continue;
         result.refused.add([&] { return findingAt(mesh, mesh.positions[i], {}, {i, to}); });
         near[i] = i;
         changed = true;

@@ -74,14 +74,18 @@ AuthoredNormals addAuthoredNormals(Mesh& mesh, double creaseDegrees) {
     if (isNew) stored.emplace_back(v, corner);
     leader[corner] = found->second;
   }
+  std::vector<char> named(mesh.positions.size(), 0);
+  for (const auto& [v, corner] : stored) named[v] = 1;
+  for (std::uint32_t v = 0; v < named.size(); ++v)
+    if (named[v] == 0) stored.emplace_back(v, kNoSource);
   std::sort(stored.begin(), stored.end());
   result.counts.added = stored.size() - mesh.positions.size();
   std::vector<std::uint32_t> from, vertexOf(normals.size(), 0);
   std::vector<glm::vec3> vertexNormals;
   for (const auto& [v, corner] : stored) {
-    vertexOf[corner] = static_cast<std::uint32_t>(from.size());
+    if (corner != kNoSource) vertexOf[corner] = static_cast<std::uint32_t>(from.size());
     from.push_back(v);
-    vertexNormals.push_back(normals[corner]);
+    vertexNormals.push_back(corner == kNoSource ? glm::vec3(0, 0, 1) : normals[corner]);
   }
   std::vector<glm::uvec3> triangles(mesh.triangles.size());
   for (std::uint32_t corner = 0; corner < normals.size(); ++corner)

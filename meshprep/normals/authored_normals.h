@@ -16,8 +16,8 @@ struct AuthoredNormals {
 };
 
 // mesh.cornerNormals must be there. Where a triangle was turned over (mesh.turned), its normals turn with it if all of
-// them would point to its back. Vertices keep their order, those of one
-// vertex by their first corners. Every vertex must have a triangle.
+// them would point to its back. Vertices keep their order, those of one vertex by their first corners; one of no
+// triangle stays, with any normal.
 AuthoredNormals addAuthoredNormals(Mesh& mesh, double creaseDegrees);
 
 }  // namespace malus::prep

@@ -83,6 +83,11 @@ NormalCounts addPieceNormals(Mesh& mesh, const IsSmooth& isSmooth) {
   std::vector<glm::vec3> normals;
   std::vector<std::uint32_t> sources;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    if (piecesOf[v].empty()) {  // of no triangle: it stays, with any normal
+      positions.push_back(mesh.positions[v]);
+      if (!mesh.sourceVertices.empty()) sources.push_back(mesh.sourceVertices[v]);
+      normals.emplace_back(0, 0, 1);
+    }
     for (const std::uint32_t piece : piecesOf[v]) {
       vertexOf[piece] = static_cast<std::uint32_t>(positions.size());
       positions.push_back(mesh.positions[v]);

@@ -26,7 +26,7 @@ using IsSmooth =
     std::function<bool(std::uint32_t a, std::uint32_t b, const glm::dvec3& normalA, const glm::dvec3& normalB)>;
 
 // Stores one vertex a piece: vertices in their order, a vertex's pieces by their first triangles. Triangles
-// keep their order. Every vertex must have a triangle.
+// keep their order. A vertex of no triangle stays, with any normal.
 NormalCounts addPieceNormals(Mesh& mesh, const IsSmooth& isSmooth);
 
 // Unit; zero for a triangle without area.

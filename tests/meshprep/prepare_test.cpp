@@ -224,6 +224,23 @@ TEST(Prepare, EveryStepCanBeLeftOut) {
   }
 }
 
+TEST(Prepare, AVertexOfNoFaceMayStay) {
+  Mesh mesh = test::cube();
+  mesh.positions.insert(mesh.positions.begin() + 3, glm::dvec3(1e6, 0, 0));
+  for (glm::uvec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) t[k] += t[k] >= 3 ? 1 : 0;
+  Options options;
+  options.steps.unreferenced = false;
+  options.weldRelative = 1e-7;  // of the cube, not of the vertex out there
+  Report report;
+  const Mesh cleaned = clean(mesh, options, report);
+  EXPECT_EQ(report.count("vertices-dropped-unreferenced"), 0u);
+  EXPECT_EQ(report.count("vertices-added-at-creases"), 16u);
+  ASSERT_EQ(cleaned.positions.size(), 25u);
+  EXPECT_EQ(std::count(cleaned.positions.begin(), cleaned.positions.end(), glm::dvec3(1e6, 0, 0)), 1);
+  ASSERT_EQ(cleaned.normals.size(), 25u);
+}
+
 TEST(Prepare, StlWeldsToTheSameTetrahedronAsPly) {
   const TemporaryFile stl(".stl", test::binaryStl(test::tetrahedronTriangles()));
   const TemporaryFile ply(".ply", test::binaryPly());

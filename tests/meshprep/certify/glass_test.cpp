@@ -142,6 +142,44 @@ TEST(GlassCertificate, ASheetNeedsItsOtherSide) {
   EXPECT_FALSE(certify(slab(false)).holds());  // no body
 }
 
+TEST(GlassCertificate, AFibreHasAnInside) {
+  Mesh fibre = cube();  // 10 micrometres thick, 100 m long
+  for (glm::dvec3& p : fibre.positions) p *= glm::dvec3(100, 1e-5, 1e-5);
+  EXPECT_TRUE(certify(fibre).holds());
+}
+
+// A cylinder with lids that are fans around a corner of their rim.
+Mesh cylinder(std::uint32_t sides) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double a = 2 * 3.14159265358979323846 * i / sides;
+    mesh.positions.emplace_back(std::cos(a), std::sin(a), 0);
+    mesh.positions.emplace_back(std::cos(a), std::sin(a), 1);
+  }
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % sides);
+    mesh.triangles.emplace_back(a, b, b + 1);
+    mesh.triangles.emplace_back(a, b + 1, a + 1);
+    if (i == 0 || i + 1 == sides) continue;
+    mesh.triangles.emplace_back(0, b, a);
+    mesh.triangles.emplace_back(1, a + 1, b + 1);
+  }
+  return mesh;
+}
+
+TEST(GlassCertificate, ManyTrianglesAroundACornerAreNotTooMany) { EXPECT_TRUE(certify(cylinder(1024)).holds()); }
+
+TEST(GlassCertificate, FacesThatCleaningMayNotTurnAreTold) {
+  Options options;
+  options.steps.orient = false;
+  EXPECT_TRUE(certify(cube(), options).holds());
+  Mesh mesh = cube();
+  std::swap(mesh.triangles[3].x, mesh.triangles[3].y);
+  EXPECT_TRUE(contains(problem(mesh, options), "1 face that looks the wrong way; first: "));
+  EXPECT_TRUE(contains(problem(turnedOver(cube()), options), "12 faces that look the wrong way; first: "));
+  EXPECT_TRUE(certify(mesh).holds());
+}
+
 TEST(GlassCertificate, TooManyOverlapsToTestAreNoCertificate) {
   // One long thin body for each direction through the same point.
   Mesh mesh;

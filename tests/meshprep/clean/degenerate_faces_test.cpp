@@ -14,8 +14,8 @@ TEST(DegenerateFaces, CountsBothKindsAndKeepsTheRestInOrder) {
   mesh.triangles = {{0, 1, 3}, {0, 0, 3}, {0, 1, 2}, {1, 2, 3}, {3, 1, 3}, {0, 4, 3}};
   mesh.sourceFaces = {10, 11, 12, 13, 14, 15};
   const DegenerateFaces counts = dropDegenerateFaces(mesh);
-  EXPECT_EQ(counts.zeroArea.first[0].faces, std::vector<std::uint32_t>{12});
-  EXPECT_EQ(counts.zeroArea.first[1].faces, std::vector<std::uint32_t>{15});
+  EXPECT_EQ(counts.zeroArea.first[0].faces, std::vector<std::uint32_t>{15});  // needles go first
+  EXPECT_EQ(counts.zeroArea.first[1].faces, std::vector<std::uint32_t>{12});
   EXPECT_EQ(mesh.sourceFaces, (std::vector<std::uint32_t>{10, 13}));
   EXPECT_EQ(counts.repeatedCorner.count, 2u);
   EXPECT_EQ(counts.zeroArea.count, 2u);
@@ -59,6 +59,13 @@ double signedVolume(const Mesh& mesh) {
   return volume;
 }
 
+void expectClosed(const Mesh& mesh) {
+  forEachEdge(edgeUses(mesh.triangles), [](std::span<const EdgeUse> edge) {
+    ASSERT_EQ(edge.size(), 2u);
+    EXPECT_NE(edge[0].forward, edge[1].forward);
+  });
+}
+
 TEST(DegenerateFaces, ASurfaceThatTheyCloseStaysClosed) {
   Mesh mesh = cubeWithFlatFaces();
   ASSERT_EQ(mesh.triangles.size(), 16u);
@@ -73,12 +80,78 @@ TEST(DegenerateFaces, ASurfaceThatTheyCloseStaysClosed) {
         0.1)
         << i;
   }
-  forEachEdge(edgeUses(mesh.triangles), [](std::span<const EdgeUse> edge) {
-    ASSERT_EQ(edge.size(), 2u);
-    EXPECT_NE(edge[0].forward, edge[1].forward);
-  });
+  expectClosed(mesh);
   EXPECT_NEAR(signedVolume(mesh), 1, 1e-12);
   EXPECT_EQ(dropDegenerateFaces(mesh).zeroArea.count, 0u);
+}
+
+// A cube whose edge 0-1 has `count` more vertices on it, closed by a fan of triangles without area from vertex 0.
+Mesh cubeWithFanOfFlats(std::uint32_t count) {
+  Mesh mesh = test::cube();
+  std::vector<std::uint32_t> line = {0};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    line.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+    mesh.positions.emplace_back((i + 1.0) / (count + 1), 0, 0);
+  }
+  line.push_back(1);
+  mesh.triangles[4] = {line[0], line[1], 5};
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    mesh.triangles.emplace_back(line[i], line[i + 1], 5);
+    mesh.triangles.emplace_back(0, line[i + 1], line[i]);
+  }
+  return mesh;
+}
+
+TEST(DegenerateFaces, ChainsOfThemAreWorkedOffFromTheirEnds) {
+  for (const std::uint32_t count : {1u, 2u, 16u, 300u}) {
+    Mesh mesh = cubeWithFanOfFlats(count);
+    expectClosed(mesh);
+    const DegenerateFaces result = dropDegenerateFaces(mesh);
+    EXPECT_EQ(result.zeroArea.count, count);
+    EXPECT_EQ(result.neighboursCut.count, count);
+    EXPECT_EQ(mesh.triangles.size(), 12 + 2 * count);
+    expectClosed(mesh);
+    EXPECT_NEAR(signedVolume(mesh), 1, 1e-12);
+    EXPECT_FALSE(dropDegenerateFaces(mesh).changed());
+  }
+}
+
+TEST(DegenerateFaces, ANeedleGoesWithItsShortEdge) {
+  // One corner of a tetrahedron split in two, closer than any rounding shows: two needles, and a face each.
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1e-13, 0, 0}};
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 1, 3}, {1, 2, 3}, {0, 1, 4}, {0, 4, 3}};
+  expectClosed(mesh);
+  const DegenerateFaces result = dropDegenerateFaces(mesh);
+  EXPECT_EQ(result.edgesCollapsed.count, 1u);
+  EXPECT_EQ(result.edgesCollapsed.first[0].vertices, (std::vector<std::uint32_t>{0, 4}));
+  EXPECT_EQ(result.zeroArea.count, 2u);
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  expectClosed(mesh);
+  EXPECT_NEAR(signedVolume(mesh), 1.0 / 6, 1e-12);
+}
+
+TEST(DegenerateFaces, WhatIsKnownOfCornersStaysWithThem) {
+  Mesh mesh = cubeWithFlatFaces();
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) mesh.sourceVertices.push_back(100 + v);
+  for (const glm::uvec3& t : mesh.triangles) mesh.sourceCorners.push_back(t + 100u);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      mesh.cornerNormals.emplace_back(static_cast<float>(mesh.triangles[i][k] + 1), 0.0f, 0.0f);
+  dropDegenerateFaces(mesh);
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(mesh.sourceCorners[i][k], mesh.triangles[i][k] + 100);
+      const glm::vec3& normal = mesh.cornerNormals[3 * i + static_cast<std::size_t>(k)];
+      if (normal == glm::vec3(0)) {
+        ++open;
+        EXPECT_GE(mesh.triangles[i][k], 8u);  // a corner that the cut made
+      } else {
+        EXPECT_EQ(normal.x, static_cast<float>(mesh.triangles[i][k] + 1));
+      }
+    }
+  EXPECT_EQ(open, 4u);
 }
 
 }  // namespace

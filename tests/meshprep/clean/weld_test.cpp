@@ -28,7 +28,8 @@ TEST(Weld, NegativeZeroIsZero) {
 
 TEST(Weld, TheNextDoubleIsAnotherPlace) {
   Mesh mesh;
-  mesh.positions = {{1, 0, 0}, {std::nextafter(1.0, 2.0), 0, 0}};
+  mesh.positions = {{1, 0, 0}, {std::nextafter(1.0, 2.0), 0, 0}, {5, 0, 0}, {5, 5, 0}};
+  mesh.triangles = {{0, 2, 3}, {1, 3, 2}};
   EXPECT_EQ(weld(mesh, 0).joined.count, 0u);
   EXPECT_EQ(weld(mesh, 1e-12).joined.count, 1u);
 }
@@ -36,7 +37,7 @@ TEST(Weld, TheNextDoubleIsAnotherPlace) {
 TEST(Weld, ToleranceReachesAcrossCellsAndTakesTheNearest) {
   Mesh mesh;
   mesh.positions = {{0.99, 0, 0}, {2.2, 0, 0}, {1.8, 0, 0}, {-1e-9, -1e-9, -1e-9}, {1e-9, 1e-9, 1e-9}};
-  mesh.triangles = {{2, 3, 4}};
+  mesh.triangles = {{2, 3, 4}, {0, 1, 3}};
   EXPECT_EQ(weld(mesh, 0.98).joined.count, 2u);
   // The third joined the second (0.4 away), not the first (0.81 away); the last two met over a cell's corner.
   EXPECT_EQ(mesh.positions.size(), 3u);
@@ -46,13 +47,15 @@ TEST(Weld, ToleranceReachesAcrossCellsAndTakesTheNearest) {
 TEST(Weld, ChainsDoNotCollapse) {
   Mesh mesh;
   for (int i = 0; i < 11; ++i) mesh.positions.emplace_back(i * 0.6, 0, 0);
+  for (std::uint32_t i = 0; i + 2 < 11; ++i) mesh.triangles.emplace_back(i, i + 1, i + 2);
   EXPECT_EQ(weld(mesh, 1.0).joined.count, 5u);
   for (std::size_t i = 1; i < mesh.positions.size(); ++i) EXPECT_GT(mesh.positions[i].x - mesh.positions[i - 1].x, 1.0);
 }
 
 TEST(Weld, RefusesAToleranceBelowTheRoundingOfCoordinates) {
   Mesh mesh;
-  mesh.positions = {{1e10, 0, 0}};
+  mesh.positions = {{1e10, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 1, 2}};
   EXPECT_TRUE(test::contains(errorOf([&] { weld(mesh, 1e-9); }), "too small"));
 }
 
@@ -86,6 +89,35 @@ TEST(Weld, RefusesOnlyWhereItMust) {
   EXPECT_EQ(result.refused.count, 2u);
   EXPECT_EQ(result.joined.count, 2u);
   EXPECT_EQ(mesh.positions.size(), 12u);
+}
+
+TEST(Weld, ACopyOfASurfaceIsNoThirdTriangle) {
+  // Another cube in the same place up to a nanometre: every edge would have four triangles, two of them copies.
+  Mesh mesh = test::joined(test::cube(), test::cube(1, glm::dvec3(1e-9)));
+  const Weld result = weld(mesh, 1e-6);
+  EXPECT_EQ(result.joined.count, 8u);
+  EXPECT_EQ(result.refused.count, 0u);
+  EXPECT_EQ(mesh.positions, test::cube().positions);
+}
+
+TEST(Weld, AnEdgeThatWasCrowdedBeforeIsNoReasonToRefuse) {
+  // Three leaves of a book meet in an edge as they are; the tolerance closes a seam in one of them.
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0},   {1, 0, 0},      {0.5, 1, 0}, {0.5, -1, 0},
+                    {0.5, 0, 1}, {0.5, 1, 1e-9}, {2, 2, 0},   {1, 1e-9, 0}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {5, 7, 6}};
+  const Weld result = weld(mesh, 1e-6);
+  EXPECT_EQ(result.joined.count, 2u);
+  EXPECT_EQ(result.refused.count, 0u);
+}
+
+TEST(Weld, WhatNoFaceNamesPullsNothingToIt) {
+  Mesh mesh = test::joined({}, test::cube());
+  mesh.positions.insert(mesh.positions.begin(), glm::dvec3(1e-9, 0, 0));
+  for (glm::uvec3& t : mesh.triangles) t += 1u;
+  EXPECT_EQ(weld(mesh, 1e-6).joined.count, 0u);
+  EXPECT_EQ(mesh.positions[1], glm::dvec3(0));
+  EXPECT_EQ(mesh.positions.size(), 9u);
 }
 
 TEST(Weld, CleanMeshIsUntouched) {

@@ -99,7 +99,8 @@ class Splitter {
   }
 
   std::vector<Pair> pairsOf(std::span<const EdgeUse> edge) const {
-    // Step 1: in the order around the edge; of those at the same angle, first what closes.
+    // Step 1: in the order around the edge; of those at the same angle, first what closes, and inside of the others
+    // the one of the smallest apex: so the halves of a cut edge, whichever way they run, are paired as each other.
     std::vector<double> angles = anglesAround(edge);
     std::vector<std::size_t> order(edge.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -107,8 +108,14 @@ class Splitter {
               [&](std::size_t a, std::size_t b) { return angles[a] != angles[b] ? angles[a] < angles[b] : a < b; });
     for (std::size_t i = 1; i < order.size(); ++i)
       if (angles[order[i]] - angles[order[i - 1]] <= kSameAngle) angles[order[i]] = angles[order[i - 1]];
+    const auto inner = [&](std::size_t a, std::size_t b) {
+      const glm::dvec3 &p = mesh_.positions[apexOf(edge[a])], &q = mesh_.positions[apexOf(edge[b])];
+      return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+    };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return angles[a] != angles[b] ? angles[a] < angles[b] : edge[a].forward && !edge[b].forward;
+      if (angles[a] != angles[b]) return angles[a] < angles[b];
+      if (edge[a].forward != edge[b].forward) return edge[a].forward;
+      return edge[a].forward ? inner(a, b) : inner(b, a);
     });
 
     // Step 2: first within a part, then among all that are left.

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "meshprep/base/error.h"
+#include "meshprep/clean/degenerate_faces.h"
 #include "meshprep/clean/edges.h"
 #include "meshprep/clean/places.h"
 #include "meshprep/clean/select.h"
@@ -126,7 +127,10 @@ FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t 
       } catch (const Error&) {  // more corners than triangulate() takes
         simple = false;
       }
-    const bool free = simple && counts.crossing == 0 && counts.repeatedCorners == 0 && isFree(loop, lid);
+    const bool flat = std::any_of(lid.triangles.begin(), lid.triangles.end(), [&](const glm::uvec3& t) {
+      return isWithoutArea(lid.positions[t.x], lid.positions[t.y], lid.positions[t.z]);
+    });
+    const bool free = simple && counts.crossing == 0 && counts.repeatedCorners == 0 && !flat && isFree(loop, lid);
     if (!free) {
       result.left.add([&] { return describeHole(mesh, loop, loop.size() > maxEdges ? "" : ", cannot be filled"); });
       continue;

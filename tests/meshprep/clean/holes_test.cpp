@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meshprep/clean/degenerate_faces.h"
 #include "meshprep/clean/edges.h"
 #include "meshprep/clean/orient.h"
 #include "tests/meshprep/shapes.h"
@@ -40,6 +41,31 @@ TEST(Holes, FillingClosesWhatItIsAskedFor) {
   const OrientResult sides = orient(mesh, false);
   EXPECT_EQ(sides.flipped.count, 0u);  // the lid has the side of the rest
   EXPECT_NEAR(sides.components[0].signedVolume, 1, 1e-12);
+}
+
+TEST(Holes, ALidHasNoTriangleWithoutArea) {
+  // A cube without its side at y = 0, whose rim has more corners along the edge 0-1: the lid is made of good triangles.
+  Mesh mesh = test::cube();
+  mesh.triangles.erase(mesh.triangles.begin() + 4, mesh.triangles.begin() + 6);
+  mesh.positions.emplace_back(0.25, 0, 0);  // 8
+  mesh.positions.emplace_back(0.5, 0, 0);   // 9
+  mesh.triangles[1] = {0, 3, 8};            // was {0, 3, 1}
+  mesh.triangles.emplace_back(8, 3, 9);
+  mesh.triangles.emplace_back(9, 3, 1);
+  const FilledHoles filled = fillHoles(mesh, findHoles(mesh), 100);
+  EXPECT_EQ(filled.filled.count, 1u);
+  EXPECT_TRUE(findHoles(mesh).empty());
+  for (const glm::uvec3& t : mesh.triangles)
+    EXPECT_FALSE(isWithoutArea(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]));
+
+  // A slit along a line has no area to fill.
+  Mesh slit = test::cube();
+  slit.positions.emplace_back(0.5, 0, 0);
+  slit.triangles[1] = {0, 3, 8};
+  slit.triangles.emplace_back(8, 3, 1);
+  const FilledHoles left = fillHoles(slit, findHoles(slit), 100);
+  EXPECT_EQ(left.filled.count, 0u);
+  EXPECT_EQ(left.left.count, 1u);
 }
 
 TEST(Holes, TwoHolesAreTwoLoops) {

@@ -1,4 +1,5 @@
-// The mesh readers and the cleaning behind them; MALUS_EXTENSION names the format.
+// The mesh readers, the cleaning behind them and the certificate, which looks for intersections; MALUS_EXTENSION names
+// the format.
 #include "meshprep/base/error.h"
 #include "meshprep/prepare.h"
 #include "tests/fuzz/target.h"
@@ -6,8 +7,10 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
+    malus::prep::Options options;
+    options.certifyGlass = true;
     malus::prep::Report report;
-    malus::prep::prepare(writeTemporary(data, size, MALUS_EXTENSION), {}, report);
+    malus::prep::prepare(writeTemporary(data, size, MALUS_EXTENSION), options, report);
   } catch (const malus::Error&) {
   }
   return 0;

@@ -25,7 +25,7 @@ class Compare : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     Start start;
     start.environment = {{"MALUS_DEVICE", "llvmpipe"}};
-    start.timeoutSeconds = 110;
+    start.timeoutSeconds = 540;
     return malus(arguments, start);
   }
   json results() const { return json::parse(textOf(report() + "/results.json")); }

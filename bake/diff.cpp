@@ -39,7 +39,8 @@ json keyed(const json& value) {
 // Leaves by their place.
 void flatten(const json& value, const std::string& where, std::map<std::string, json>& leaves) {
   if (value.is_object() && !value.empty()) {
-    for (const auto& [key, item] : value.items()) flatten(item, where.empty() ? key : where + "." + key, leaves);
+    for (const auto& [key, item] : value.items())
+      flatten(item, where.empty() ? key : fmt::format("{}.{}", where, key), leaves);
   } else {
     leaves[where] = value;
   }

@@ -25,7 +25,7 @@ class Compare : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     Start start;
     start.environment = {{"MALUS_DEVICE", "llvmpipe"}};
-    start.timeoutSeconds = 540;
+    start.timeoutSeconds = 1500;
     return malus(arguments, start);
   }
   json results() const { return json::parse(textOf(report() + "/results.json")); }

@@ -89,7 +89,7 @@ json unpack(const pack::Pack& pack, const fs::path& folder) {
   if (!scene.textures.empty()) fs::create_directories(folder / "textures", failed);
   for (std::size_t i = 0; i < scene.textures.size(); ++i) writeTexture(scene.textures[i], folder / textureFile(i));
   if (scene.environment.size > 0) writeEnvironment(scene.environment, folder / kEnvironmentFile);
-  const json document = sceneJson(pack);
+  json document = sceneJson(pack);
   writeFile(folder / "scene.json", document.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
   return document;
 }

@@ -135,6 +135,7 @@ void addPrepCommand(CLI::App& app) {
   prep->add_option("--report", arguments->reportFile, "Also write the report as JSON")->type_name("FILE");
   prep->add_flag("--json", arguments->json, "Print the report as JSON");
   std::vector<std::string> steps;
+  steps.reserve(kCleaningSteps.size() + 2);
   for (const auto& [name, step] : kCleaningSteps) steps.emplace_back(name);
   steps.emplace_back(kJunctions);
   steps.emplace_back(kIntersections);

@@ -139,7 +139,8 @@ void addPrepCommand(CLI::App& app) {
   for (const auto& [name, step] : kCleaningSteps) steps.emplace_back(name);
   steps.emplace_back(kJunctions);
   steps.emplace_back(kIntersections);
-  prep->add_option("--skip", arguments->skipped, fmt::format("Steps to leave out: {}", fmt::join(steps, ", ")))
+  prep->add_option("--skip", arguments->skipped,
+                   fmt::format("Steps to leave out: {}; without degenerate there are no fans", fmt::join(steps, ", ")))
       ->delimiter(',')
       ->check(CLI::IsMember(steps))
       ->type_name("STEP,...");

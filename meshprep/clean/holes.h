@@ -20,8 +20,7 @@ Findings describeHoles(const Mesh& mesh, const std::vector<Loop>& loops);
 
 struct FilledHoles {
   Findings filled;
-  Findings
-      left;  // longer than asked for, crossing themselves, along a line, or on a face or over an edge that is there
+  Findings left;  // too long, crossing themselves, along a line, or on a face or over an edge that is there already
 };
 
 // Fills those of at most maxEdges edges. Triangles are added at the end, as if cut from a face beside the hole.

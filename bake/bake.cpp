@@ -12,12 +12,12 @@
 
 #include "bake/effects/effects.h"
 #include "bake/environment/octahedral_map.h"
-#include "bake/image/image.h"
 #include "bake/meshes/meshes.h"
 #include "bake/pack/format.h"
 #include "bake/textures/texture.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/image.h"
 #include "meshprep/read/source_scene.h"
 
 namespace malus::bake {
@@ -147,7 +147,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     scene.lights.push_back({light.position - scene.origin, light.intensity});
 
   // Light from infinity.
-  scene.environment.diffuseFill = d.diffuseFill;
+  scene.environment.ambientIrradiance = d.ambientIrradiance;
   if (d.environmentImage.empty()) {
     bakeConstantEnvironment(d.environmentRadiance, scene.environment);
     if (d.sun != glm::dvec3(0.0)) bakeRayleighIrradiance(d.sun, scene.environment);

@@ -28,8 +28,8 @@ json materialJson(const pack::Material& m) {
   result["roughness"] = m.roughness;
   result["axis"] = vectorJson(m.axis);
   result["polarization"] = m.polarization;
-  result["along"] = vectorJson(m.along);
-  result["across"] = vectorJson(m.across);
+  result["along"] = vectorJson(m.transmittanceParallel);
+  result["across"] = vectorJson(m.transmittanceCrossed);
   result["retardanceDegrees"] = vectorJson(m.retardanceDegrees);
   result["maps"] = {{"albedo", map(m.maps.albedo)},        {"eta", map(m.maps.eta)},    {"k", map(m.maps.k)},
                     {"origin", vectorJson(m.maps.origin)}, {"u", vectorJson(m.maps.u)}, {"v", vectorJson(m.maps.v)}};
@@ -72,7 +72,7 @@ json sceneJson(const pack::Pack& pack) {
     textures.push_back({{"name", scene.textures[i].name}, {"file", textureFile(i)}});
 
   const pack::Environment& e = scene.environment;
-  json environment = {{"diffuseFill", e.diffuseFill}, {"irradiance", json::array()}};
+  json environment = {{"diffuseFill", e.ambientIrradiance}, {"irradiance", json::array()}};
   for (const glm::dvec3& c : e.irradiance) environment["irradiance"].push_back(vectorJson(c));
   if (e.hasSun()) environment["sky"] = {{"sun", vectorJson(e.sun)}, {"maxDegree", e.skyDegree}};
   if (e.size == 0) {

@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "bake/image/image.h"
 #include "bake/scene_json.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/image.h"
 
 namespace malus::bake {
 using nlohmann::json;

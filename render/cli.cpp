@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bake/image/image.h"
 #include "bake/pack/format.h"
 #include "bake/pack/reader.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/image.h"
 #include "render/compare/cheapest_method.h"
 #include "render/compare/image_difference.h"
 #include "render/embree/renderer.h"
@@ -136,9 +136,9 @@ void checkUsage(const RenderArguments& a) {
   if (a.maxError && a.backend == "reference") fail("--max-error", "the reference has no error");
   if (a.tolerance > 0 && a.maxError) fail("--tolerance", "excludes --max-error");
   if (a.intensity && a.stokes) fail("--intensity", "excludes --stokes");
-  if (a.tolerance > 0 && (a.backend == "reference" || !methodNamed(a.method).isLoop))
-    fail("--tolerance", fmt::format("needs a method that follows the eye's path (importance, fresnel-loop, "
-                                    "schlick-loop), not {}",
+  if (a.tolerance > 0 && (a.backend == "reference" || !methodNamed(a.method).isIterative))
+    fail("--tolerance", fmt::format("needs a method that follows the eye's path (importance, fresnel-iterative, "
+                                    "schlick-iterative), not {}",
                                     a.backend == "reference" ? "the reference" : a.method));
   if (a.stokes && !a.maxError) requireStokes(a, "--stokes");
   if (a.intensity && (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty()))
@@ -160,40 +160,41 @@ void requireStokes(const RenderSettings& a, const std::string& option) {
                   a.method, able));
 }
 
-View viewFor(const RenderSettings& a, const pack::Scene& scene) {
-  View view = viewOf(scene);
+RenderParameters parametersFor(const RenderSettings& a, const pack::Scene& scene) {
+  RenderParameters parameters = defaultParameters(scene);
   const double aspect = static_cast<double>(scene.width) / scene.height;
-  if (a.width > 0) view.width = a.width;
-  if (a.height > 0) view.height = a.height;
+  if (a.width > 0) parameters.width = a.width;
+  if (a.height > 0) parameters.height = a.height;
   if (a.width > 0 && a.height == 0)
-    view.height = std::max(1u, static_cast<std::uint32_t>(std::lround(a.width / aspect)));
+    parameters.height = std::max(1u, static_cast<std::uint32_t>(std::lround(a.width / aspect)));
   if (a.height > 0 && a.width == 0)
-    view.width = std::max(1u, static_cast<std::uint32_t>(std::lround(a.height * aspect)));
-  if (view.width > pack::kMaxResolution || view.height > pack::kMaxResolution)
+    parameters.width = std::max(1u, static_cast<std::uint32_t>(std::lround(a.height * aspect)));
+  if (parameters.width > pack::kMaxResolution || parameters.height > pack::kMaxResolution)
     throw Error("--width, --height", "make a picture that is too large",
                 fmt::format("at most {} a side", pack::kMaxResolution),
-                fmt::format("{} x {}", view.width, view.height));
-  view.region = {0, 0, view.width, view.height};
+                fmt::format("{} x {}", parameters.width, parameters.height));
+  parameters.region = {0, 0, parameters.width, parameters.height};
   if (!a.region.empty()) {
-    view.region = {a.region[0], a.region[1], a.region[2], a.region[3]};
-    const Region& r = view.region;
-    if (r.width == 0 || r.height == 0 || r.x >= view.width || r.y >= view.height || r.width > view.width - r.x ||
-        r.height > view.height - r.y)
+    parameters.region = {a.region[0], a.region[1], a.region[2], a.region[3]};
+    const Region& r = parameters.region;
+    if (r.width == 0 || r.height == 0 || r.x >= parameters.width || r.y >= parameters.height ||
+        r.width > parameters.width - r.x || r.height > parameters.height - r.y)
       throw Error("--region", "does not lie in the picture",
-                  fmt::format("x y width height within {} x {}", view.width, view.height),
+                  fmt::format("x y width height within {} x {}", parameters.width, parameters.height),
                   fmt::format("{} {} {} {}", r.x, r.y, r.width, r.height));
   }
-  view.samples = a.samples;
-  if (a.depth) view.depth = *a.depth;
-  return view;
+  parameters.samples = a.samples;
+  if (a.depth) parameters.depth = *a.depth;
+  return parameters;
 }
 
-Picture renderScene(const RenderSettings& a, const pack::Scene& scene, const View& view, bool countRays) {
-  if (a.backend == "reference") return reference::render(scene, view, a.threads);
-  if (a.backend == "embree") return embree::Renderer(scene, a.threads).render(a.method, view);
+Picture renderScene(const RenderSettings& a, const pack::Scene& scene, const RenderParameters& parameters,
+                    bool countRays) {
+  if (a.backend == "reference") return reference::render(scene, parameters, a.threads);
+  if (a.backend == "embree") return embree::Renderer(scene, a.threads).render(a.method, parameters);
   vulkan::Renderer renderer(scene, {a.device, a.threads});
-  Picture picture = renderer.render(a.method, view);
-  if (countRays) picture.cost.rays = renderer.countRays(a.method, view);
+  Picture picture = renderer.render(a.method, parameters);
+  if (countRays) picture.cost.rays = renderer.countRays(a.method, parameters);
   return picture;
 }
 
@@ -210,28 +211,28 @@ Picture intensityOf(Picture picture) {
 }
 
 // What of the picture is asked for: its Stokes vectors where a file holds them.
-bake::PictureRequest requestOf(const RenderArguments& a, const View& view) {
-  const bool stokesFile = !a.intensity && (a.backend == "reference" || hasStokes(methodNamed(a.method), view)) &&
+bake::PictureRequest requestOf(const RenderArguments& a, const RenderParameters& parameters) {
+  const bool stokesFile = !a.intensity && (a.backend == "reference" || hasStokes(methodNamed(a.method), parameters)) &&
                           std::any_of(a.outputs.begin(), a.outputs.end(),
                                       [](const std::string& output) { return endsWith(output, {".exr"}); });
-  bake::PictureRequest request{view.depth, view.analyser, false, false};
+  bake::PictureRequest request{parameters.depth, parameters.analyser, false, false};
   request.linearStokes = stokesFile || !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
   request.circularStokes = stokesFile;
   return request;
 }
 
 // Method, view and scene for the effects that are asked for; says what it took instead, and warns of what is missing.
-pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, View& view) {
+pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, RenderParameters& parameters) {
   std::vector<std::string> effects;
   for (std::size_t at = 0; at <= a.effects.size();) {
     const std::size_t comma = std::min(a.effects.find(',', at), a.effects.size());
     effects.push_back(a.effects.substr(at, comma - at));
     at = comma + 1;
   }
-  view.everyEffect = a.effects == "all";
+  parameters.everyEffect = a.effects == "all";
   // The reference carries everything, always.
   const EffectsChoice choice =
-      chooseEffects(effects, a.backend == "reference" ? "stokes" : a.method, scene, requestOf(a, view));
+      chooseEffects(effects, a.backend == "reference" ? "stokes" : a.method, scene, requestOf(a, parameters));
   // The reference keeps its polarized light whatever is left out.
   for (const std::string& warning : choice.warnings)
     if (a.backend != "reference" || warning.find("-polarization") == std::string::npos) console::warn(warning);
@@ -242,14 +243,14 @@ pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, View& vie
   const auto isOff = [&](const char* name) {
     return std::find(choice.off.begin(), choice.off.end(), name) != choice.off.end();
   };
-  if (isOff("shadows")) view.shadows = false;
-  if (isOff("filter")) view.analyser = kNoFilter;
+  if (isOff("shadows")) parameters.shadows = false;
+  if (isOff("filter")) parameters.analyser = kNoFilter;
   return choice.off.empty() ? scene : bake::withoutEffects(scene, choice.off);
 }
 
 // The cheapest method that is good enough, and why, for a person.
-std::string chooseMethod(const RenderArguments& a, const pack::Pack& pack, const View& view) {
-  const bool needsStokes = view.stokes;
+std::string chooseMethod(const RenderArguments& a, const pack::Pack& pack, const RenderParameters& parameters) {
+  const bool needsStokes = parameters.stokes;
   std::unique_ptr<vulkan::Renderer> vulkan;
   std::unique_ptr<embree::Renderer> embree;
   if (a.backend == "vulkan")
@@ -257,8 +258,8 @@ std::string chooseMethod(const RenderArguments& a, const pack::Pack& pack, const
   else
     embree = std::make_unique<embree::Renderer>(pack.scene, a.threads);
   std::vector<MethodEstimate> estimates = estimateMethods(
-      pack, view, a.backend + " " + (vulkan ? vulkan->device() : embree->device()),
-      [&](const std::string& method, const View& small) {
+      pack, parameters, a.backend + " " + (vulkan ? vulkan->device() : embree->device()),
+      [&](const std::string& method, const RenderParameters& small) {
         return vulkan ? vulkan->render(method, small) : embree->render(method, small);
       },
       a.threads, console::progress);
@@ -276,26 +277,26 @@ void runRender(RenderArguments a) {
     if (const auto e = std::filesystem::path(output).extension(); e != ".exr" && e != ".png")
       throw Error(output, "unknown kind of picture", ".exr or .png", e.empty() ? "no extension" : e.string());
   const pack::Pack pack = pack::read(a.input);
-  View view = viewFor(a, pack.scene);
-  view.analyser = analyserFor(a);
-  if (!a.mosaic.empty() && (view.region.width % 2 != 0 || view.region.height % 2 != 0))
-    throw CLI::ValidationError(
-        "--mosaic", fmt::format("needs an even width and height (--width, --height), not {} x {}", view.region.width,
-                                view.region.height));
-  view.tolerance = a.tolerance;
-  view.stokes = a.stokes || !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
-  if (a.maxError) a.method = chooseMethod(a, pack, view);
-  warnOfMissingLight(a, view.analyser);
-  const pack::Scene scene = applyEffects(a, pack.scene, view);
+  RenderParameters parameters = parametersFor(a, pack.scene);
+  parameters.analyser = analyserFor(a);
+  if (!a.mosaic.empty() && (parameters.region.width % 2 != 0 || parameters.region.height % 2 != 0))
+    throw CLI::ValidationError("--mosaic",
+                               fmt::format("needs an even width and height (--width, --height), not {} x {}",
+                                           parameters.region.width, parameters.region.height));
+  parameters.tolerance = a.tolerance;
+  parameters.stokes = a.stokes || !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
+  if (a.maxError) a.method = chooseMethod(a, pack, parameters);
+  warnOfMissingLight(a, parameters.analyser);
+  const pack::Scene scene = applyEffects(a, pack.scene, parameters);
   if (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty())
     requireStokes(a, !a.mosaic.empty() ? "--mosaic" : a.dolp.empty() ? "--output-aolp" : "--output-dolp");
   console::progress(
       fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, a.backend == "reference" ? "" : a.method));
-  view.checkNumerics = a.checkNumerics;
-  const Picture picture = renderScene(a, scene, view, a.countRays);
+  parameters.checkNumerics = a.checkNumerics;
+  const Picture picture = renderScene(a, scene, parameters, a.countRays);
   if (picture.faults.count > 0) throw Error(a.input, describe(picture.faults, pack.scene));
   const std::string method = a.backend == "reference" ? "reference" : a.method;
-  const image::Image image = toImage(a.intensity ? intensityOf(picture) : picture, pack, view, a.backend, method);
+  const image::Image image = toImage(a.intensity ? intensityOf(picture) : picture, pack, parameters, a.backend, method);
   const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
   std::vector<std::string> written;
   const auto write = [&](const std::string& output, const auto& writer) {
@@ -320,8 +321,8 @@ void runRender(RenderArguments a) {
                                    {"device", picture.device},
                                    {"width", picture.width},
                                    {"height", picture.height},
-                                   {"depth", view.depth},
-                                   {"samples", view.samples},
+                                   {"depth", parameters.depth},
+                                   {"samples", parameters.samples},
                                    {"rays", cost.rays == 0 ? nlohmann::json() : nlohmann::json(cost.rays)},
                                    {"buildMs", cost.buildMs},
                                    {"traceMs", cost.traceMs},
@@ -333,8 +334,8 @@ void runRender(RenderArguments a) {
     fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("{}: {} {}{}, {} x {}, depth {}, {}{:.1f} ms on {}{}\n", pack.scene.name, a.backend, method,
-               a.inPlaceOf.empty() ? "" : fmt::format(" ({})", a.inPlaceOf), picture.width, picture.height, view.depth,
-               cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs, picture.device,
+               a.inPlaceOf.empty() ? "" : fmt::format(" ({})", a.inPlaceOf), picture.width, picture.height,
+               parameters.depth, cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs, picture.device,
                a.checkNumerics ? "; every value is finite and physical" : "");
   }
 }

@@ -15,7 +15,7 @@
 
 #include "bake/pack/scene.h"
 #include "render/scene/picture.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 namespace malus::render {
 
@@ -36,9 +36,10 @@ CLI::Option* addExposure(CLI::App& command, std::optional<double>& exposure, con
 // Throws CLI::ValidationError that names `option` and what is able, where pictures have no Stokes channels.
 void requireStokes(const RenderSettings& settings, const std::string& option);
 // The view without a filter. Throws Error for a size or a region that the scene does not allow.
-View viewFor(const RenderSettings& settings, const pack::Scene& scene);
+RenderParameters parametersFor(const RenderSettings& settings, const pack::Scene& scene);
 // countRays: Vulkan traces once more, untimed, to count them.
-Picture renderScene(const RenderSettings& settings, const pack::Scene& scene, const View& view, bool countRays);
+Picture renderScene(const RenderSettings& settings, const pack::Scene& scene, const RenderParameters& parameters,
+                    bool countRays);
 
 // Thrown by compare-images where the pictures differ by more than --fail-over: exit code 3.
 struct PicturesDiffer {};

@@ -72,13 +72,13 @@ image::Image behind(const Analyser& analyser, const Picture& picture) {
 void runSweep(const SweepArguments& a) {
   requireStokes(a, "--method");
   const pack::Pack pack = pack::read(a.input);
-  View view = viewFor(a, pack.scene);
-  view.stokes = true;
+  RenderParameters parameters = parametersFor(a, pack.scene);
+  parameters.stokes = true;
   const fs::path folder = a.folder;
   const OutputFolder made(folder);
   const std::string method = a.backend == "reference" ? "reference" : a.method;
   console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, method));
-  const Picture picture = renderScene(a, pack.scene, view, false);
+  const Picture picture = renderScene(a, pack.scene, parameters, false);
   const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
 
   const fs::path list = folder / "sweep.json";
@@ -94,10 +94,11 @@ void runSweep(const SweepArguments& a) {
     writePicture(folder / nameOf(i), behind(linearPolarizer(degrees), picture), exposureEv);
     frames.push_back({{"file", nameOf(i)}, {"degrees", degrees}});
   }
-  const nlohmann::json result = {{"scene", pack.scene.name}, {"renderer", a.backend},   {"method", method},
-                                 {"device", picture.device}, {"width", picture.width},  {"height", picture.height},
-                                 {"depth", view.depth},      {"samples", view.samples}, {"exposureEv", exposureEv},
-                                 {"frames", frames}};
+  const nlohmann::json result = {{"scene", pack.scene.name},  {"renderer", a.backend},
+                                 {"method", method},          {"device", picture.device},
+                                 {"width", picture.width},    {"height", picture.height},
+                                 {"depth", parameters.depth}, {"samples", parameters.samples},
+                                 {"exposureEv", exposureEv},  {"frames", frames}};
   const std::string text = result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   writeFile(list, text);
   console::progressDone();

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "bake/effects/mutual_sight.h"
+#include "bake/effects/mutual_visibility.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::bake {
@@ -86,7 +86,7 @@ std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, doubl
   }
   if (faces.empty()) return 0;
   const double flat = flatness(scene);
-  if (!interfacesSeeEachOther(scene)) depth = std::min(depth, 1u);
+  if (!interfacesMutuallyVisible(scene)) depth = std::min(depth, 1u);
 
   // Step 1: from the eye. Step 2: bounce by bounce, the best way to every face.
   const std::size_t count = faces.size();

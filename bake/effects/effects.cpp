@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "bake/effects/mutual_sight.h"
+#include "bake/effects/mutual_visibility.h"
 #include "meshprep/base/error.h"
 
 namespace malus::bake {
@@ -21,7 +21,9 @@ bool positive(const glm::dvec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 
 bool isInterface(const Material& m) { return m.kind != MaterialKind::lambert && m.kind != MaterialKind::emitter; }
 
-bool isSheet(const Material& m) { return m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate; }
+bool isPolarizingElement(const Material& m) {
+  return m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate;
+}
 
 bool isCoated(const Material& m) { return m.coating.thicknessNm > 0; }
 
@@ -84,9 +86,9 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
   addFor("transmission", glass, "clear glass");
   addFor("absorption", namesWhere(scene, absorbs), "material with an absorbing medium");
   const bool coated = addFor("coatings", namesWhere(scene, isCoated), "material with a thin film");
-  addFor("polarizing-sheets", namesWhere(scene, isSheet), "polarizer or wave plate");
+  addFor("polarizing-sheets", namesWhere(scene, isPolarizingElement), "polarizer or wave plate");
   const bool plates = !namesWhere(scene, [](const Material& m) {
-                         return isSheet(m) && m.retardanceDegrees != glm::dvec3(0.0);
+                         return isPolarizingElement(m) && m.retardanceDegrees != glm::dvec3(0.0);
                        }).empty();
   const std::string rough = namesWhere(scene, [](const Material& m) { return m.roughness > 0; });
   if (deep)
@@ -108,7 +110,7 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
       diffuse && !namesWhere(scene, [](const Material& m) { return isInterface(m) && positive(m.albedo); }).empty();
   // Diattenuators on one path: the filter, interactions, light that leaves a painted surface. Interfaces that cannot
   // see each other stand on no path together.
-  const bool several = !interfaces.empty() && interfacesSeeEachOther(scene);
+  const bool several = !interfaces.empty() && interfacesMutuallyVisible(scene);
   const std::uint32_t interactions = interfaces.empty() ? 0 : several ? depth : std::min(depth, 1u);
   // Sources that are polarized themselves end any path.
   const std::string displays = namesWhere(scene, [](const Material& m) {
@@ -227,8 +229,8 @@ pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& of
     if (isOff("coatings")) m.coating = {};
     if (isOff("rough-reflection")) m.roughness = 0;
     if (isOff("polarized-emitters") && m.kind == MaterialKind::emitter) m.polarization = 0;
-    if (isOff("polarizing-sheets") && isSheet(m)) {  // grey ones
-      m.along = m.across = (m.along + m.across) * 0.5;
+    if (isOff("polarizing-sheets") && isPolarizingElement(m)) {  // grey ones
+      m.transmittanceParallel = m.transmittanceCrossed = (m.transmittanceParallel + m.transmittanceCrossed) * 0.5;
       m.retardanceDegrees = glm::dvec3(0.0);
     }
   }

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "bake/effects/mutual_sight.h"
+#include "bake/effects/mutual_visibility.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::bake {
@@ -28,7 +28,8 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
       result.source = std::max(result.source, m.polarization);
     if (m.kind == MaterialKind::lambert || m.kind == MaterialKind::emitter) continue;
     if (m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate) {
-      result.interaction = std::max(result.interaction, ratio(m.along[colour], m.across[colour]));
+      result.interaction =
+          std::max(result.interaction, ratio(m.transmittanceParallel[colour], m.transmittanceCrossed[colour]));
       continue;
     }
     // Films, maps: what they reach between the steps is not bounded here.
@@ -66,7 +67,7 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
 glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const PictureRequest& request) {
   const auto& a = request.analyser;
   const double filter = a[0] > 0 ? std::min(1.0, std::sqrt(a[1] * a[1] + a[2] * a[2] + a[3] * a[3]) / a[0]) : 0;
-  const bool several = interfacesSeeEachOther(scene);
+  const bool several = interfacesMutuallyVisible(scene);
   glm::dvec3 bound(0.0);
   for (int colour = 0; colour < 3; ++colour) {
     const Diattenuation d = largest(scene, colour);

@@ -3,8 +3,8 @@
 // toward -z, columns to its right toward +x.
 #pragma once
 
-#include "bake/image/image.h"
 #include "bake/pack/scene.h"
+#include "meshprep/base/image.h"
 
 namespace malus::bake {
 

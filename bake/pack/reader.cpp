@@ -56,7 +56,7 @@ void readCamera(ByteReader r, Camera& camera) {
 
 void readEnvironment(ByteReader r, Environment& environment) {
   environment.radiance = r.dvec3Between(0, kMaxLight, "environment radiance");
-  environment.diffuseFill = r.f64Between(0, 1e6, "diffuse fill");
+  environment.ambientIrradiance = r.f64Between(0, 1e6, "diffuse fill");
   for (glm::dvec3& c : environment.irradiance) c = r.dvec3Between(-kMaxLight, kMaxLight, "irradiance coefficient");
   environment.size = r.u32AtMost(kMaxEnvironmentSize, "environment size");
   if (environment.size > 0) {
@@ -197,8 +197,8 @@ void readSurfaces(ByteReader r, const std::vector<Texture>& textures, std::vecto
     m.axis = r.dvec3Between(-1.001, 1.001, "axis");
     m.polarization = r.f64Between(0, m.kind == MaterialKind::emitter ? 1 : 0, "polarization of an emitter");
     if (sheet || m.polarization > 0) requireUnit(r, m.axis, "axis");
-    m.along = r.dvec3Between(0, 1, "transmittance of a sheet");
-    m.across = r.dvec3Between(0, 1, "transmittance of a sheet");
+    m.transmittanceParallel = r.dvec3Between(0, 1, "transmittance of a sheet");
+    m.transmittanceCrossed = r.dvec3Between(0, 1, "transmittance of a sheet");
     m.retardanceDegrees = r.dvec3Between(-kMaxRetardanceDegrees, kMaxRetardanceDegrees, "retardance");
     m.maps.albedo = readMap(r, ranges, 0, 1);
     m.maps.eta = readMap(r, ranges, m.kind == MaterialKind::metal ? 0 : static_cast<float>(kMinEta),

@@ -68,9 +68,9 @@ struct Material {
   double roughness = 0;               // GGX alpha of metal, paint, mirror-glass; 0 to 1
   glm::dvec3 axis{0.0};     // unit: of a polarized emitter's field, a polarizer's transmission, a plate's fast axis
   double polarization = 0;  // degree of an emitter's linear polarization
-  glm::dvec3 along{1.0};    // power transmittances of polarizers and wave plates, field along the axis
-  glm::dvec3 across{1.0};   // and across it
-  glm::dvec3 retardanceDegrees{0.0};  // of wave plates
+  glm::dvec3 transmittanceParallel{1.0};  // power transmittances of polarizers and wave plates, field along the axis
+  glm::dvec3 transmittanceCrossed{1.0};   // and across it
+  glm::dvec3 retardanceDegrees{0.0};      // of wave plates
   Maps maps;
   bool isPlain() const;  // none of these
 };
@@ -100,12 +100,12 @@ struct Camera {
 // Light from infinity: constant, or an octahedral map with a border of one texel all around that repeats
 // what lies across the map's edges (size + 2 texels a side, row by row).
 struct Environment {
-  glm::dvec3 radiance{0.0};       // where size is 0
-  std::uint32_t size = 0;         // texels a side without the border
-  std::vector<glm::vec3> texels;  // (size + 2)^2, each exactly a half float
-  double diffuseFill = 0.0;       // share of its irradiance that reaches diffuse surfaces
-  glm::dvec3 sun{0.0};            // unit, toward the sun of a Rayleigh sky; 0: none
-  double skyDegree = 0;           // its largest degree of polarization
+  glm::dvec3 radiance{0.0};        // where size is 0
+  std::uint32_t size = 0;          // texels a side without the border
+  std::vector<glm::vec3> texels;   // (size + 2)^2, each exactly a half float
+  double ambientIrradiance = 0.0;  // share of its irradiance that reaches diffuse surfaces
+  glm::dvec3 sun{0.0};             // unit, toward the sun of a Rayleigh sky; 0: none
+  double skyDegree = 0;            // its largest degree of polarization
   bool hasSun() const { return sun != glm::dvec3(0.0); }
   std::array<glm::dvec3, 9> irradiance{};  // coefficients of irradiancePolynomial (shaders/optics/environment.h)
 };

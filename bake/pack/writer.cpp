@@ -50,7 +50,7 @@ std::vector<std::byte> cameraBytes(const Camera& camera) {
 std::vector<std::byte> environmentBytes(const Environment& environment) {
   ByteWriter w;
   w.dvec3(environment.radiance);
-  w.f64(environment.diffuseFill);
+  w.f64(environment.ambientIrradiance);
   for (const glm::dvec3& c : environment.irradiance) w.dvec3(c);
   w.u32(environment.size);
   for (const glm::vec3& t : environment.texels)
@@ -93,8 +93,8 @@ std::vector<std::byte> surfaceBytes(const std::vector<Material>& materials) {
     w.f64(m.roughness);
     w.dvec3(m.axis);
     w.f64(m.polarization);
-    w.dvec3(m.along);
-    w.dvec3(m.across);
+    w.dvec3(m.transmittanceParallel);
+    w.dvec3(m.transmittanceCrossed);
     w.dvec3(m.retardanceDegrees);
     for (const std::int32_t map : {m.maps.albedo, m.maps.eta, m.maps.k}) w.u32(static_cast<std::uint32_t>(map + 1));
     w.dvec3(m.maps.origin);

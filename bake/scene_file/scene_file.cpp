@@ -82,7 +82,7 @@ void readEnvironment(StrictObject environment, SceneDescription& scene) {
     scene.skyDegree = sky.number("maxDegree", 0, 1, 0.8);
     sky.finish();
   }
-  scene.diffuseFill = environment.number("diffuseFill", 0, 1000, 0);
+  scene.ambientIrradiance = environment.number("diffuseFill", 0, 1000, 0);
   environment.finish();
 }
 
@@ -184,14 +184,15 @@ void readExtras(StrictObject& material, pack::Material& result, SceneDescription
   }
   if (kind == Kind::polarizer) {
     result.axis = direction(material, "axis");
-    result.along = material.numberOrVector("along", 0, 1, glm::dvec3(1.0));
-    result.across = material.numberOrVector("across", 0, 1, glm::dvec3(0.0));
+    result.transmittanceParallel = material.numberOrVector("along", 0, 1, glm::dvec3(1.0));
+    result.transmittanceCrossed = material.numberOrVector("across", 0, 1, glm::dvec3(0.0));
   }
   if (kind == Kind::wavePlate) {
     result.axis = direction(material, "axis");
     result.retardanceDegrees = material.numberOrVector("retardanceDegrees", -pack::kMaxRetardanceDegrees,
                                                        pack::kMaxRetardanceDegrees, glm::dvec3(90.0));
-    result.along = result.across = material.numberOrVector("transmittance", 0, 1, glm::dvec3(1.0));
+    result.transmittanceParallel = result.transmittanceCrossed =
+        material.numberOrVector("transmittance", 0, 1, glm::dvec3(1.0));
   }
   readMaps(material, result, scene);
 }

@@ -65,7 +65,7 @@ struct SceneDescription {
   std::filesystem::path environmentImage;  // empty: constant
   double environmentScale = 1;
   double environmentRotationDegrees = 0;
-  double diffuseFill = 0;
+  double ambientIrradiance = 0;
   glm::dvec3 sun{0.0};  // toward it, where skyDegree is over 0
   double skyDegree = 0;
   std::vector<TextureDescription> textures;  // that the materials' maps count in

@@ -1,9 +1,9 @@
 // Pictures that stand for numbers of materials.
 #pragma once
 
-#include "bake/image/image.h"
 #include "bake/pack/scene.h"
 #include "bake/scene_file/scene_file.h"
+#include "meshprep/base/image.h"
 
 namespace malus::bake {
 

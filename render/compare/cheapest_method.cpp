@@ -66,34 +66,34 @@ void save(const fs::path& path, const std::string& key, const std::vector<Method
 
 }  // namespace
 
-std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const View& full, const std::string& device,
-                                            const RenderSmall& render, unsigned threads,
+std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const RenderParameters& full,
+                                            const std::string& device, const RenderSmall& render, unsigned threads,
                                             const std::function<void(std::string_view)>& progress) {
-  View view = full;
-  view.width = kWidth;
-  view.height =
+  RenderParameters parameters = full;
+  parameters.width = kWidth;
+  parameters.height =
       std::max(1u, static_cast<std::uint32_t>(std::lround(static_cast<double>(kWidth) * full.height / full.width)));
-  view.region = {0, 0, view.width, view.height};
-  view.samples = 1;
-  const std::string key =
-      fmt::format("malus {} pack {:016x} {} {}x{} depth {} analyser {} {} {} {} stokes {} methods {}", MALUS_VERSION,
-                  pack.hash, device, view.width, view.height, view.depth, view.analyser[0], view.analyser[1],
-                  view.analyser[2], view.analyser[3], view.stokes, fmt::join(methodNames(), " "));
+  parameters.region = {0, 0, parameters.width, parameters.height};
+  parameters.samples = 1;
+  const std::string key = fmt::format(
+      "malus {} pack {:016x} {} {}x{} depth {} analyser {} {} {} {} stokes {} methods {}", MALUS_VERSION, pack.hash,
+      device, parameters.width, parameters.height, parameters.depth, parameters.analyser[0], parameters.analyser[1],
+      parameters.analyser[2], parameters.analyser[3], parameters.stokes, fmt::join(methodNames(), " "));
   const fs::path path = cacheFile(key);
   if (std::vector<MethodEstimate> known = load(path, key); !known.empty()) return known;
 
   progress("measuring every method's error on a small picture");
-  const Picture reference = reference::render(pack.scene, view, threads);
+  const Picture reference = reference::render(pack.scene, parameters, threads);
   std::vector<MethodEstimate> list;
   std::vector<std::vector<double>> samples;
   for (const std::string& method : methodNames()) try {
-      list.push_back({method, pictureError(render(method, view), reference, pack.scene.exposureEv).relRms, 0});
+      list.push_back({method, pictureError(render(method, parameters), reference, pack.scene.exposureEv).relRms, 0});
       samples.emplace_back();
     } catch (const Error&) {  // this device cannot do it at this depth: others may
       if (method == methodNames().back() && list.empty()) throw;
     }
   for (int round = 0; round < kRounds; ++round)
-    for (std::size_t i = 0; i < list.size(); ++i) samples[i].push_back(render(list[i].method, view).cost.traceMs);
+    for (std::size_t i = 0; i < list.size(); ++i) samples[i].push_back(render(list[i].method, parameters).cost.traceMs);
   for (std::size_t i = 0; i < list.size(); ++i) list[i].medianMs = spreadOf(samples[i]).median;
   save(path, key, list);
   return list;

@@ -9,7 +9,7 @@
 
 #include "bake/pack/reader.h"
 #include "render/scene/picture.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 namespace malus::render {
 
@@ -20,12 +20,12 @@ struct MethodEstimate {
 };
 
 // Renders one picture by a method; what a renderer does.
-using RenderSmall = std::function<Picture(const std::string& method, const View& view)>;
+using RenderSmall = std::function<Picture(const std::string& method, const RenderParameters& parameters)>;
 
 // Every method's error and time for a pack with this depth and filter, at a width of 256 pixels. key: what else
 // the times depend on (renderer and device). From the cache where it is there. Throws what rendering throws.
-std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const View& view, const std::string& key,
-                                            const RenderSmall& render, unsigned threads,
+std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const RenderParameters& parameters,
+                                            const std::string& key, const RenderSmall& render, unsigned threads,
                                             const std::function<void(std::string_view)>& progress);
 
 // The fastest with relRms <= maxError. Throws Error, naming the best there is, where there is none.

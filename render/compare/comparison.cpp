@@ -37,12 +37,12 @@ class Renderers {
  public:
   Renderers(const pack::Scene& scene, const ComparisonSettings& settings) : scene_(scene), settings_(settings) {}
 
-  Picture render(const std::string& backend, const std::string& method, const View& view) {
-    return backend == "vulkan" ? vulkan().render(method, view) : embree().render(method, view);
+  Picture render(const std::string& backend, const std::string& method, const RenderParameters& parameters) {
+    return backend == "vulkan" ? vulkan().render(method, parameters) : embree().render(method, parameters);
   }
-  std::uint64_t countRays(const std::string& backend, const std::string& method, const View& view,
+  std::uint64_t countRays(const std::string& backend, const std::string& method, const RenderParameters& parameters,
                           const Picture& picture) {
-    return backend == "vulkan" ? vulkan().countRays(method, view) : picture.cost.rays;
+    return backend == "vulkan" ? vulkan().countRays(method, parameters) : picture.cost.rays;
   }
   std::string device(const std::string& backend) { return backend == "vulkan" ? vulkan().device() : embree().device(); }
 
@@ -65,7 +65,7 @@ class Renderers {
 // Rows that share a scene and a view.
 struct Group {
   const pack::Pack* pack;
-  View view;
+  RenderParameters parameters;
   std::shared_ptr<Renderers> renderers;
   std::vector<std::size_t> rows;
 };
@@ -113,11 +113,11 @@ std::vector<Draw> drawsOf(const std::vector<std::string>& methods, const std::st
   return draws;
 }
 
-std::string stem(const std::string& scene, const View& view, const std::string& what) {
-  return fmt::format("{}-{}x{}-d{}-{}", scene, view.width, view.height, view.depth, what);
+std::string stem(const std::string& scene, const RenderParameters& parameters, const std::string& what) {
+  return fmt::format("{}-{}x{}-d{}-{}", scene, parameters.width, parameters.height, parameters.depth, what);
 }
 
-std::vector<View> viewsOf(const pack::Scene& scene, const ComparisonSettings& settings) {
+std::vector<RenderParameters> parameterVariants(const pack::Scene& scene, const ComparisonSettings& settings) {
   std::vector<std::uint32_t> widths = settings.widths, heights = settings.heights, depths = settings.depths;
   const double aspect = static_cast<double>(scene.width) / scene.height;
   const auto rounded = [](double side) { return std::max(1u, static_cast<std::uint32_t>(std::lround(side))); };
@@ -127,26 +127,26 @@ std::vector<View> viewsOf(const pack::Scene& scene, const ComparisonSettings& se
   if (heights.empty())
     for (const std::uint32_t width : widths) heights.push_back(rounded(width / aspect));
   if (depths.empty()) depths = {scene.depth};
-  std::vector<View> views;
+  std::vector<RenderParameters> variants;
   for (std::size_t i = 0; i < widths.size(); ++i)
     for (const std::uint32_t depth : depths) {
-      View view = viewOf(scene);
-      view.width = widths[i];
-      view.height = heights[i];
-      view.region = {0, 0, view.width, view.height};
-      view.depth = depth;
-      if (settings.polarizerDegrees) view.analyser = linearPolarizer(*settings.polarizerDegrees);
-      views.push_back(view);
+      RenderParameters parameters = defaultParameters(scene);
+      parameters.width = widths[i];
+      parameters.height = heights[i];
+      parameters.region = {0, 0, parameters.width, parameters.height};
+      parameters.depth = depth;
+      if (settings.polarizerDegrees) parameters.analyser = linearPolarizer(*settings.polarizerDegrees);
+      variants.push_back(parameters);
     }
-  return views;
+  return variants;
 }
 
 // One render of a row, its times kept where `timed`.
 Picture renderRow(ComparisonRow& row, Group& group, bool timed) {
   const double cpuBefore = cpuMs();
-  View view = group.view;
-  view.everyEffect = row.everyEffect;
-  Picture picture = group.renderers->render(row.renderer, row.method, view);
+  RenderParameters parameters = group.parameters;
+  parameters.everyEffect = row.everyEffect;
+  Picture picture = group.renderers->render(row.renderer, row.method, parameters);
   const double cpu = cpuMs() - cpuBefore;
   if (timed) {
     row.samplesMs.push_back(picture.cost.traceMs);
@@ -220,47 +220,48 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
   std::vector<Group> groups;
   for (auto& [name, pack] : comparison.packs) {
     const auto renderers = std::make_shared<Renderers>(pack.scene, settings);
-    for (const View& view : viewsOf(pack.scene, settings)) {
+    for (const RenderParameters& parameters : parameterVariants(pack.scene, settings)) {
       if (interrupted()) break;
-      progress(fmt::format("{} {} x {}, depth {}: reference", name, view.width, view.height, view.depth));
-      const Picture reference = reference::render(pack.scene, view, settings.threads);
+      progress(
+          fmt::format("{} {} x {}, depth {}: reference", name, parameters.width, parameters.height, parameters.depth));
+      const Picture reference = reference::render(pack.scene, parameters, settings.threads);
       comparison.devices["reference"] = reference.device;
       comparison.references.push_back(
-          {name, view.width, view.height, view.depth, stem(name, view, "reference") + ".exr"});
+          {name, parameters.width, parameters.height, parameters.depth, stem(name, parameters, "reference") + ".exr"});
       writePicture(folder / "pictures" / comparison.references.back().picture,
-                   toImage(reference, pack, view, "reference", "reference"), 0);
-      groups.push_back({&pack, view, renderers, {}});
+                   toImage(reference, pack, parameters, "reference", "reference"), 0);
+      groups.push_back({&pack, parameters, renderers, {}});
       const EffectsChoice cheapest =
-          chooseEffects({"auto"}, "stokes", pack.scene, {view.depth, view.analyser, false, false});
+          chooseEffects({"auto"}, "stokes", pack.scene, {parameters.depth, parameters.analyser, false, false});
       for (const std::string& backend : settings.backends) {
         EffectsPictures pictures;
         EffectsComparison effects;
         effects.why = cheapest.why;
         for (const auto& [method, everyEffect] : drawsOf(settings.methods, cheapest.method)) {
           if (interrupted()) break;
-          progress(fmt::format("{} {} x {}, depth {}: {} {}{}", name, view.width, view.height, view.depth, backend,
-                               method, everyEffect ? ", all effects" : ""));
+          progress(fmt::format("{} {} x {}, depth {}: {} {}{}", name, parameters.width, parameters.height,
+                               parameters.depth, backend, method, everyEffect ? ", all effects" : ""));
           ComparisonRow row;
           row.scene = name;
           row.renderer = backend;
           row.method = method;
           row.everyEffect = everyEffect;
-          row.width = view.width;
-          row.height = view.height;
-          row.depth = view.depth;
+          row.width = parameters.width;
+          row.height = parameters.height;
+          row.depth = parameters.depth;
           const MethodInfo& info = methodNamed(method);
           row.payloadBytes = info.payloadBytes;
-          View drawn = view;
+          RenderParameters drawn = parameters;
           drawn.everyEffect = everyEffect;
-          if (info.isLoop)
-            row.stateBytes = info.pathBytes * (1 + waitingWays(compiledEffects(pack.scene, drawn), view.depth));
+          if (info.isIterative)
+            row.stateBytes = info.pathBytes * (1 + pathStackSize(compiledEffects(pack.scene, drawn), parameters.depth));
           try {
             const Picture picture = renderRow(row, groups.back(), false);
             row.rays = renderers->countRays(backend, method, drawn, picture);
             row.error = pictureError(picture, reference, pack.scene.exposureEv);
             if (!everyEffect) {
-              row.picture = stem(name, view, fmt::format("{}-{}", backend, method)) + ".exr";
-              writePicture(folder / "pictures" / row.picture, toImage(picture, pack, view, backend, method), 0);
+              row.picture = stem(name, parameters, fmt::format("{}-{}", backend, method)) + ".exr";
+              writePicture(folder / "pictures" / row.picture, toImage(picture, pack, parameters, backend, method), 0);
             }
             const std::size_t index = comparison.rows.size();
             const bool isAll = everyEffect && method == "stokes", isAuto = !everyEffect && method == cheapest.method,
@@ -290,7 +291,7 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
     for (std::size_t g = 0; g < groups.size() && !interrupted(); ++g) {
       Group& group = groups[g];
       progress(fmt::format("round {} of {}: {} {} x {}", round + 1, settings.rounds, group.pack->scene.name,
-                           group.view.width, group.view.height));
+                           group.parameters.width, group.parameters.height));
       for (std::size_t k = 0; k < group.rows.size() && !interrupted(); ++k) {
         ComparisonRow& row = comparison.rows[group.rows[(k + round) % group.rows.size()]];
         if (!row.ok()) continue;

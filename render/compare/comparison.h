@@ -16,7 +16,7 @@
 #include "bake/pack/reader.h"
 #include "render/compare/picture_error.h"
 #include "render/compare/statistics.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 namespace malus::render {
 

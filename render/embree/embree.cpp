@@ -13,7 +13,7 @@ std::string Bvh::version() {
   return fmt::format("Embree {}.{}.{}", RTC_VERSION_MAJOR, RTC_VERSION_MINOR, RTC_VERSION_PATCH);
 }
 
-Bvh::Bvh(const render::FloatScene& scene, unsigned threads) {
+Bvh::Bvh(const render::RenderScene& scene, unsigned threads) {
   device_ = rtcNewDevice(threads == 0 ? "" : fmt::format("threads={}", threads).c_str());
   if (!device_)
     throw Error("Embree", "cannot make a device", "",

@@ -13,7 +13,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "render/scene/float_scene.h"
+#include "render/scene/render_scene.h"
 
 namespace malus::embree {
 
@@ -31,7 +31,7 @@ inline constexpr float kNearest = std::numeric_limits<float>::min();
 class Bvh {
  public:
   // threads: 0 for all. Throws Error where Embree does.
-  Bvh(const render::FloatScene& scene, unsigned threads);
+  Bvh(const render::RenderScene& scene, unsigned threads);
   ~Bvh();
   Bvh(const Bvh&) = delete;
   Bvh& operator=(const Bvh&) = delete;

@@ -20,7 +20,7 @@ bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) 
 }
 
 void noteFault(const Hit& h, const vec4& stokes, uint kind, uint colour, float slack) {
-  faults.note({kind, pixelX, pixelY, frame.depth - static_cast<int>(h.depth), h.material, colour, h.c, slack,
+  faults.note({kind, pixelX, pixelY, camera.depth - static_cast<int>(h.depth), h.material, colour, h.c, slack,
                h.position, h.d, h.normal, stokes},
-              frame.width);
+              camera.width);
 }

@@ -24,7 +24,7 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 
   Payload traceRay(real3 origin, real3 direction, real depth) {
     Hit hit;
-    if (!findHit(origin, direction, depth, hit)) return shadeMiss(direction, depth);
+    if (!findHit(origin, direction, depth, hit)) return shadeEnvironment(direction, depth);
 #if MALUS_EFFECT_TEXTURES
     const Material material = materialAt(hit);
 #else
@@ -39,9 +39,9 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
         return shadeMetal(hit, material);
       case kGlass:
         return shadeGlass(hit, material);
-#if MALUS_EFFECT_SHEET
-      case kSheet:
-        return shadeSheet(hit, material);
+#if MALUS_EFFECT_POLARIZING_ELEMENT
+      case kPolarizingElement:
+        return shadePolarizingElement(hit, material);
 #endif
       default:
         return shadeEmitter(hit, material);

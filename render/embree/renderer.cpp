@@ -36,7 +36,7 @@ const Method& buildFor(std::string_view name, std::uint32_t effects, bool checks
 
 struct Renderer::Impl {
   pack::Scene const* source;
-  render::FloatScene scene;
+  render::RenderScene scene;
   int threads;
   double buildMs = 0;
   std::unique_ptr<Bvh> bvh;
@@ -45,7 +45,7 @@ struct Renderer::Impl {
 Renderer::Renderer(const pack::Scene& scene, unsigned threads) : impl_(std::make_unique<Impl>()) {
   const auto start = Clock::now();
   impl_->source = &scene;
-  impl_->scene = render::floatScene(scene);
+  impl_->scene = render::makeRenderScene(scene);
   impl_->threads = static_cast<int>(threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
   impl_->bvh = std::make_unique<Bvh>(impl_->scene, threads);
   impl_->buildMs = sinceMs(start);
@@ -55,17 +55,17 @@ Renderer::~Renderer() = default;
 
 std::string Renderer::device() const { return fmt::format("{}, {} threads", Bvh::version(), impl_->threads); }
 
-render::Picture Renderer::render(std::string_view name, const render::View& view) const {
+render::Picture Renderer::render(std::string_view name, const render::RenderParameters& parameters) const {
   const render::MethodInfo& info = render::methodNamed(name);
-  const Method& method = buildFor(name, render::compiledEffects(*impl_->source, view), view.checkNumerics);
+  const Method& method = buildFor(name, render::compiledEffects(*impl_->source, parameters), parameters.checkNumerics);
 
   render::Picture picture;
-  picture.width = view.region.width;
-  picture.height = view.region.height;
-  picture.channels = render::hasStokes(info, view) ? render::kStokesChannels : render::kColourChannels;
+  picture.width = parameters.region.width;
+  picture.height = parameters.region.height;
+  picture.channels = render::hasStokes(info, parameters) ? render::kStokesChannels : render::kColourChannels;
   picture.pixels.resize(picture.channels * picture.width * picture.height);
   picture.device = device();
-  const gpu::Frame frame = render::frameOf(*impl_->source, view);
+  const gpu::CameraParameters camera = render::makeCameraParameters(*impl_->source, parameters);
 
   const auto start = Clock::now();
   std::atomic<std::uint64_t> rays{0};
@@ -73,16 +73,17 @@ render::Picture Renderer::render(std::string_view name, const render::View& view
   tbb::task_arena arena(impl_->threads);
   arena.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range2d<std::uint32_t>(0, view.region.height, kTileSide, 0, view.region.width, kTileSide),
+        tbb::blocked_range2d<std::uint32_t>(0, parameters.region.height, kTileSide, 0, parameters.region.width,
+                                            kTileSide),
         [&](const tbb::blocked_range2d<std::uint32_t>& r) {
-          const auto renderTile = view.checkNumerics ? method.renderTileChecked : method.renderTile;
+          const auto renderTile = parameters.checkNumerics ? method.renderTileChecked : method.renderTile;
           const TileOutput tile =
-              renderTile({impl_->bvh.get(), &impl_->scene, &frame, r.cols().begin(), r.rows().begin(), r.cols().end(),
-                          r.rows().end(), picture.pixels.data(), render::hasStokes(info, view)});
+              renderTile({impl_->bvh.get(), &impl_->scene, &camera, r.cols().begin(), r.rows().begin(), r.cols().end(),
+                          r.rows().end(), picture.pixels.data(), render::hasStokes(info, parameters)});
           rays += tile.rays;
           if (tile.faults.count == 0) return;
           const std::scoped_lock lock(merging);
-          picture.faults.add(tile.faults, frame.width);
+          picture.faults.add(tile.faults, camera.width);
         });
   });
   picture.cost.traceMs = picture.cost.wallMs = sinceMs(start);

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "render/scene/float_scene.h"
 #include "render/scene/picture.h"
+#include "render/scene/render_scene.h"
 
 namespace malus::embree {
 
@@ -18,7 +18,7 @@ class Renderer {
   ~Renderer();
 
   // method: one of render::methods(). Throws Error for another.
-  render::Picture render(std::string_view method, const render::View& view) const;
+  render::Picture render(std::string_view method, const render::RenderParameters& parameters) const;
 
   std::string device() const;
 

@@ -18,7 +18,7 @@ struct SceneAccess {
   explicit SceneAccess(const TileInput& tile)
       : bvh(*tile.bvh),
         scene(*tile.scene),
-        frame(*tile.frame),
+        camera(*tile.camera),
         materials(scene.materials.data()),
         lights(scene.lights.data()),
         extras(scene.extras.data()),
@@ -27,8 +27,8 @@ struct SceneAccess {
         environmentTexels(scene.environmentTexels.data()) {}
 
   const Bvh& bvh;
-  const render::FloatScene& scene;
-  const gpu::Frame& frame;
+  const render::RenderScene& scene;
+  const gpu::CameraParameters& camera;
   const gpu::Material* materials;
   const gpu::PointLight* lights;
   const gpu::MaterialExtra* extras;
@@ -49,12 +49,12 @@ struct SceneAccess {
 template <class Tracer, class Pixel>
 TileOutput renderPixels(const TileInput& tile, std::size_t channels, Pixel pixel) {
   Tracer tracer(tile);
-  const gpu::Frame& frame = *tile.frame;
+  const gpu::CameraParameters& camera = *tile.camera;
   for (std::uint32_t y = tile.beginY; y < tile.endY; ++y)
     for (std::uint32_t x = tile.beginX; x < tile.endX; ++x) {
-      tracer.pixelX = x + frame.regionX;
-      tracer.pixelY = y + frame.regionY;
-      pixel(tracer, tile.pixels + (std::size_t{y} * frame.regionWidth + x) * channels);
+      tracer.pixelX = x + camera.regionX;
+      tracer.pixelY = y + camera.regionY;
+      pixel(tracer, tile.pixels + (std::size_t{y} * camera.regionWidth + x) * channels);
     }
   return {tracer.rays, tracer.faults};
 }

@@ -12,8 +12,8 @@ namespace malus::embree {
 
 struct TileInput {
   const Bvh* bvh;
-  const render::FloatScene* scene;
-  const gpu::Frame* frame;
+  const render::RenderScene* scene;
+  const gpu::CameraParameters* camera;
   std::uint32_t beginX, beginY, endX, endY;  // within the region
   float* pixels;                             // the region's
   bool stokes;                               // of a loop: Stokes vectors by four analysers

@@ -8,7 +8,7 @@
 
 #include "meshprep/base/error.h"
 #include "render/image/polarization.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 namespace malus::render {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "bake/image/image.h"
+#include "meshprep/base/image.h"
 
 namespace malus::render {
 

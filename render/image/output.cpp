@@ -9,8 +9,8 @@
 
 namespace malus::render {
 
-image::Image toImage(const Picture& picture, const pack::Pack& pack, const View& view, const std::string& renderer,
-                     const std::string& method) {
+image::Image toImage(const Picture& picture, const pack::Pack& pack, const RenderParameters& parameters,
+                     const std::string& renderer, const std::string& method) {
   image::Image result;
   result.width = static_cast<int>(picture.width);
   result.height = static_cast<int>(picture.height);
@@ -39,13 +39,14 @@ image::Image toImage(const Picture& picture, const pack::Pack& pack, const View&
       {"malus:renderer", renderer},
       {"malus:method", method},
       {"malus:device", picture.device},
-      {"malus:depth", static_cast<double>(view.depth)},
-      {"malus:samples", static_cast<double>(view.samples)},
+      {"malus:depth", static_cast<double>(parameters.depth)},
+      {"malus:samples", static_cast<double>(parameters.samples)},
       {"malus:verticalFovDegrees", camera.verticalFovDegrees},
-      {"malus:analyser",
-       fmt::format("{:g} {:g} {:g} {:g}", view.analyser[0], view.analyser[1], view.analyser[2], view.analyser[3])},
-      {"malus:region", fmt::format("{} {} {} {} of {} {}", view.region.x, view.region.y, view.region.width,
-                                   view.region.height, view.width, view.height)},
+      {"malus:analyser", fmt::format("{:g} {:g} {:g} {:g}", parameters.analyser[0], parameters.analyser[1],
+                                     parameters.analyser[2], parameters.analyser[3])},
+      {"malus:region",
+       fmt::format("{} {} {} {} of {} {}", parameters.region.x, parameters.region.y, parameters.region.width,
+                   parameters.region.height, parameters.width, parameters.height)},
   };
   return result;
 }

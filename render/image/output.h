@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "bake/image/image.h"
 #include "bake/pack/reader.h"
+#include "meshprep/base/image.h"
 #include "render/scene/picture.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 namespace malus::render {
 
 // Channels R, G, B (behind the filter) and, where the picture has them, S0.R ... S3.B; the attributes
 // worldToCamera and malus:scene, pack, renderer, method, device, depth, samples, analyser, region,
 // verticalFovDegrees.
-image::Image toImage(const Picture& picture, const pack::Pack& pack, const View& view, const std::string& renderer,
-                     const std::string& method);
+image::Image toImage(const Picture& picture, const pack::Pack& pack, const RenderParameters& parameters,
+                     const std::string& renderer, const std::string& method);
 
 // 8-bit sRGB of linear radiance: times 2^exposureEv, linear up to 0.7, then an exponential shoulder that
 // reaches 1 at infinity, then the sRGB curve (IEC 61966-2-1). Takes channels R, G, B.

@@ -46,7 +46,7 @@ inline dmat4 turnMatrix(double cos2, double sin2) {
 // From the canonical frame of a ray in direction d to the frame whose x is a surface's s direction.
 inline dmat4 toSurface(const dvec3& d, const dvec3& s) {
   double cos2, sin2;
-  f64::canonicalTurn(d, s, cos2, sin2);
+  f64::canonicalRotation(d, s, cos2, sin2);
   return turnMatrix(cos2, sin2);
 }
 inline Light turned(const dmat4& turn, const Light& l) { return {turn * l[0], turn * l[1], turn * l[2]}; }

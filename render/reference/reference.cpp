@@ -16,7 +16,7 @@
 
 #include "render/embree/embree.h"
 #include "render/reference/surface.h"
-#include "render/scene/float_scene.h"
+#include "render/scene/render_scene.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::reference {
@@ -28,8 +28,8 @@ using pack::MaterialKind;
 struct Tracer {
   const pack::Scene& scene;
   const embree::Bvh& bvh;
-  std::vector<dvec3> fillTransmittance;  // per material
-  const render::View& view;
+  std::vector<dvec3> hemisphereTransmittance;  // per material
+  const render::RenderParameters& parameters;
   std::uint64_t rays = 0;
   std::uint32_t pixelX = 0, pixelY = 0;  // the pixel at hand
   render::Faults faults{};
@@ -102,7 +102,7 @@ struct Tracer {
            (texel(at + row) * (1 - fx) + texel(at + row + 1) * fx) * fy;
   }
 
-  dvec3 fillIrradiance(const dvec3& n) const {
+  dvec3 environmentIrradiance(const dvec3& n) const {
     dvec3 result;
     const auto& c = scene.environment.irradiance;
     for (int i = 0; i < 3; ++i)
@@ -144,8 +144,9 @@ struct Tracer {
       const double lobe =
           isGlossy ? m.highlightStrength * f64::phongLobe(mirror, l, static_cast<int>(m.highlightExponent)) : 0;
       if (!isDiffuse && lobe <= 0) continue;
-      if (view.shadows) ++rays;
-      if (view.shadows && !bvh.visible(glm::vec3(queryAbove(h)), glm::vec3(l), static_cast<float>(distance))) continue;
+      if (parameters.shadows) ++rays;
+      if (parameters.shadows && !bvh.visible(glm::vec3(queryAbove(h)), glm::vec3(l), static_cast<float>(distance)))
+        continue;
       const dvec3 arriving = light.intensity / (distance * distance) * transmittanceOver(absorptionAt(h), distance);
       const dvec3 entering =
           m.kind == MaterialKind::lambert
@@ -154,9 +155,9 @@ struct Tracer {
       if (isDiffuse) diffuse += f64::lambertRadiance(albedo, arriving * c, entering);
       highlight += arriving * lobe;
     }
-    if (isDiffuse && scene.environment.diffuseFill > 0)
-      diffuse += f64::lambertRadiance(albedo, fillIrradiance(h.normal) * scene.environment.diffuseFill,
-                                      fillTransmittance[h.materialIndex]);
+    if (isDiffuse && scene.environment.ambientIrradiance > 0)
+      diffuse += f64::lambertRadiance(albedo, environmentIrradiance(h.normal) * scene.environment.ambientIrradiance,
+                                      hemisphereTransmittance[h.materialIndex]);
     const double basic = 1 / (m.outsideEta * m.outsideEta);
     diffuse *= basic;
     highlight *= basic;
@@ -168,7 +169,7 @@ struct Tracer {
   // The check of --check-numerics, where it is asked for. arriving: the light that met the surface, each part in a
   // frame of its own; rounding adds up to 4 eps of it.
   Light checked(const Hit& h, std::uint32_t depth, const Light& sent, std::span<const Light> arriving) {
-    if (!view.checkNumerics) return sent;
+    if (!parameters.checkNumerics) return sent;
     constexpr double kBounce = 4 * std::numeric_limits<double>::epsilon();
     for (std::uint32_t c = 0; c < 3; ++c) {
       const dvec4& s = sent[c];
@@ -180,9 +181,9 @@ struct Tracer {
                                   : excess(s) > slack ? gpu::kOverPolarized
                                                       : gpu::kNoFault;
       if (kind == gpu::kNoFault) continue;
-      faults.note({kind, pixelX, pixelY, static_cast<int>(view.depth - depth), h.materialIndex, c,
+      faults.note({kind, pixelX, pixelY, static_cast<int>(parameters.depth - depth), h.materialIndex, c,
                    static_cast<float>(h.c), static_cast<float>(slack), h.position, h.d, h.normal, s},
-                  view.width);
+                  parameters.width);
     }
     return sent;
   }
@@ -266,81 +267,81 @@ struct Tracer {
 
     // What leaves in the surface's frame: diffuse light through the interface, the mirror ray reflected, the
     // refracted ray transmitted; then back to the ray's own frame.
-    Light toEye = glass ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
+    Light toCamera = glass ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
     std::array<Light, 4> parts = {unpolarized(diffuse), unpolarized(highlight), Light{}, Light{}};
     const dmat4 toRay = glm::transpose(toSurface(d, s));
     if (m.roughness > 0 && !behindRough && depth > 0) {
-      toEye = turned(toRay, toEye + interface.reflection * unpolarized(highlight));
-      return checked(h, depth, scaled(toEye + facetLight(h, n1, n2, depth, parts[2]), medium), parts);
+      toCamera = turned(toRay, toCamera + interface.reflection * unpolarized(highlight));
+      return checked(h, depth, scaled(toCamera + facetLight(h, n1, n2, depth, parts[2]), medium), parts);
     }
     if (depth > 0) {
       const Light arriving =
           turned(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1, behindRough));
       parts[2] = arriving;
-      toEye = toEye + interface.reflection * (arriving + unpolarized(highlight));
+      toCamera = toCamera + interface.reflection * (arriving + unpolarized(highlight));
       if (glass && !total) {
         const Light below =
             turned(toSurface(through, s), trace(h.position, queryBelow(h), through, depth - 1, behindRough));
-        toEye = toEye + interface.transmission * below;
+        toCamera = toCamera + interface.transmission * below;
         parts[3] = below;
       }
     }
-    return checked(h, depth, scaled(turned(toRay, toEye), medium), parts);
+    return checked(h, depth, scaled(turned(toRay, toCamera), medium), parts);
   }
 };
 
 }  // namespace
 
-render::Picture render(const pack::Scene& scene, const render::View& view, unsigned threads) {
+render::Picture render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads) {
   const auto start = std::chrono::steady_clock::now();
-  const render::FloatScene floats = render::floatScene(scene);
+  const render::RenderScene floats = render::makeRenderScene(scene);
   const embree::Bvh bvh(floats, threads);
   std::vector<dvec3> fill;
   for (const pack::Material& m : scene.materials) fill.push_back(render::hemisphereTransmittance(m));
   const auto built = std::chrono::steady_clock::now();
 
   render::Picture picture;
-  picture.width = view.region.width;
-  picture.height = view.region.height;
+  picture.width = parameters.region.width;
+  picture.height = parameters.region.height;
   picture.channels = render::kStokesChannels;
   picture.pixels.resize(picture.channels * picture.width * picture.height);
   picture.device = fmt::format("double precision on {}", embree::Bvh::version());
   const pack::Camera& camera = scene.camera;
   const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi),
-               tanX = tanY * view.width / view.height;
+               tanX = tanY * parameters.width / parameters.height;
   const double toRadiance = camera.mediumEta * camera.mediumEta;
   std::atomic<std::uint64_t> rays{0};
   std::mutex merging;
 
   const auto row = [&](std::uint32_t y) {
-    Tracer tracer{scene, bvh, fill, view};
-    for (std::uint32_t x = 0; x < view.region.width; ++x) {
-      tracer.pixelX = view.region.x + x;
-      tracer.pixelY = view.region.y + y;
+    Tracer tracer{scene, bvh, fill, parameters};
+    for (std::uint32_t x = 0; x < parameters.region.width; ++x) {
+      tracer.pixelX = parameters.region.x + x;
+      tracer.pixelY = parameters.region.y + y;
       Light sum = unpolarized(dvec3(0));
-      for (std::uint32_t j = 0; j < view.samples; ++j)
-        for (std::uint32_t i = 0; i < view.samples; ++i) {
-          const double px = (view.region.x + x + (i + 0.5) / view.samples) / view.width;
-          const double py = (view.region.y + y + (j + 0.5) / view.samples) / view.height;
+      for (std::uint32_t j = 0; j < parameters.samples; ++j)
+        for (std::uint32_t i = 0; i < parameters.samples; ++i) {
+          const double px = (parameters.region.x + x + (i + 0.5) / parameters.samples) / parameters.width;
+          const double py = (parameters.region.y + y + (j + 0.5) / parameters.samples) / parameters.height;
           const dvec3 d = f64::cameraDirection(camera.right, camera.up, camera.forward, tanX, tanY, px, py);
           // The camera's frame of this ray: x across d and up, the s direction of a surface with normal up.
           sum = sum + turned(toSurface(d, f64::sDirection(d, camera.up)),
-                             tracer.trace(camera.position, camera.position, d, view.depth));
+                             tracer.trace(camera.position, camera.position, d, parameters.depth));
         }
-      float* out = picture.pixels.data() + (std::size_t{y} * view.region.width + x) * picture.channels;
-      const double scale = toRadiance / (static_cast<double>(view.samples) * view.samples);
+      float* out = picture.pixels.data() + (std::size_t{y} * parameters.region.width + x) * picture.channels;
+      const double scale = toRadiance / (static_cast<double>(parameters.samples) * parameters.samples);
       for (std::size_t c = 0; c < 3; ++c) {
         const dvec4 s = sum[c] * scale;
-        out[c] = static_cast<float>(s[0] * view.analyser[0] + s[1] * view.analyser[1] + s[2] * view.analyser[2] +
-                                    s[3] * view.analyser[3]);
+        out[c] = static_cast<float>(s[0] * parameters.analyser[0] + s[1] * parameters.analyser[1] +
+                                    s[2] * parameters.analyser[2] + s[3] * parameters.analyser[3]);
         for (std::size_t k = 0; k < 4; ++k) out[3 + 3 * k + c] = static_cast<float>(s[static_cast<int>(k)]);
       }
     }
     rays += tracer.rays;
     const std::scoped_lock lock(merging);
-    picture.faults.add(tracer.faults, view.width);
+    picture.faults.add(tracer.faults, parameters.width);
   };
-  const auto traceAll = [&] { tbb::parallel_for(std::uint32_t{0}, view.region.height, row); };
+  const auto traceAll = [&] { tbb::parallel_for(std::uint32_t{0}, parameters.region.height, row); };
   if (threads == 0)
     traceAll();
   else

@@ -4,11 +4,11 @@
 
 #include "bake/pack/scene.h"
 #include "render/scene/picture.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 namespace malus::reference {
 
 // threads: 0 for all cores. The picture has Stokes channels. Throws Error.
-render::Picture render(const pack::Scene& scene, const render::View& view, unsigned threads);
+render::Picture render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads);
 
 }  // namespace malus::reference

@@ -6,7 +6,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-#include "render/scene/float_scene.h"
+#include "render/scene/render_scene.h"
 
 namespace malus::reference {
 using pack::MaterialKind;
@@ -52,7 +52,8 @@ Interface interfaceOf(const Surface& surface, double c, double n1, double n2) {
     const bool metal = m.kind == MaterialKind::metal;
     const double n3 = metal ? surface.eta[colour] : n2, k3 = metal ? surface.k[colour] : 0;
     if (m.coating.thicknessNm > 0) {
-      const f64::Film film = f64::filmOf(c, n1, m.coating.eta[colour], render::filmTurns(m.coating)[colour], n3, k3);
+      const f64::Film film =
+          f64::thinFilm(c, n1, m.coating.eta[colour], render::roundTripPhase(m.coating)[colour], n3, k3);
       result.reflection[i] =
           interfaceMatrix(film.reflected.rs, film.reflected.rp, film.reflected.xRe, film.reflected.xIm);
       result.transmission[i] = interfaceMatrix(film.through.rs, film.through.rp, film.through.xRe, film.through.xIm);
@@ -72,8 +73,8 @@ Mueller sheetMatrix(const pack::Material& m) {
   Mueller result;
   for (std::size_t i = 0; i < 3; ++i) {
     const int colour = static_cast<int>(i);
-    const double along = m.along[colour], across = m.across[colour], both = std::sqrt(along * across),
-                 retardance = m.retardanceDegrees[colour] * std::numbers::pi / 180;
+    const double along = m.transmittanceParallel[colour], across = m.transmittanceCrossed[colour],
+                 both = std::sqrt(along * across), retardance = m.retardanceDegrees[colour] * std::numbers::pi / 180;
     result[i] = interfaceMatrix(along, across, both * std::cos(retardance), -both * std::sin(retardance));
   }
   return result;

@@ -4,16 +4,17 @@
 
 #include <shaders/effects.h>
 
-#include "render/scene/float_scene.h"
+#include "render/scene/render_scene.h"
 
 namespace malus::render {
 
 using shaders::Effect;
 
-static_assert(gpu::kSheet == static_cast<std::uint32_t>(Effect::kSheet), "kinds of surface come first");
+static_assert(gpu::kPolarizingElement == static_cast<std::uint32_t>(Effect::kPolarizingElement),
+              "kinds of surface come first");
 
-std::uint32_t compiledEffects(const pack::Scene& scene, const View& view) {
-  if (view.everyEffect) return shaders::kEveryEffect;
+std::uint32_t compiledEffects(const pack::Scene& scene, const RenderParameters& parameters) {
+  if (parameters.everyEffect) return shaders::kEveryEffect;
   std::uint32_t bits = 0;
   const auto need = [&](Effect effect, bool needed) { bits |= needed ? shaders::bitOf(effect) : 0; };
   bool diffuse = false, glossy = false;
@@ -28,20 +29,20 @@ std::uint32_t compiledEffects(const pack::Scene& scene, const View& view) {
     need(Effect::kTextures, m.maps.any());
     need(Effect::kAbsorption, m.absorption != glm::dvec3(0.0) || m.outsideAbsorption != glm::dvec3(0.0));
     need(Effect::kCoatings, m.coating.thicknessNm > 0);
-    need(Effect::kRoughness, m.roughness > 0 && view.depth > 0);
+    need(Effect::kRoughness, m.roughness > 0 && parameters.depth > 0);
     need(Effect::kPolarizedEmitters, m.kind == pack::MaterialKind::emitter && m.polarization > 0);
   }
   const bool lit = !scene.lights.empty() && (diffuse || glossy);
   need(Effect::kPointLights, lit);
-  need(Effect::kShadows, lit && view.shadows);
+  need(Effect::kShadows, lit && parameters.shadows);
   need(Effect::kHighlights, lit && glossy);
-  need(Effect::kFill, diffuse && scene.environment.diffuseFill > 0);
+  need(Effect::kAmbient, diffuse && scene.environment.ambientIrradiance > 0);
   need(Effect::kEnvironmentMap, scene.environment.size > 0);
   need(Effect::kSky, scene.environment.hasSun());
   return bits;
 }
 
-std::uint32_t waitingWays(std::uint32_t effects, std::uint32_t depth) {
+std::uint32_t pathStackSize(std::uint32_t effects, std::uint32_t depth) {
   std::uint32_t ways = (effects & shaders::bitOf(Effect::kGlass)) != 0 ? std::max(depth, 1u) : 1;
   if ((effects & shaders::bitOf(Effect::kRoughness)) != 0) ways += gpu::kFacets;
   return ways;

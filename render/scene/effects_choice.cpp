@@ -17,8 +17,8 @@ bool contains(const std::vector<std::string>& list, std::string_view name) {
 
 // The method that leaves out linear, or only circular, polarization; the same where there is none.
 std::string without(const std::string& method, bool linear, bool circular) {
-  if (linear && method == "importance") return "fresnel-loop";
-  if (linear && method != "schlick" && method != "schlick-loop" && method != "fresnel-loop") return "fresnel";
+  if (linear && method == "importance") return "fresnel-iterative";
+  if (linear && method != "schlick" && method != "schlick-iterative" && method != "fresnel-iterative") return "fresnel";
   if (circular && method == "stokes") return "stokes-linear";
   return method;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bake/effects/effects.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 namespace malus::render {
 
@@ -21,7 +21,7 @@ struct EffectsChoice {
 //
 // request: what is asked of the picture. With "auto" a method that carries polarized light is replaced where polarized
 // light cannot show: `stokes` and its like by `fresnel`, or by `stokes-linear` where only circular light cannot;
-// `importance` by `fresnel-loop`. Both are exact then.
+// `importance` by `fresnel-iterative`. Both are exact then.
 EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::string& method, const pack::Scene& scene,
                             const bake::PictureRequest& request);
 

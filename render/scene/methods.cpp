@@ -10,16 +10,16 @@ namespace malus::render {
 const std::vector<MethodInfo>& methods() {
 #define MALUS_ROW(M) {f32::M::kName, sizeof(f32::M::Payload), f32::M::kHasStokes != 0, false, 0},
 #define MALUS_LOOP_ROW(M) \
-  {f32::M::kName, 0, f32::M::kHasStokes != 0, true, 7 * sizeof(float) + sizeof(f32::M::Carried)},
+  {f32::M::kName, 0, f32::M::kHasStokes != 0, true, 7 * sizeof(float) + sizeof(f32::M::Throughput)},
   static const std::vector<MethodInfo> kMethods = {MALUS_FOR_EACH_METHOD(MALUS_ROW)
-                                                       MALUS_FOR_EACH_LOOP(MALUS_LOOP_ROW)};
+                                                       MALUS_FOR_EACH_ITERATIVE(MALUS_LOOP_ROW)};
 #undef MALUS_LOOP_ROW
 #undef MALUS_ROW
   return kMethods;
 }
 
-bool hasStokes(const MethodInfo& method, const View& view) {
-  return method.hasStokes && (!method.isLoop || view.stokes);
+bool hasStokes(const MethodInfo& method, const RenderParameters& parameters) {
+  return method.hasStokes && (!method.isIterative || parameters.stokes);
 }
 
 const MethodInfo& methodNamed(std::string_view name) {

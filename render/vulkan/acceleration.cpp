@@ -4,7 +4,7 @@
 
 namespace malus::vulkan {
 
-Acceleration::Acceleration(const Device& device, const render::FloatScene& scene, const Buffer& positions,
+Acceleration::Acceleration(const Device& device, const render::RenderScene& scene, const Buffer& positions,
                            const Buffer& triangles)
     : device_(device) {
   // Bottom level: one opaque geometry a mesh, in the order of the meshes, so that gl_GeometryIndexEXT is the

@@ -1,7 +1,7 @@
 // The acceleration structures of a scene: one bottom level with a geometry per mesh, one instance.
 #pragma once
 
-#include "render/scene/float_scene.h"
+#include "render/scene/render_scene.h"
 #include "render/vulkan/buffer.h"
 
 namespace malus::vulkan {
@@ -9,7 +9,8 @@ namespace malus::vulkan {
 class Acceleration {
  public:
   // positions, triangles: the scene's arrays on the device, usable as build input. Throws Error.
-  Acceleration(const Device& device, const render::FloatScene& scene, const Buffer& positions, const Buffer& triangles);
+  Acceleration(const Device& device, const render::RenderScene& scene, const Buffer& positions,
+               const Buffer& triangles);
   ~Acceleration();
   Acceleration(const Acceleration&) = delete;
   Acceleration& operator=(const Acceleration&) = delete;

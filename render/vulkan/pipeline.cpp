@@ -40,7 +40,7 @@ VkDeviceSize alignedTo(VkDeviceSize value, VkDeviceSize alignment) {
 
 }  // namespace
 
-Pipeline::Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene,
+Pipeline::Pipeline(const Device& device, const Variant& variant, const render::RenderScene& scene,
                    VkDescriptorSetLayout bindings, std::uint32_t recursion)
     : Pipeline(device, variant, bindings, recursion, 0) {
   createTable(scene, stageSources(variant));
@@ -103,7 +103,7 @@ Pipeline::~Pipeline() {
   if (layout_) vkDestroyPipelineLayout(device_.get(), layout_, nullptr);
 }
 
-void Pipeline::createTable(const render::FloatScene& scene, const std::vector<StageSource>& groups) {
+void Pipeline::createTable(const render::RenderScene& scene, const std::vector<StageSource>& groups) {
   const auto groupCount = static_cast<std::uint32_t>(groups.size());
   const auto& limits = device_.rayTracing();
   const std::size_t handleBytes = limits.shaderGroupHandleSize;

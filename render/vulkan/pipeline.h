@@ -1,7 +1,7 @@
 // A ray-tracing pipeline of one variant and its shader binding table.
 #pragma once
 
-#include "render/scene/float_scene.h"
+#include "render/scene/render_scene.h"
 #include "render/vulkan/buffer.h"
 #include "render/vulkan/variant.h"
 
@@ -11,7 +11,7 @@ class Pipeline {
  public:
   // recursion: deepest nesting of traces, shadow rays included. The table has one hit record a mesh: the
   // group of its material's kind. Throws Error.
-  Pipeline(const Device& device, const Variant& variant, const render::FloatScene& scene,
+  Pipeline(const Device& device, const Variant& variant, const render::RenderScene& scene,
            VkDescriptorSetLayout bindings, std::uint32_t recursion);
   // Without a table: it is compiled and cannot trace. Its groups are those of stageSources(), in order.
   Pipeline(const Device& device, const Variant& variant, VkDescriptorSetLayout bindings, std::uint32_t recursion,
@@ -25,7 +25,7 @@ class Pipeline {
   VkPipeline get() const { return pipeline_; }
 
  private:
-  void createTable(const render::FloatScene& scene, const std::vector<StageSource>& groups);
+  void createTable(const render::RenderScene& scene, const std::vector<StageSource>& groups);
 
   const Device& device_;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
-#include "render/scene/float_scene.h"
 #include "render/scene/methods.h"
+#include "render/scene/render_scene.h"
 #include "render/vulkan/bindings.h"
 #include "render/vulkan/check.h"
 #include "render/vulkan/pipeline.h"
@@ -153,9 +153,9 @@ std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const p
     s.driver = device.physical().driver;
     s.method = method;
     s.payloadBytes = render::methodNamed(method).payloadBytes;
-    render::View view = render::viewOf(scene);
-    view.depth = depth;
-    const Variant variant = variantFor(scene, method, view);
+    render::RenderParameters parameters = render::defaultParameters(scene);
+    parameters.depth = depth;
+    const Variant variant = variantFor(scene, method, parameters);
     const std::vector<StageSource> sources = stageSources(variant);
     const Pipeline pipeline(device, variant, layout.handle, variant.stackSize > 0 ? 1 : depth + 2,
                             VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);

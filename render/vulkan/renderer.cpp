@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
-#include "render/scene/float_scene.h"
 #include "render/scene/methods.h"
+#include "render/scene/render_scene.h"
 #include "render/vulkan/acceleration.h"
 #include "render/vulkan/bindings.h"
 #include "render/vulkan/check.h"
@@ -144,7 +144,7 @@ struct Renderer::Impl {
       : instance(options.threads),
         device(instance, options.device),
         scene(source),
-        floats(render::floatScene(source)),
+        floats(render::makeRenderScene(source)),
         uploading(Clock::now()),
         materials(uploaded(device, bytesOf(floats.materials), kStorage)),
         lights(uploaded(device, bytesOf(floats.lights), kStorage)),
@@ -156,7 +156,7 @@ struct Renderer::Impl {
         extras(uploaded(device, bytesOf(floats.extras), kStorage)),
         textures(uploaded(device, bytesOf(floats.textures), kStorage)),
         textureTexels(uploaded(device, bytesOf(floats.textureTexels), kStorage)),
-        frame(device, sizeof(gpu::Frame), kStorage, kHost),
+        frame(device, sizeof(gpu::CameraParameters), kStorage, kHost),
         counter(device, sizeof(std::uint32_t), kStorage, kHost),
         faults(device, sizeof(gpu::Faults), kStorage, kHost),
         building(Clock::now()),
@@ -181,13 +181,13 @@ struct Renderer::Impl {
   }
 
   const Pipeline& pipelineFor(const Variant& variant, std::uint32_t recursion);
-  render::Picture trace(const Variant& variant, const render::View& view);
-  gpu::Faults faultsOf(const Variant& variant, const render::View& view);
+  render::Picture trace(const Variant& variant, const render::RenderParameters& parameters);
+  gpu::Faults faultsOf(const Variant& variant, const render::RenderParameters& parameters);
 
   Instance instance;
   Device device;
   const pack::Scene& scene;
-  render::FloatScene floats;
+  render::RenderScene floats;
   Clock::time_point uploading;
   Buffer materials, lights, meshes, triangles, positions, normals, texels, extras, textures, textureTexels, frame,
       counter, faults, pixels, readBack;
@@ -218,17 +218,17 @@ const Pipeline& Renderer::Impl::pipelineFor(const Variant& variant, std::uint32_
   return *pipeline;
 }
 
-render::Picture Renderer::Impl::trace(const Variant& variant, const render::View& view) {
+render::Picture Renderer::Impl::trace(const Variant& variant, const render::RenderParameters& parameters) {
   const auto preparing = Clock::now();
   // Beside the interactions: the camera ray, and a shadow ray from the last hit. A loop does not recurse.
-  const std::uint32_t recursion = variant.stackSize > 0 ? 1 : view.depth + 2;
+  const std::uint32_t recursion = variant.stackSize > 0 ? 1 : parameters.depth + 2;
   const bool fresh = !pipelines.contains({variant, recursion});
   const Pipeline& pipeline = pipelineFor(variant, recursion);
   render::Picture picture;
-  picture.width = view.region.width;
-  picture.height = view.region.height;
-  picture.channels =
-      render::hasStokes(render::methodNamed(variant.method), view) ? render::kStokesChannels : render::kColourChannels;
+  picture.width = parameters.region.width;
+  picture.height = parameters.region.height;
+  picture.channels = render::hasStokes(render::methodNamed(variant.method), parameters) ? render::kStokesChannels
+                                                                                        : render::kColourChannels;
   picture.pixels.resize(picture.channels * picture.width * picture.height);
   const VkDeviceSize bytes = picture.pixels.size() * sizeof(float);
   if (pixels.sizeBytes() < bytes) {
@@ -236,11 +236,11 @@ render::Picture Renderer::Impl::trace(const Variant& variant, const render::View
     readBack = Buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, kHost);
     bindings.bind(kPixels, pixels);
   }
-  gpu::Frame constants = render::frameOf(scene, view);
+  gpu::CameraParameters constants = render::makeCameraParameters(scene, parameters);
   const std::uint32_t zero = 0;
   counter.write(std::as_bytes(std::span(&zero, 1)));
 
-  const auto dispatch = [&](const gpu::Frame& f) {
+  const auto dispatch = [&](const gpu::CameraParameters& f) {
     frame.write(std::as_bytes(std::span(&f, 1)));
     device.submit([&](VkCommandBuffer commands) {
       vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.get());
@@ -261,7 +261,7 @@ render::Picture Renderer::Impl::trace(const Variant& variant, const render::View
 
   // Drivers finish compiling at the first trace: one pixel warms them up, outside of the time.
   if (fresh && !variant.countRays && !variant.checkNumerics) {
-    gpu::Frame one = constants;
+    gpu::CameraParameters one = constants;
     one.regionWidth = one.regionHeight = 1;
     dispatch(one);
   }
@@ -285,44 +285,44 @@ render::Picture Renderer::Impl::trace(const Variant& variant, const render::View
 }
 
 // A picture by a variant that checks, for what it finds alone.
-gpu::Faults Renderer::Impl::faultsOf(const Variant& variant, const render::View& view) {
+gpu::Faults Renderer::Impl::faultsOf(const Variant& variant, const render::RenderParameters& parameters) {
   gpu::Faults found{};
   found.firstPixel = ~0u;
   faults.write(std::as_bytes(std::span(&found, 1)));
-  trace(variant, view);
+  trace(variant, parameters);
   faults.read(std::as_writable_bytes(std::span(&found, 1)));
   return found;
 }
 
-render::Picture Renderer::render(std::string_view method, const render::View& view) {
-  const bool isLoop = render::methodNamed(method).isLoop;
-  if (isLoop && !impl_->device.hasRayQueries())
+render::Picture Renderer::render(std::string_view method, const render::RenderParameters& parameters) {
+  const bool isIterative = render::methodNamed(method).isIterative;
+  if (isIterative && !impl_->device.hasRayQueries())
     throw Error("--method", fmt::format("device '{}' has no ray queries", impl_->device.physical().name),
                 "a method that recurses", method);
-  if (!isLoop && view.depth > maxDepth())
+  if (!isIterative && parameters.depth > maxDepth())
     throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name),
-                fmt::format("at most {}", maxDepth()), fmt::format("{}", view.depth));
-  Variant variant = variantFor(impl_->scene, method, view);
-  render::Picture picture = impl_->trace(variant, view);
+                fmt::format("at most {}", maxDepth()), fmt::format("{}", parameters.depth));
+  Variant variant = variantFor(impl_->scene, method, parameters);
+  render::Picture picture = impl_->trace(variant, parameters);
   picture.device = device();
-  if (view.checkNumerics) {
+  if (parameters.checkNumerics) {
     variant.checkNumerics = true;
-    const gpu::Faults found = impl_->faultsOf(variant, view);
+    const gpu::Faults found = impl_->faultsOf(variant, parameters);
     picture.faults.count = found.count;
     if (found.count > 0) {
       // The first pixel once more, alone.
-      render::View one = view;
-      one.region = {found.firstPixel % view.width, found.firstPixel / view.width, 1, 1};
+      render::RenderParameters one = parameters;
+      one.region = {found.firstPixel % parameters.width, found.firstPixel / parameters.width, 1, 1};
       picture.faults.first = impl_->faultsOf(variant, one).fault;
     }
   }
   return picture;
 }
 
-std::uint64_t Renderer::countRays(std::string_view method, const render::View& view) {
-  Variant variant = variantFor(impl_->scene, method, view);
+std::uint64_t Renderer::countRays(std::string_view method, const render::RenderParameters& parameters) {
+  Variant variant = variantFor(impl_->scene, method, parameters);
   variant.countRays = true;
-  return impl_->trace(variant, view).cost.rays;
+  return impl_->trace(variant, parameters).cost.rays;
 }
 
 std::vector<DeviceDescription> devices() {

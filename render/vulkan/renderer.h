@@ -8,7 +8,7 @@
 
 #include "bake/pack/scene.h"
 #include "render/scene/picture.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 namespace malus::vulkan {
 
@@ -31,13 +31,13 @@ class Renderer {
   Renderer(const pack::Scene& scene, const Options& options);
   ~Renderer();
 
-  // method: one of shaders/methods or shaders/loops. Pipelines are made at the first use of a method and kept. traceMs
-  // is the device's own time of the trace alone. Throws Error: a depth past the device's recursion limit, a message of
-  // the validation layers.
-  render::Picture render(std::string_view method, const render::View& view);
+  // method: one of shaders/methods or shaders/iterative. Pipelines are made at the first use of a method and kept.
+  // traceMs is the device's own time of the trace alone. Throws Error: a depth past the device's recursion limit, a
+  // message of the validation layers.
+  render::Picture render(std::string_view method, const render::RenderParameters& parameters);
 
   // Rays of a picture, from a variant that counts; not timed.
-  std::uint64_t countRays(std::string_view method, const render::View& view);
+  std::uint64_t countRays(std::string_view method, const render::RenderParameters& parameters);
 
   std::string device() const;
   // Most specular interactions that the device's recursion allows; methods that loop have no such limit.

@@ -15,14 +15,14 @@ using shaders::Effect;
 
 bool has(const Variant& variant, Effect effect) { return (variant.effects & shaders::bitOf(effect)) != 0; }
 
-Variant variantFor(const pack::Scene& scene, std::string_view method, const render::View& view) {
+Variant variantFor(const pack::Scene& scene, std::string_view method, const render::RenderParameters& parameters) {
   Variant variant;
   variant.method = method;
-  variant.effects = render::compiledEffects(scene, view);
+  variant.effects = render::compiledEffects(scene, parameters);
   const render::MethodInfo& info = render::methodNamed(method);
-  if (!info.isLoop) return variant;
-  variant.fourAnalysers = render::hasStokes(info, view);
-  variant.stackSize = render::waitingWays(variant.effects, view.depth);
+  if (!info.isIterative) return variant;
+  variant.fourAnalysers = render::hasStokes(info, parameters);
+  variant.stackSize = render::pathStackSize(variant.effects, parameters.depth);
   return variant;
 }
 
@@ -32,7 +32,7 @@ std::string preamble(const Variant& variant) {
       "#extension GL_EXT_scalar_block_layout : require\n"
       "#extension GL_GOOGLE_include_directive : require\n";
   if (variant.stackSize > 0)
-    text += fmt::format("#extension GL_EXT_ray_query : require\n#define MALUS_STACK_SIZE {}\n", variant.stackSize);
+    text += fmt::format("#extension GL_EXT_ray_query : require\n#define MALUS_PATH_STACK_SIZE {}\n", variant.stackSize);
   text += fmt::format("#define MALUS_METHOD \"{}\"\n", variant.method);
   for (std::size_t i = 0; i < shaders::kEffectMacros.size(); ++i)
     text += fmt::format("#define {} {}\n", shaders::kEffectMacros[i], variant.effects >> i & 1);
@@ -43,14 +43,14 @@ std::string preamble(const Variant& variant) {
 }
 
 std::vector<StageSource> stageSources(const Variant& variant) {
-  if (variant.stackSize > 0) return {{"shaders/stages/eye_path.rgen", Stage::raygen}};
+  if (variant.stackSize > 0) return {{"shaders/stages/camera_path.rgen", Stage::raygen}};
   std::vector<StageSource> sources = {{"shaders/stages/raygen.rgen", Stage::raygen},
                                       {"shaders/stages/environment.rmiss", Stage::miss}};
   if (has(variant, Effect::kPointLights) && has(variant, Effect::kShadows))
     sources.push_back({"shaders/stages/shadow.rmiss", Stage::miss});
   static constexpr std::string_view kHits[gpu::kSurfaceKinds] = {
       "shaders/stages/lambert.rchit", "shaders/stages/paint.rchit",   "shaders/stages/metal.rchit",
-      "shaders/stages/glass.rchit",   "shaders/stages/emitter.rchit", "shaders/stages/sheet.rchit"};
+      "shaders/stages/glass.rchit",   "shaders/stages/emitter.rchit", "shaders/stages/polarizing_element.rchit"};
   for (std::uint32_t kind = 0; kind < gpu::kSurfaceKinds; ++kind)
     if ((variant.effects >> kind & 1) != 0) sources.push_back({kHits[kind], Stage::closestHit, kind});
   return sources;
@@ -60,7 +60,7 @@ std::string_view includedSource(const Variant& variant, std::string_view path) {
   if (path != "shaders/methods/selected.h") return shaders::source(path);
   std::string file = variant.method;
   std::replace(file.begin(), file.end(), '-', '_');
-  return shaders::source(fmt::format("shaders/{}/{}.h", variant.stackSize > 0 ? "loops" : "methods", file));
+  return shaders::source(fmt::format("shaders/{}/{}.h", variant.stackSize > 0 ? "iterative" : "methods", file));
 }
 
 std::string stageText(const StageSource& source) {

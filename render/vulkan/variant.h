@@ -10,7 +10,7 @@
 #include <shaders/effects.h>
 
 #include "bake/pack/scene.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 namespace malus::vulkan {
 
@@ -25,7 +25,7 @@ struct Variant {
 };
 
 // What the picture calls for.
-Variant variantFor(const pack::Scene& scene, std::string_view method, const render::View& view);
+Variant variantFor(const pack::Scene& scene, std::string_view method, const render::RenderParameters& parameters);
 bool has(const Variant& variant, shaders::Effect effect);
 
 // #version, extensions and macros of the variant.

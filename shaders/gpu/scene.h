@@ -21,7 +21,7 @@ using vec4 = glm::vec4;
 
 // Kinds of surface, each with a hit group of its own.
 #ifdef __cplusplus
-enum SurfaceKind : uint { kLambert, kPaint, kMetal, kGlass, kEmitter, kSheet, kSurfaceKinds };
+enum SurfaceKind : uint { kLambert, kPaint, kMetal, kGlass, kEmitter, kPolarizingElement, kSurfaceKinds };
 inline constexpr uint kFacets = 16;  // that stand for a rough surface
 #else
 const uint kLambert = 0u;
@@ -29,19 +29,19 @@ const uint kPaint = 1u;
 const uint kMetal = 2u;
 const uint kGlass = 3u;
 const uint kEmitter = 4u;
-const uint kSheet = 5u;  // polarizer or wave plate
+const uint kPolarizingElement = 5u;  // polarizer or wave plate
 const uint kFacets = 16u;
 #endif
 
 struct Material {
-  vec3 eta;                 // real part of the index; dielectrics use eta.y in every colour
-  vec3 k;                   // imaginary part: eta - i k
-  vec3 albedo;              // diffuse reflectance; 0: none
-  vec3 radiance;            // emitted, divided by the square of the index it is emitted into
-  vec3 fillTransmittance;   // mean transmittance of the interface for light from all directions
-  float outsideEta;         // index on the side that the normals point to
-  float basicScale;         // 1 / outsideEta^2: radiance to basic radiance
-  float highlightStrength;  // 0: none
+  vec3 eta;                      // real part of the index; dielectrics use eta.y in every colour
+  vec3 k;                        // imaginary part: eta - i k
+  vec3 albedo;                   // diffuse reflectance; 0: none
+  vec3 radiance;                 // emitted, divided by the square of the index it is emitted into
+  vec3 hemisphereTransmittance;  // mean transmittance of the interface for light from all directions
+  float outsideEta;              // index on the side that the normals point to
+  float basicScale;              // 1 / outsideEta^2: radiance to basic radiance
+  float highlightStrength;       // 0: none
   int highlightExponent;
   uint kind;  // SurfaceKind
 };
@@ -49,19 +49,19 @@ MALUS_SIZE(Material, 80);
 
 // What only some materials have, one for every material; read by variants whose effects need it alone.
 struct MaterialExtra {
-  vec3 absorption;         // of the body, in 1/m
-  vec3 outsideAbsorption;  // of the medium on the side that the normals point to
-  vec3 axis;               // unit, in the scene: of an emitter's field, of a sheet's transmission or fast axis
-  float degree;            // of an emitter's linear polarization
-  vec3 along;              // power transmittance of a sheet for light polarized along its axis
-  vec3 across;
+  vec3 absorption;             // of the body, in 1/m
+  vec3 outsideAbsorption;      // of the medium on the side that the normals point to
+  vec3 axis;                   // unit, in the scene: of an emitter's field, of a sheet's transmission or fast axis
+  float degree;                // of an emitter's linear polarization
+  vec3 transmittanceParallel;  // power transmittance of a sheet for light polarized along its axis
+  vec3 transmittanceCrossed;
   vec3 retardanceCos;  // of a sheet
   vec3 retardanceSin;
-  vec3 filmEta;     // index of a thin film; 0: none
-  vec3 filmTurns;   // twice its thickness over the wavelength
-  float roughness;  // 0: smooth
-  uint albedoMap;   // texture that albedo is multiplied by; kNoTexture: none
-  uint etaMap;      // texture in place of eta
+  vec3 filmEta;         // index of a thin film; 0: none
+  vec3 roundTripPhase;  // twice its thickness over the wavelength
+  float roughness;      // 0: smooth
+  uint albedoMap;       // texture that albedo is multiplied by; kNoTexture: none
+  uint etaMap;          // texture in place of eta
   uint kMap;
   vec3 mapOrigin;  // texture coordinates: dot(p - mapOrigin, mapU or mapV)
   vec3 mapU;
@@ -96,8 +96,8 @@ struct Mesh {
 };
 MALUS_SIZE(Mesh, 16);
 
-struct Frame {
-  vec3 eye;
+struct CameraParameters {
+  vec3 position;
   vec3 right;  // orthonormal camera axes
   vec3 up;
   vec3 forward;
@@ -114,17 +114,17 @@ struct Frame {
   uint samples;  // rays per pixel and axis
   int depth;     // most specular interactions
   int lightCount;
-  int environmentSize;  // texels per side of the octahedral map without its border; 0: constant
-  vec3 environment;     // radiance where environmentSize is 0
-  float fill;           // share of the environment's irradiance on diffuse surfaces
-  vec3 irradiance[9];   // coefficients of irradiancePolynomial, per colour
-  uint shadows;         // 0: nothing blocks a point light
-  vec3 sun;             // unit, toward it
-  float skyDegree;      // largest degree of polarization of the sky
-  vec2 facets[16];      // points of the unit disk (optics/facets.h)
-  float tolerance;      // loops: share of a source's radiance that may be lost along a path
+  int environmentSize;      // texels per side of the octahedral map without its border; 0: constant
+  vec3 environment;         // radiance where environmentSize is 0
+  float ambientIrradiance;  // share of the environment's irradiance on diffuse surfaces
+  vec3 irradiance[9];       // coefficients of irradiancePolynomial, per colour
+  uint shadows;             // 0: nothing blocks a point light
+  vec3 sun;                 // unit, toward it
+  float skyDegree;          // largest degree of polarization of the sky
+  vec2 facets[16];          // points of the unit disk (optics/facets.h)
+  float tolerance;          // loops: share of a source's radiance that may be lost along a path
 };
-MALUS_SIZE(Frame, 392);
+MALUS_SIZE(CameraParameters, 392);
 
 #ifdef __cplusplus
 }  // namespace malus::gpu

@@ -6,10 +6,10 @@ CONST int kHasStokes = 0;
 struct Payload {
   real3 colour;
 };
-struct Light {
+struct SurfaceLight {
   real3 colour;
 };
 
-#include "shaders/methods/fresnel_factors.h"
+#include "shaders/methods/fresnel_terms.h"
 
 #include "shaders/methods/colour.h"

@@ -18,12 +18,12 @@ FN real3 sFromCosine(real cosine, real3 d) {
   return select3(none, splat3(R(0.0)), x * c + y * s);
 }
 // The paper's absolute-cosine rule.
-FN Light receivePowers(real3 inS, real3 inP, real cosine, real3 d, real3 s) {
+FN SurfaceLight receivePowers(real3 inS, real3 inP, real cosine, real3 d, real3 s) {
   real3 sIn = sFromCosine(cosine, d);
   mask none = lessR(R(1.5), cosine);
   real a = selectR(none, R(1.0), absR(dot3(s, sIn)));
   real b = selectR(none, R(0.0), absR(dot3(s, cross3(d, sIn))));
-  Light l;
+  SurfaceLight l;
   l.s = inS * a + inP * b;
   l.p = inS * b + inP * a;
   return l;

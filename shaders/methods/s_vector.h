@@ -12,7 +12,7 @@ struct Payload {
 FN real payloadDepth(Payload p) { return p.s.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.s.x = depth; }
 
-FN Payload payloadSource(real3 radiance) {
+FN Payload payloadUnpolarized(real3 radiance) {
   Payload p;
   p.s = radiance * R(0.5);
   p.p = p.s;
@@ -21,7 +21,7 @@ FN Payload payloadSource(real3 radiance) {
 }
 FN Stokes payloadStokes(Payload p, real3 d) { return stokesOfPowers(p.s, p.p, p.sDir, d); }
 
-FN Payload payloadSend(Light l, real3 d, real3 s) {
+FN Payload payloadFromSurface(SurfaceLight l, real3 d, real3 s) {
   Payload p;
   p.s = l.s;
   p.p = l.p;

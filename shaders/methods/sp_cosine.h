@@ -19,7 +19,7 @@ FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.s.x = depth; }
 
 #include "shaders/methods/s_cosine.h"
 
-FN Payload payloadSource(real3 radiance) {
+FN Payload payloadUnpolarized(real3 radiance) {
   Payload p;
   p.s = radiance * R(0.5);
   p.p = p.s;
@@ -28,9 +28,9 @@ FN Payload payloadSource(real3 radiance) {
 }
 FN Stokes payloadStokes(Payload p, real3 d) { return stokesOfPowers(p.s, p.p, sFromCosine(p.cosine, d), d); }
 
-FN Light lightReceive(Payload p, real3 d, real3 s) { return receivePowers(p.s, p.p, p.cosine, d, s); }
+FN SurfaceLight lightAtSurface(Payload p, real3 d, real3 s) { return receivePowers(p.s, p.p, p.cosine, d, s); }
 
-FN Payload payloadSend(Light l, real3 d, real3 s) {
+FN Payload payloadFromSurface(SurfaceLight l, real3 d, real3 s) {
   Payload p;
   p.s = l.s;
   p.p = l.p;

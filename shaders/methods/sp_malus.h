@@ -3,13 +3,13 @@
 #include "shaders/methods/powers.h"
 #include "shaders/methods/s_vector.h"
 
-FN Light lightReceive(Payload p, real3 d, real3 s) {
+FN SurfaceLight lightAtSurface(Payload p, real3 d, real3 s) {
   real along = square(dot3(s, p.sDir));
   real across = square(dot3(s, cross3(d, p.sDir)));
   mask none = equalR(dot3(p.sDir, p.sDir), R(0.0));
   real a = selectR(none, R(1.0), along);
   real b = selectR(none, R(0.0), across);
-  Light l;
+  SurfaceLight l;
   l.s = p.s * a + p.p * b;
   l.p = p.s * b + p.p * a;
   return l;

@@ -20,7 +20,7 @@ FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.s.x = depth; }
 
 #include "shaders/methods/s_cosine.h"
 
-FN Payload payloadSource(real3 radiance) {
+FN Payload payloadUnpolarized(real3 radiance) {
   Payload p;
   p.s = radiance * R(0.5);
   p.ratio = R(1.0);
@@ -29,9 +29,11 @@ FN Payload payloadSource(real3 radiance) {
 }
 FN Stokes payloadStokes(Payload p, real3 d) { return stokesOfPowers(p.s, p.s * p.ratio, sFromCosine(p.cosine, d), d); }
 
-FN Light lightReceive(Payload p, real3 d, real3 s) { return receivePowers(p.s, p.s * p.ratio, p.cosine, d, s); }
+FN SurfaceLight lightAtSurface(Payload p, real3 d, real3 s) {
+  return receivePowers(p.s, p.s * p.ratio, p.cosine, d, s);
+}
 
-FN Payload payloadSend(Light l, real3 d, real3 s) {
+FN Payload payloadFromSurface(SurfaceLight l, real3 d, real3 s) {
   real sumS = l.s.x + l.s.y + l.s.z;
   real sumP = l.p.x + l.p.y + l.p.z;
   mask dark = lessEqualR(sumS, sumP * R(1e-20));

@@ -12,19 +12,19 @@ struct Payload {
 FN real payloadDepth(Payload p) { return p.stokes.s0.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.stokes.s0.x = depth; }
 
-FN Payload payloadSource(real3 radiance) {
+FN Payload payloadUnpolarized(real3 radiance) {
   Payload p;
   p.stokes = stokesUnpolarized(radiance);
   return p;
 }
 FN Stokes payloadStokes(Payload p, real3 d) { return p.stokes; }
 
-FN Light lightReceive(Payload p, real3 d, real3 s) {
-  Light l;
+FN SurfaceLight lightAtSurface(Payload p, real3 d, real3 s) {
+  SurfaceLight l;
   l.stokes = stokesToSurface(p.stokes, d, s);
   return l;
 }
-FN Payload payloadSend(Light l, real3 d, real3 s) {
+FN Payload payloadFromSurface(SurfaceLight l, real3 d, real3 s) {
   Payload p;
   p.stokes = stokesFromSurface(l.stokes, d, s);
   return p;

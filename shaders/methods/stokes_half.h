@@ -22,7 +22,7 @@ struct Payload {
 FN real payloadDepth(Payload p) { return realOfWord(p.rootRg) * R(0.25); }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.rootRg = wordOfReal(depth * R(4.0)); }
 
-FN real rootOf(real s0) { return minR(sqrtR(maxR(s0, R(0.0))), R(65504.0)); }
+FN real amplitude(real s0) { return minR(sqrtR(maxR(s0, R(0.0))), R(65504.0)); }
 FN real relative(real s, real s0) {
   mask dark = lessEqualR(s0, R(0.0));
   return maxR(minR(selectR(dark, R(0.0), s / selectR(dark, R(1.0), s0)), R(1.0)), R(-1.0));
@@ -30,8 +30,8 @@ FN real relative(real s, real s0) {
 
 FN Payload packStokes(Stokes s) {
   Payload p;
-  p.rootRg = joinWord(halfBits(rootOf(s.s0.x)), halfBits(rootOf(s.s0.y)));
-  p.rootBs1R = joinWord(halfBits(rootOf(s.s0.z)), fractionBits(relative(s.s1.x, s.s0.x)));
+  p.rootRg = joinWord(halfBits(amplitude(s.s0.x)), halfBits(amplitude(s.s0.y)));
+  p.rootBs1R = joinWord(halfBits(amplitude(s.s0.z)), fractionBits(relative(s.s1.x, s.s0.x)));
   p.s23R = joinWord(fractionBits(relative(s.s2.x, s.s0.x)), fractionBits(relative(s.s3.x, s.s0.x)));
   p.s12G = joinWord(fractionBits(relative(s.s1.y, s.s0.y)), fractionBits(relative(s.s2.y, s.s0.y)));
   p.s3Gs1B = joinWord(fractionBits(relative(s.s3.y, s.s0.y)), fractionBits(relative(s.s1.z, s.s0.z)));
@@ -57,12 +57,14 @@ FN Stokes unpackStokes(Payload p) {
   return s;
 }
 
-FN Payload payloadSource(real3 radiance) { return packStokes(stokesUnpolarized(radiance)); }
+FN Payload payloadUnpolarized(real3 radiance) { return packStokes(stokesUnpolarized(radiance)); }
 FN Stokes payloadStokes(Payload p, real3 d) { return unpackStokes(p); }
 
-FN Light lightReceive(Payload p, real3 d, real3 s) {
-  Light l;
+FN SurfaceLight lightAtSurface(Payload p, real3 d, real3 s) {
+  SurfaceLight l;
   l.stokes = stokesToSurface(unpackStokes(p), d, s);
   return l;
 }
-FN Payload payloadSend(Light l, real3 d, real3 s) { return packStokes(stokesFromSurface(l.stokes, d, s)); }
+FN Payload payloadFromSurface(SurfaceLight l, real3 d, real3 s) {
+  return packStokes(stokesFromSurface(l.stokes, d, s));
+}

@@ -2,89 +2,89 @@
 // every surface. Exact where no circular light matters. 36 bytes. Light at a surface has no S3 either: what mueller.h
 // does, without it.
 
-#include "shaders/methods/mueller_factors.h"
+#include "shaders/methods/mueller_terms.h"
 
 CONST int kPayloadBytes = 36;
 CONST int kHasStokes = 1;
 
-struct Light {
+struct SurfaceLight {
   real3 s0;
   real3 s1;
   real3 s2;
 };
 struct Payload {
-  Light light;
+  SurfaceLight light;
 };
 
 FN real payloadDepth(Payload p) { return p.light.s0.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.light.s0.x = depth; }
 
 // Linear polarization of a degree from -1 to 1 along s.
-FN Light lightPolarized(real3 radiance, real degree) {
-  Light l;
+FN SurfaceLight lightPolarized(real3 radiance, real degree) {
+  SurfaceLight l;
   l.s0 = radiance;
   l.s1 = radiance * degree;
   l.s2 = splat3(R(0.0));
   return l;
 }
-FN Light lightUnpolarized(real3 radiance) { return lightPolarized(radiance, R(0.0)); }
-FN Light lightAdd(Light a, Light b) {
-  Light l;
+FN SurfaceLight lightUnpolarized(real3 radiance) { return lightPolarized(radiance, R(0.0)); }
+FN SurfaceLight lightAdd(SurfaceLight a, SurfaceLight b) {
+  SurfaceLight l;
   l.s0 = a.s0 + b.s0;
   l.s1 = a.s1 + b.s1;
   l.s2 = a.s2 + b.s2;
   return l;
 }
-FN Light lightScale(Light a, real3 scale) {
-  Light l;
+FN SurfaceLight lightScale(SurfaceLight a, real3 scale) {
+  SurfaceLight l;
   l.s0 = a.s0 * scale;
   l.s1 = a.s1 * scale;
   l.s2 = a.s2 * scale;
   return l;
 }
-FN Light lightThrough(Light a, real3 rs, real3 rp, real3 x) {
+FN SurfaceLight lightThroughInterface(SurfaceLight a, real3 rs, real3 rp, real3 x) {
   real3 mean = (rs + rp) * R(0.5);
   real3 difference = (rs - rp) * R(0.5);
-  Light l;
+  SurfaceLight l;
   l.s0 = mean * a.s0 + difference * a.s1;
   l.s1 = difference * a.s0 + mean * a.s1;
   l.s2 = x * a.s2;
   return l;
 }
-FN Light lightReflect(Factors f, Light l) { return lightThrough(l, f.rs, f.rp, f.xRe); }
-FN Light lightTransmit(Factors f, Light l) {
+FN SurfaceLight lightReflect(FresnelTerms f, SurfaceLight l) { return lightThroughInterface(l, f.rs, f.rp, f.xRe); }
+FN SurfaceLight lightTransmit(FresnelTerms f, SurfaceLight l) {
   real3 ts = splat3(R(1.0)) - f.rs;
   real3 tp = splat3(R(1.0)) - f.rp;
   real3 product = ts * tp;
-  return lightThrough(l, ts, tp, make3(sqrtR(product.x), sqrtR(product.y), sqrtR(product.z)));
+  return lightThroughInterface(l, ts, tp, make3(sqrtR(product.x), sqrtR(product.y), sqrtR(product.z)));
 }
-FN Light lightLeave(Factors f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
+FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
 
 FN real3 surfaceS(real3 d, real3 n) { return sDirection(d, n); }
 
-FN Light lightTurn(Light a, real cos2, real sin2) {
-  Light l;
+FN SurfaceLight rotateLight(SurfaceLight a, real cos2, real sin2) {
+  SurfaceLight l;
   l.s0 = a.s0;
   l.s1 = a.s1 * cos2 + a.s2 * sin2;
   l.s2 = a.s2 * cos2 - a.s1 * sin2;
   return l;
 }
-FN Light lightReceive(Payload p, real3 d, real3 s) {
+FN SurfaceLight lightAtSurface(Payload p, real3 d, real3 s) {
   real cos2;
   real sin2;
-  canonicalTurn(d, s, cos2, sin2);
-  return lightTurn(p.light, cos2, sin2);
+  canonicalRotation(d, s, cos2, sin2);
+  return rotateLight(p.light, cos2, sin2);
 }
-FN Payload payloadSend(Light l, real3 d, real3 s) {
+FN Payload payloadFromSurface(SurfaceLight l, real3 d, real3 s) {
   real cos2;
   real sin2;
-  canonicalTurn(d, s, cos2, sin2);
+  canonicalRotation(d, s, cos2, sin2);
   Payload p;
-  p.light = lightTurn(l, cos2, R(0.0) - sin2);
+  p.light = rotateLight(l, cos2, R(0.0) - sin2);
   return p;
 }
 
-FN Payload payloadSource(real3 radiance) {
+FN Payload payloadUnpolarized(real3 radiance) {
   Payload p;
   p.light = lightUnpolarized(radiance);
   return p;

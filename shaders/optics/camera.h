@@ -5,9 +5,9 @@ FN real3 cameraDirection(real3 right, real3 up, real3 forward, real tanX, real t
 }
 
 // The camera's frame of a ray: x = cross(d, up), per ray, so that angles are those seen along that ray.
-FN void cameraFrameTurn(real3 d, real3 up, OUT(real) cos2, OUT(real) sin2) {
+FN void cameraFrameRotation(real3 d, real3 up, OUT(real) cos2, OUT(real) sin2) {
   // Up takes the part of a normal: the camera's x is perpendicular to it and to the ray.
-  canonicalTurn(d, sDirection(d, up), cos2, sin2);
+  canonicalRotation(d, sDirection(d, up), cos2, sin2);
 }
 
 // Intensity behind an analyser with row (a0, a1, a2, a3) of its Mueller matrix.

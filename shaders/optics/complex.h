@@ -5,39 +5,41 @@ struct Complex {
   real im;
 };
 
-FN Complex complexOf(real re, real im) {
+FN Complex makeComplex(real re, real im) {
   Complex z;
   z.re = re;
   z.im = im;
   return z;
 }
-FN Complex complexAdd(Complex a, Complex b) { return complexOf(a.re + b.re, a.im + b.im); }
-FN Complex complexSub(Complex a, Complex b) { return complexOf(a.re - b.re, a.im - b.im); }
-FN Complex complexMul(Complex a, Complex b) { return complexOf(a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re); }
+FN Complex complexAdd(Complex a, Complex b) { return makeComplex(a.re + b.re, a.im + b.im); }
+FN Complex complexSub(Complex a, Complex b) { return makeComplex(a.re - b.re, a.im - b.im); }
+FN Complex complexMul(Complex a, Complex b) {
+  return makeComplex(a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re);
+}
 FN real complexNormSq(Complex a) { return a.re * a.re + a.im * a.im; }
 // b = 0 gives 0: every 0/0 of the optics stands for nothing.
 FN Complex complexDiv(Complex a, Complex b) {
   real m = maxR(absR(b.re), absR(b.im));
   real scale = R(1.0) / selectR(equalR(m, R(0.0)), R(1.0), m);
-  Complex c = complexOf(b.re * scale, b.im * scale);
+  Complex c = makeComplex(b.re * scale, b.im * scale);
   real normSq = complexNormSq(c);
   real inverse = scale / selectR(equalR(normSq, R(0.0)), R(1.0), normSq);
-  return complexOf((a.re * c.re + a.im * c.im) * inverse, (a.im * c.re - a.re * c.im) * inverse);
+  return makeComplex((a.re * c.re + a.im * c.im) * inverse, (a.im * c.re - a.re * c.im) * inverse);
 }
 
 // Root of zRe + i zIm with an imaginary part of 0 or less: the larger part from the modulus, the other from zIm,
 // whose sign does not count.
-FN Complex complexRoot(real zRe, real zIm) {
+FN Complex complexSqrtLower(real zRe, real zIm) {
   real zAbs = sqrtR(zRe * zRe + zIm * zIm);
   real larger = sqrtR(R(0.5) * (zAbs + absR(zRe)));
   real smaller = absR(zIm) / selectR(equalR(larger, R(0.0)), R(1.0), R(2.0) * larger);
   mask positive = lessEqualR(R(0.0), zRe);
-  return complexOf(selectR(positive, larger, smaller), R(0.0) - selectR(positive, smaller, larger));
+  return makeComplex(selectR(positive, larger, smaller), R(0.0) - selectR(positive, smaller, larger));
 }
 
 // Cosine and sine of 2 pi x, by their Taylor series on a quarter turn (to x^21: exact in double). No library
 // function, so that every device gives the same.
-FN Complex complexTurn(real x) {
+FN Complex cisTwoPi(real x) {
   real z = (x - floorR(x + R(0.5))) * R(3.14159265358979323846);  // half the angle, within a quarter turn
   real zSq = z * z;
   real s =
@@ -73,5 +75,5 @@ FN Complex complexTurn(real x) {
                                                           (R(1.0) - zSq / R(240.0) *
                                                                         (R(1.0) - zSq / R(306.0) *
                                                                                       (R(1.0) - zSq / R(380.0))))))))));
-  return complexOf(c * c - s * s, R(2.0) * s * c);
+  return makeComplex(c * c - s * s, R(2.0) * s * c);
 }

@@ -1,14 +1,14 @@
 // Microfacets of a rough surface, GGX distribution of roughness alpha, chosen among those that the eye sees. The mean
-// over facets of F times facetWeight is the surface's reflection. toEye, toLight, n: unit; alpha in (0, 1].
+// over facets of F times facetWeight is the surface's reflection. toCamera, toLight, n: unit; alpha in (0, 1].
 
 // Normal of the facet that (px, py), a point of the unit disk, stands for. Source: Heitz, Sampling the GGX Distribution
-// of Visible Normals, JCGT 7(4), 2018. The disk's first axis lies across the plane of toEye and n.
-FN real3 facetNormal(real3 toEye, real3 n, real alpha, real px, real py) {
-  real3 across = sDirection(toEye * R(-1.0), n);  // of the eye's plane of incidence
+// of Visible Normals, JCGT 7(4), 2018. The disk's first axis lies across the plane of toCamera and n.
+FN real3 facetNormal(real3 toCamera, real3 n, real alpha, real px, real py) {
+  real3 across = sDirection(toCamera * R(-1.0), n);  // of the eye's plane of incidence
   real3 along = cross3(n, across);
   // Step 1: stretched so that the surface has roughness 1; the view there is (0, vy, vz).
-  real y = alpha * dot3(toEye, along);
-  real z = maxR(dot3(toEye, n), R(0.0));
+  real y = alpha * dot3(toCamera, along);
+  real z = maxR(dot3(toCamera, n), R(0.0));
   real inverse = R(1.0) / sqrtR(maxR(y * y + z * z, R(1e-30)));
   real vy = y * inverse;
   real vz = z * inverse;
@@ -25,8 +25,8 @@ FN real3 facetNormal(real3 toEye, real3 n, real alpha, real px, real py) {
 
 // Share of a facet's light that others do not hide: G2/G1 of Smith, correlated in height. Source: Heitz, Understanding
 // the Masking-Shadowing Function, JCGT 3(2), 2014. 0 where the light goes below the surface.
-FN real facetWeight(real3 toEye, real3 toLight, real3 n, real alpha) {
-  real o = maxR(dot3(toEye, n), R(0.0));
+FN real facetWeight(real3 toCamera, real3 toLight, real3 n, real alpha) {
+  real o = maxR(dot3(toCamera, n), R(0.0));
   real i = dot3(toLight, n);
   real alphaSq = alpha * alpha;
   real ro = sqrtR(o * o + alphaSq * maxR(R(1.0) - o * o, R(0.0)));

@@ -10,22 +10,22 @@ struct Film {
 
 // One interface within the stack, from medium j to k: r_s and rho = r_p/r_s. kSq: square of the wave's component
 // along the surface; qj, qk: across it; difference: n_j^2 - n_k^2, all relative to the first medium.
-struct FilmStep {
+struct FilmInterface {
   Complex rs;
   Complex rp;
 };
-FN FilmStep filmStep(real kSq, Complex qj, Complex qk, Complex difference) {
-  FilmStep f;
+FN FilmInterface filmInterface(real kSq, Complex qj, Complex qk, Complex difference) {
+  FilmInterface f;
   Complex sum = complexAdd(qj, qk);
   Complex product = complexMul(qj, qk);
   f.rs = complexDiv(difference, complexMul(sum, sum));
   f.rp = complexMul(
-      f.rs, complexDiv(complexOf(kSq - product.re, R(0.0) - product.im), complexOf(kSq + product.re, product.im)));
+      f.rs, complexDiv(makeComplex(kSq - product.re, R(0.0) - product.im), makeComplex(kSq + product.re, product.im)));
   return f;
 }
 
 // Medium n1, film of index nf, medium n3 - i k3. turns: twice the film's thickness over the wavelength in vacuum.
-FN Film filmOf(real c, real n1, real nf, real turns, real n3, real k3) {
+FN Film thinFilm(real c, real n1, real nf, real turns, real n3, real k3) {
   real inverse = R(1.0) / n1;
   real inverseSq = inverse * inverse;
   real sinSq = (R(1.0) - c) * (R(1.0) + c);
@@ -33,19 +33,19 @@ FN Film filmOf(real c, real n1, real nf, real turns, real n3, real k3) {
   real eF = ((nf - n1) * (nf + n1)) * inverseSq;
   real e3Re = ((n3 - n1) * (n3 + n1) - k3 * k3) * inverseSq;
   real e3Im = R(-2.0) * n3 * k3 * inverseSq;
-  Complex q1 = complexOf(c, R(0.0));
-  Complex q2 = complexRoot(eF + c * c, R(0.0));
-  Complex q3 = complexRoot(e3Re + c * c, e3Im);
-  FilmStep a = filmStep(sinSq, q1, q2, complexOf(R(0.0) - eF, R(0.0)));
+  Complex q1 = makeComplex(c, R(0.0));
+  Complex q2 = complexSqrtLower(eF + c * c, R(0.0));
+  Complex q3 = complexSqrtLower(e3Re + c * c, e3Im);
+  FilmInterface a = filmInterface(sinSq, q1, q2, makeComplex(R(0.0) - eF, R(0.0)));
   real differenceRe = ((nf - n3) * (nf + n3) + k3 * k3) * inverseSq;
-  FilmStep b = filmStep(sinSq, q2, q3, complexOf(differenceRe, R(0.0) - e3Im));
+  FilmInterface b = filmInterface(sinSq, q2, q3, makeComplex(differenceRe, R(0.0) - e3Im));
   // Once through the film and back: e^{-2 i beta}.
-  Complex turn = complexTurn(turns * n1 * q2.re);
+  Complex turn = cisTwoPi(turns * n1 * q2.re);
   real fade = expR(R(6.28318530717958647693) * turns * n1 * q2.im);
-  Complex phase = complexOf(turn.re * fade, (R(0.0) - turn.im) * fade);
+  Complex phase = makeComplex(turn.re * fade, (R(0.0) - turn.im) * fade);
 
   // r = (r12 + r23 e) / (1 + r12 r23 e)
-  Complex one = complexOf(R(1.0), R(0.0));
+  Complex one = makeComplex(R(1.0), R(0.0));
   Complex sBelow = complexMul(b.rs, phase);
   Complex pBelow = complexMul(b.rp, phase);
   Complex sSum = complexAdd(one, complexMul(a.rs, sBelow));

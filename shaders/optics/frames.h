@@ -31,7 +31,7 @@ FN real3 sDirection(real3 d, real3 n) {
 
 // Twice the angle f from the frame's x to a unit direction s across the ray, as cosine and sine. Divided by the
 // square of s, so that a turn never changes the size of what it turns; an s along the ray turns nothing.
-FN void turnTo(real3 s, real3 x, real3 y, OUT(real) cos2, OUT(real) sin2) {
+FN void frameRotation(real3 s, real3 x, real3 y, OUT(real) cos2, OUT(real) sin2) {
   real a = dot3(s, x);
   real b = dot3(s, y);
   real sum = a * a + b * b;
@@ -42,9 +42,9 @@ FN void turnTo(real3 s, real3 x, real3 y, OUT(real) cos2, OUT(real) sin2) {
 }
 
 // Twice the angle from the canonical frame of the light against a ray in direction d to a unit s direction across it.
-FN void canonicalTurn(real3 d, real3 s, OUT(real) cos2, OUT(real) sin2) {
+FN void canonicalRotation(real3 d, real3 s, OUT(real) cos2, OUT(real) sin2) {
   real3 x;
   real3 y;
   canonicalFrame(d * R(-1.0), x, y);
-  turnTo(s, x, y, cos2, sin2);
+  frameRotation(s, x, y, cos2, sin2);
 }

@@ -20,7 +20,7 @@ struct Transmittance {
 };
 
 // What both share: t = sqrt(eta^2 - sin^2), with eta = n2/n1.
-struct Refraction {
+struct RefractionTerms {
   real eta;      // n2/n1
   real etaSq;    // eta^2
   real etaSqM1;  // eta^2 - 1, from the two indices and not from their rounded ratio
@@ -31,8 +31,8 @@ struct Refraction {
   mask matched;  // n1 == n2: no interface
 };
 
-FN Refraction refractionTerms(real c, real n1, real n2) {
-  Refraction f;
+FN RefractionTerms refractionTerms(real c, real n1, real n2) {
+  RefractionTerms f;
   f.eta = n2 / n1;
   f.etaSq = f.eta * f.eta;
   f.etaSqM1 = ((n2 - n1) * (n2 + n1)) / (n1 * n1);
@@ -47,7 +47,7 @@ FN Refraction refractionTerms(real c, real n1, real n2) {
 }
 
 FN Reflectance dielectricReflectance(real c, real n1, real n2) {
-  Refraction f = refractionTerms(c, n1, n2);
+  RefractionTerms f = refractionTerms(c, n1, n2);
   // Partial reflection: r_s = -(eta^2 - 1)/(c + t)^2, rho = r_p/r_s = (sin^2 - c t)/(sin^2 + c t).
   real sum = c + f.t;
   real rs = f.etaSqM1 / selectR(orM(f.matched, f.total), R(1.0), sum * sum);
@@ -66,7 +66,7 @@ FN Reflectance dielectricReflectance(real c, real n1, real n2) {
 }
 
 FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
-  Refraction f = refractionTerms(c, n1, n2);
+  RefractionTerms f = refractionTerms(c, n1, n2);
   mask none = orM(f.matched, f.total);
   real four = R(4.0) * c * f.t;
   real s = selectR(none, R(1.0), c + f.t);
@@ -90,7 +90,7 @@ FN Reflectance conductorReflectance(real c, real n1, real n2, real k2) {
   real eRe = nSqM1 - k * k;
   real eIm = R(-2.0) * n * k;
   real zRe = selectR(lessR(n * n + sinSq, R(1.0)), n * n - sinSq - k * k, eRe + c * c);
-  Complex t = complexRoot(zRe, eIm);
+  Complex t = complexSqrtLower(zRe, eIm);
   // R_s = |eta^2 - 1|^2 / |c + t|^4
   real qRe = c + t.re;
   real qSq = qRe * qRe + t.im * t.im;

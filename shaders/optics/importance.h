@@ -2,7 +2,7 @@
 // product with a row (w, q, u, v), followed from the eye on. Rows are never divided by w, which may vanish.
 // Frames as in stokes.h, of the light. Derivation: CONVENTIONS.md.
 
-struct Row {
+struct ImportanceVector {
   real w;
   real q;
   real u;
@@ -11,8 +11,8 @@ struct Row {
 
 // The same row in a frame turned by f about the propagation. row' S' = row S with S' = R(f) S makes row R(-f), which
 // is how a Stokes vector turns.
-FN Row rowTurn(Row r, real cos2, real sin2) {
-  Row t;
+FN ImportanceVector rotateImportance(ImportanceVector r, real cos2, real sin2) {
+  ImportanceVector t;
   t.w = r.w;
   t.q = r.q * cos2 + r.u * sin2;
   t.u = r.u * cos2 - r.q * sin2;
@@ -20,8 +20,8 @@ FN Row rowTurn(Row r, real cos2, real sin2) {
   return t;
 }
 
-FN Row rowScale(Row r, real scale) {
-  Row t;
+FN ImportanceVector scaleImportance(ImportanceVector r, real scale) {
+  ImportanceVector t;
   t.w = r.w * scale;
   t.q = r.q * scale;
   t.u = r.u * scale;
@@ -31,10 +31,10 @@ FN Row rowScale(Row r, real scale) {
 
 // From the light that leaves an interface to the light that meets it: the row times the Mueller matrix of stokes.h
 // (stokesInterface). Transmission has the same form with x real.
-FN Row rowInterface(Row r, real rs, real rp, real xRe, real xIm) {
+FN ImportanceVector applyInterfaceTransposed(ImportanceVector r, real rs, real rp, real xRe, real xIm) {
   real mean = (rs + rp) * R(0.5);
   real difference = (rs - rp) * R(0.5);
-  Row t;
+  ImportanceVector t;
   t.w = mean * r.w + difference * r.q;
   t.q = mean * r.q + difference * r.w;
   t.u = r.u * xRe + r.v * xIm;

@@ -27,7 +27,7 @@ FN Stokes stokesAdd(Stokes a, Stokes b) {
 }
 
 // The same light in a frame turned by f about the propagation; cos2 = cos 2f, sin2 = sin 2f.
-FN Stokes stokesTurn(Stokes a, real cos2, real sin2) {
+FN Stokes rotateStokes(Stokes a, real cos2, real sin2) {
   Stokes s;
   s.s0 = a.s0;
   s.s1 = a.s1 * cos2 + a.s2 * sin2;

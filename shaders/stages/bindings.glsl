@@ -1,7 +1,7 @@
 // What every stage sees of the scene (render/vulkan/renderer.cpp fills it in the same order).
 layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 layout(set = 0, binding = 1, scalar) writeonly buffer Pixels { float pixels[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer FrameBlock { Frame frame; };
+layout(set = 0, binding = 2, scalar) readonly buffer CameraBlock { CameraParameters camera; };
 layout(set = 0, binding = 3, scalar) readonly buffer Materials { Material materials[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Lights { PointLight lights[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Meshes { Mesh meshes[]; };
@@ -9,7 +9,7 @@ layout(set = 0, binding = 6, scalar) readonly buffer Triangles { uvec3 triangles
 layout(set = 0, binding = 7, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(set = 0, binding = 8, scalar) readonly buffer Normals { vec3 normals[]; };
 layout(set = 0, binding = 9, scalar) readonly buffer EnvironmentTexels { vec3 environmentTexels[]; };
-#if MALUS_EFFECT_SHEET || MALUS_EFFECT_TEXTURES || MALUS_EFFECT_ABSORPTION || MALUS_EFFECT_COATINGS || \
+#if MALUS_EFFECT_POLARIZING_ELEMENT || MALUS_EFFECT_TEXTURES || MALUS_EFFECT_ABSORPTION || MALUS_EFFECT_COATINGS || \
     MALUS_EFFECT_ROUGHNESS || MALUS_EFFECT_POLARIZED_EMITTERS
 layout(set = 0, binding = 12, scalar) readonly buffer MaterialExtras { MaterialExtra extras[]; };
 #endif

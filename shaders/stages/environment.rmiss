@@ -4,9 +4,9 @@
 #include "shaders/stages/faults.glsl"
 #include "shaders/surfaces/check.h"
 #include "shaders/surfaces/check_sent.h"
-#include "shaders/surfaces/surroundings.h"
+#include "shaders/surfaces/environment.h"
 #include "shaders/surfaces/miss.h"
 
 layout(location = 0) rayPayloadInEXT Payload result;
 
-void main() { result = shadeMiss(gl_WorldRayDirectionEXT, payloadDepth(result)); }
+void main() { result = shadeEnvironment(gl_WorldRayDirectionEXT, payloadDepth(result)); }

@@ -8,14 +8,14 @@ const bool kCheckNumerics = false;
 
 void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack) {
 #ifdef MALUS_CHECK_NUMERICS
-  uvec2 pixel = gl_LaunchIDEXT.xy + uvec2(frame.regionX, frame.regionY);
+  uvec2 pixel = gl_LaunchIDEXT.xy + uvec2(camera.regionX, camera.regionY);
   atomicAdd(faults.count, 1u);
-  atomicMin(faults.firstPixel, pixel.y * frame.width + pixel.x);
-  if (frame.regionWidth * frame.regionHeight > 1u || faults.fault.kind != kNoFault) return;
+  atomicMin(faults.firstPixel, pixel.y * camera.width + pixel.x);
+  if (camera.regionWidth * camera.regionHeight > 1u || faults.fault.kind != kNoFault) return;
   faults.fault.kind = kind;
   faults.fault.x = pixel.x;
   faults.fault.y = pixel.y;
-  faults.fault.bounce = frame.depth - int(h.depth);
+  faults.fault.bounce = camera.depth - int(h.depth);
   faults.fault.material = h.material;
   faults.fault.colour = colour;
   faults.fault.cosine = h.c;

@@ -1,5 +1,5 @@
 // A hit, from the geometry that every stage sees. origin, d: the ray; the rest as the device names them.
-Hit hitOf(uint geometry, uint primitive, vec2 barycentric, vec3 origin, vec3 d, float depth) {
+Hit makeHitFromMesh(uint geometry, uint primitive, vec2 barycentric, vec3 origin, vec3 d, float depth) {
   Mesh mesh = meshes[geometry];
   uvec3 corner = triangles[mesh.firstTriangle + primitive] + mesh.firstVertex;
   float b0 = 1.0 - barycentric.x - barycentric.y;

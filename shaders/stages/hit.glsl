@@ -10,8 +10,8 @@
 #include "shaders/surfaces/medium.h"
 #include "shaders/surfaces/interface.h"
 #include "shaders/surfaces/direct_light.h"
-#include "shaders/surfaces/glass_way.h"
-#include "shaders/surfaces/sheet_factors.h"
+#include "shaders/surfaces/refraction.h"
+#include "shaders/surfaces/polarizing_element_terms.h"
 #include "shaders/surfaces/facet.h"
 #include "shaders/surfaces/send.h"
 
@@ -19,6 +19,6 @@ layout(location = 0) rayPayloadInEXT Payload result;
 hitAttributeEXT vec2 barycentric;
 
 Hit loadHit() {
-  return hitOf(gl_GeometryIndexEXT, gl_PrimitiveID, barycentric, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT,
+  return makeHitFromMesh(gl_GeometryIndexEXT, gl_PrimitiveID, barycentric, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT,
                payloadDepth(result));
 }

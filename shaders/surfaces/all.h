@@ -8,8 +8,8 @@
 #include "shaders/surfaces/paint.h"
 #include "shaders/surfaces/metal.h"
 #include "shaders/surfaces/glass.h"
-#if MALUS_EFFECT_SHEET
-#include "shaders/surfaces/sheet.h"
+#if MALUS_EFFECT_POLARIZING_ELEMENT
+#include "shaders/surfaces/polarizing_element.h"
 #endif
 #include "shaders/surfaces/emitter.h"
 #include "shaders/surfaces/miss.h"

@@ -23,7 +23,7 @@ FN real polarizationExcess(real s0, real s1, real s2, real s3) {
 
 // By how much light that arrives may be beyond full polarization once the next surface has sent it on: what it is
 // already, and 4 eps of its power (optics.md: rounding adds up to 2.7 eps a bounce).
-FN real3 slackOf(Stokes s) {
+FN real3 roundingSlack(Stokes s) {
   real eps = R(8.0) * kUnitRoundoff;
   return make3(maxR(polarizationExcess(s.s0.x, s.s1.x, s.s2.x, s.s3.x), R(0.0)) + eps * absR(s.s0.x),
                maxR(polarizationExcess(s.s0.y, s.s1.y, s.s2.y, s.s3.y), R(0.0)) + eps * absR(s.s0.y),

@@ -8,21 +8,21 @@ struct DirectLight {
 
 // Transmittance of the material's interface, mean of s and p, for light at an angle with cosine c.
 FN real3 enteringTransmittance(IN(Material) m, uint index, real c) {
-  if (m.kind == kPaint || m.kind == kMetal) return meanTransmittance(opaqueFactors(c, m, index));
+  if (m.kind == kPaint || m.kind == kMetal) return meanTransmittance(opaqueTerms(c, m, index));
   return splat3(R(1.0));
 }
 
-FN real3 fillIrradiance(real3 n) {
+FN real3 environmentIrradiance(real3 n) {
   real3 e;
-  e.x = irradiancePolynomial(n, frame.irradiance[0].x, frame.irradiance[1].x, frame.irradiance[2].x,
-                             frame.irradiance[3].x, frame.irradiance[4].x, frame.irradiance[5].x, frame.irradiance[6].x,
-                             frame.irradiance[7].x, frame.irradiance[8].x);
-  e.y = irradiancePolynomial(n, frame.irradiance[0].y, frame.irradiance[1].y, frame.irradiance[2].y,
-                             frame.irradiance[3].y, frame.irradiance[4].y, frame.irradiance[5].y, frame.irradiance[6].y,
-                             frame.irradiance[7].y, frame.irradiance[8].y);
-  e.z = irradiancePolynomial(n, frame.irradiance[0].z, frame.irradiance[1].z, frame.irradiance[2].z,
-                             frame.irradiance[3].z, frame.irradiance[4].z, frame.irradiance[5].z, frame.irradiance[6].z,
-                             frame.irradiance[7].z, frame.irradiance[8].z);
+  e.x = irradiancePolynomial(n, camera.irradiance[0].x, camera.irradiance[1].x, camera.irradiance[2].x,
+                             camera.irradiance[3].x, camera.irradiance[4].x, camera.irradiance[5].x,
+                             camera.irradiance[6].x, camera.irradiance[7].x, camera.irradiance[8].x);
+  e.y = irradiancePolynomial(n, camera.irradiance[0].y, camera.irradiance[1].y, camera.irradiance[2].y,
+                             camera.irradiance[3].y, camera.irradiance[4].y, camera.irradiance[5].y,
+                             camera.irradiance[6].y, camera.irradiance[7].y, camera.irradiance[8].y);
+  e.z = irradiancePolynomial(n, camera.irradiance[0].z, camera.irradiance[1].z, camera.irradiance[2].z,
+                             camera.irradiance[3].z, camera.irradiance[4].z, camera.irradiance[5].z,
+                             camera.irradiance[6].z, camera.irradiance[7].z, camera.irradiance[8].z);
   return e;
 }
 
@@ -30,13 +30,13 @@ FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 mirror) {
   DirectLight sum;
   sum.diffuse = splat3(R(0.0));
   sum.highlight = splat3(R(0.0));
-#if MALUS_EFFECT_POINT_LIGHTS || MALUS_EFFECT_FILL
+#if MALUS_EFFECT_POINT_LIGHTS || MALUS_EFFECT_AMBIENT
   bool isDiffuse = maxR(m.albedo.x, maxR(m.albedo.y, m.albedo.z)) > R(0.0);
 #endif
 #if MALUS_EFFECT_POINT_LIGHTS
   bool isGlossy = m.highlightStrength > R(0.0) && h.depth > R(0.5);
   if (isDiffuse || isGlossy) {
-    for (int i = 0; i < frame.lightCount; ++i) {
+    for (int i = 0; i < camera.lightCount; ++i) {
       real3 origin = originAbove(h);
       real3 toLight = lights[i].position - origin;
       real distanceSq = dot3(toLight, toLight);
@@ -51,7 +51,7 @@ FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 mirror) {
 #endif
       if (!isDiffuse && lobe <= R(0.0)) continue;
 #if MALUS_EFFECT_SHADOWS
-      if (frame.shadows != 0u && !visible(origin, l, distanceToLight)) continue;
+      if (camera.shadows != 0u && !visible(origin, l, distanceToLight)) continue;
 #endif
       real3 arriving = lights[i].intensity * (R(1.0) / distanceSq);
 #if MALUS_EFFECT_ABSORPTION
@@ -64,9 +64,10 @@ FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 mirror) {
     }
   }
 #endif
-#if MALUS_EFFECT_FILL
-  if (isDiffuse && frame.fill > R(0.0))
-    sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, fillIrradiance(h.normal) * frame.fill, m.fillTransmittance);
+#if MALUS_EFFECT_AMBIENT
+  if (isDiffuse && camera.ambientIrradiance > R(0.0))
+    sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, environmentIrradiance(h.normal) * camera.ambientIrradiance,
+                                                m.hemisphereTransmittance);
 #endif
   sum.diffuse = sum.diffuse * m.basicScale;
   sum.highlight = sum.highlight * m.basicScale;

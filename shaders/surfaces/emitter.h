@@ -8,12 +8,13 @@ FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
 #if MALUS_EFFECT_POLARIZED_EMITTERS
   // Without polarization the light has no direction across the ray, which the methods of the paper tell apart.
   real degree = extras[h.material].degree;
-  Payload sent = payloadSource(radiance);
+  Payload sent = payloadUnpolarized(radiance);
   if (degree > R(0.0))
-    sent = payloadSend(lightPolarized(radiance, degree), h.d, surfaceS(h.d, cross3(h.face, extras[h.material].axis)));
+    sent = payloadFromSurface(lightPolarized(radiance, degree), h.d,
+                              surfaceS(h.d, cross3(h.face, extras[h.material].axis)));
   if (kCheckNumerics) checkSent(h, sent, radiance * (R(8.0) * kUnitRoundoff));
 #else
-  Payload sent = payloadSource(radiance);
+  Payload sent = payloadUnpolarized(radiance);
   if (kCheckNumerics) checkSent(h, sent, none);
 #endif
   return sent;

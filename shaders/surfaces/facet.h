@@ -17,14 +17,14 @@ struct Facet {
   real weight;   // of its light in the sum; 0: it shows nothing
 };
 
-FN Facet facetOf(IN(Hit) h, uint index) {
+FN Facet sampleFacet(IN(Hit) h, uint index) {
   real alpha = extras[h.material].roughness;
-  real3 toEye = h.d * R(-1.0);
+  real3 toCamera = h.d * R(-1.0);
   Facet f;
-  f.normal = facetNormal(toEye, h.normal, alpha, frame.facets[index].x, frame.facets[index].y);
-  f.c = clampUnit(dot3(toEye, f.normal));
+  f.normal = facetNormal(toCamera, h.normal, alpha, camera.facets[index].x, camera.facets[index].y);
+  f.c = clampUnit(dot3(toCamera, f.normal));
   f.mirror = mirrorDirection(h.d, f.normal, f.c);
-  f.weight = facetWeight(toEye, f.mirror, h.normal, alpha) * (R(1.0) / real(kFacets));
+  f.weight = facetWeight(toCamera, f.mirror, h.normal, alpha) * (R(1.0) / real(kFacets));
   if (dot3(f.mirror, h.face) <= R(0.0)) f.weight = R(0.0);
   return f;
 }

@@ -51,7 +51,7 @@ FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 in
 }
 
 // What the check of numbers names where a ray leaves the scene.
-FN Hit missedHit(real3 d, real depth) {
+FN Hit environmentHit(real3 d, real depth) {
   real3 none = splat3(R(0.0));
   Hit h;
   h.d = d;

@@ -4,30 +4,31 @@
 FN bool hasFilm(uint index) { return extras[index].filmEta.x > R(0.0); }
 #endif
 
-FN Factors paintFactors(real c, IN(Material) m, uint index) {
+FN FresnelTerms paintTerms(real c, IN(Material) m, uint index) {
 #if MALUS_EFFECT_COATINGS
   if (hasFilm(index))
-    return filmFactors(c, m.outsideEta, extras[index].filmEta, extras[index].filmTurns, splat3(m.eta.y),
-                       splat3(R(0.0)));
+    return filmTerms(c, m.outsideEta, extras[index].filmEta, extras[index].roundTripPhase, splat3(m.eta.y),
+                     splat3(R(0.0)));
 #endif
-  return dielectricFactors(c, m.outsideEta, m.eta.y);
+  return dielectricTerms(c, m.outsideEta, m.eta.y);
 }
-FN Factors metalFactors(real c, IN(Material) m, uint index) {
+FN FresnelTerms metalTerms(real c, IN(Material) m, uint index) {
 #if MALUS_EFFECT_COATINGS
-  if (hasFilm(index)) return filmFactors(c, m.outsideEta, extras[index].filmEta, extras[index].filmTurns, m.eta, m.k);
+  if (hasFilm(index))
+    return filmTerms(c, m.outsideEta, extras[index].filmEta, extras[index].roundTripPhase, m.eta, m.k);
 #endif
-  return conductorFactors(c, m.outsideEta, m.eta, m.k);
+  return conductorTerms(c, m.outsideEta, m.eta, m.k);
 }
-FN Factors opaqueFactors(real c, IN(Material) m, uint index) {
+FN FresnelTerms opaqueTerms(real c, IN(Material) m, uint index) {
 #if MALUS_EFFECT_METAL
-  if (m.kind == kMetal) return metalFactors(c, m, index);
+  if (m.kind == kMetal) return metalTerms(c, m, index);
 #endif
-  return paintFactors(c, m, index);
+  return paintTerms(c, m, index);
 }
-FN Factors glassFactors(real c, real n1, real n2, uint index) {
+FN FresnelTerms glassTerms(real c, real n1, real n2, uint index) {
 #if MALUS_EFFECT_COATINGS
   if (hasFilm(index))
-    return filmFactors(c, n1, extras[index].filmEta, extras[index].filmTurns, splat3(n2), splat3(R(0.0)));
+    return filmTerms(c, n1, extras[index].filmEta, extras[index].roundTripPhase, splat3(n2), splat3(R(0.0)));
 #endif
-  return dielectricFactors(c, n1, n2);
+  return dielectricTerms(c, n1, n2);
 }

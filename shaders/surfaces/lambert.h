@@ -4,7 +4,7 @@ FN Payload shadeLambert(IN(Hit) h, IN(Material) m) {
 #if MALUS_EFFECT_ABSORPTION
   diffuse = diffuse * mediumTransmittance(h, m);
 #endif
-  Payload sent = payloadSource(diffuse);
+  Payload sent = payloadUnpolarized(diffuse);
   if (kCheckNumerics) checkSent(h, sent, splat3(R(0.0)));
   return sent;
 }

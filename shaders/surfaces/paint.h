@@ -1,2 +1,2 @@
 // Lambert under a dielectric interface; without albedo it is a glass mirror.
-FN Payload shadePaint(IN(Hit) h, IN(Material) m) { return shadeOpaque(h, m, paintFactors(h.c, m, h.material)); }
+FN Payload shadePaint(IN(Hit) h, IN(Material) m) { return shadeOpaque(h, m, paintTerms(h.c, m, h.material)); }

@@ -1,24 +1,24 @@
 // From a position in the picture to what the camera records: the Stokes vector in the camera's frame of
 // that ray, as radiance.
 FN Stokes cameraSample(real px, real py) {
-  real3 d = cameraDirection(frame.right, frame.up, frame.forward, frame.tanX, frame.tanY, px, py);
+  real3 d = cameraDirection(camera.right, camera.up, camera.forward, camera.tanX, camera.tanY, px, py);
   real cos2;
   real sin2;
-  cameraFrameTurn(d, frame.up, cos2, sin2);
-  Stokes s = payloadStokes(traceRay(frame.eye, d, real(frame.depth)), d);
-  return stokesTurn(s, cos2, sin2);
+  cameraFrameRotation(d, camera.up, cos2, sin2);
+  Stokes s = payloadStokes(traceRay(camera.position, d, real(camera.depth)), d);
+  return rotateStokes(s, cos2, sin2);
 }
 
 // Mean over the fixed grid of samples of a pixel.
 FN Stokes cameraPixel(uint x, uint y) {
   Stokes sum = stokesUnpolarized(splat3(R(0.0)));
-  for (uint j = 0u; j < frame.samples; ++j)
-    for (uint i = 0u; i < frame.samples; ++i) {
-      real px = (real(x) + (real(i) + R(0.5)) / real(frame.samples)) / real(frame.width);
-      real py = (real(y) + (real(j) + R(0.5)) / real(frame.samples)) / real(frame.height);
+  for (uint j = 0u; j < camera.samples; ++j)
+    for (uint i = 0u; i < camera.samples; ++i) {
+      real px = (real(x) + (real(i) + R(0.5)) / real(camera.samples)) / real(camera.width);
+      real py = (real(y) + (real(j) + R(0.5)) / real(camera.samples)) / real(camera.height);
       sum = stokesAdd(sum, cameraSample(px, py));
     }
-  real scale = frame.basicToRadiance / real(frame.samples * frame.samples);
+  real scale = camera.basicToRadiance / real(camera.samples * camera.samples);
   sum.s0 = sum.s0 * scale;
   sum.s1 = sum.s1 * scale;
   sum.s2 = sum.s2 * scale;

@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "bake/image/image.h"
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
+#include "meshprep/base/image.h"
 #include "tests/bake/fixtures.h"
 
 namespace malus::bake {
@@ -270,7 +270,7 @@ TEST_F(Bake, EnvironmentPicture) {
   const pack::Scene scene = baked();
   EXPECT_EQ(scene.environment.size, 4u);
   EXPECT_EQ(scene.environment.texels.at(0), glm::vec3(1.5f));
-  EXPECT_EQ(scene.environment.diffuseFill, 0.5);
+  EXPECT_EQ(scene.environment.ambientIrradiance, 0.5);
   scene_["environment"]["image"] = "missing.exr";
   EXPECT_TRUE(contains(error(), "missing.exr: cannot open")) << error();
   scene_["environment"]["image"] = "scene.json";

@@ -88,7 +88,7 @@ inline pack::Scene smallScene() {
   scene.environment.size = 2;
   for (int i = 0; i < 16; ++i)
     scene.environment.texels.emplace_back(0.25f * static_cast<float>(i), 0.5f, static_cast<float>(i));
-  scene.environment.diffuseFill = 0.75;
+  scene.environment.ambientIrradiance = 0.75;
   for (std::size_t i = 0; i < 9; ++i) scene.environment.irradiance[i] = {0.5, -0.25, static_cast<double>(i)};
   scene.lights = {{{1, 2, 3}, {10, 11, 12}}, {{-1, -2, -3}, {0, 0, 5}}};
   pack::Material glass;
@@ -149,8 +149,8 @@ inline pack::Scene unusualScene() {
   polarizer.name = "polarizer";
   polarizer.kind = pack::MaterialKind::polarizer;
   polarizer.axis = {1, 0, 0};
-  polarizer.along = {0.9, 0.8, 0.7};
-  polarizer.across = {0.01, 0.02, 0.03};
+  polarizer.transmittanceParallel = {0.9, 0.8, 0.7};
+  polarizer.transmittanceCrossed = {0.01, 0.02, 0.03};
   pack::Material plate;
   plate.name = "plate";
   plate.kind = pack::MaterialKind::wavePlate;

@@ -1,9 +1,9 @@
 // A pack taken apart: the numbers of the files are those of the pack.
 #include "bake/unpack.h"
 
-#include "bake/image/image.h"
 #include "bake/pack/writer.h"
 #include "meshprep/base/atomic_file.h"
+#include "meshprep/base/image.h"
 #include "meshprep/read/read_mesh.h"
 #include "tests/bake/fixtures.h"
 

@@ -11,7 +11,7 @@
 #include "bake/pack/writer.h"
 #include "meshprep/prepare.h"
 #include "render/embree/embree.h"
-#include "render/scene/float_scene.h"
+#include "render/scene/render_scene.h"
 #include "tests/bench/torus.h"
 
 namespace malus {
@@ -76,13 +76,13 @@ void load(benchmark::State& state) {
   const std::vector<std::byte> bytes = pack::serialize(sceneOf(state.range(0)), {}).bytes;
   for ([[maybe_unused]] auto _ : state) {
     const pack::Pack pack = pack::parse(bytes, "bench");
-    benchmark::DoNotOptimize(render::floatScene(pack.scene));
+    benchmark::DoNotOptimize(render::makeRenderScene(pack.scene));
   }
   countMemory(state);
 }
 
 void accelerate(benchmark::State& state) {
-  const render::FloatScene scene = render::floatScene(sceneOf(state.range(0)));
+  const render::RenderScene scene = render::makeRenderScene(sceneOf(state.range(0)));
   for ([[maybe_unused]] auto _ : state) {
     const embree::Bvh bvh(scene, 0);
     benchmark::DoNotOptimize(bvh.nearest({0, 0, 5}, {0, 0, -1}));

@@ -44,7 +44,7 @@ std::vector<std::byte> runOnDevice(bool doublePrecision, std::string_view method
       rest += fmt::format("#include \"tests/hard_cases/{}\"\n", file);
     };
     if (!method.empty()) include(lightFile(method));
-    if (call.starts_with("loop")) include("loop_probe.h");
+    if (call.starts_with("iterative")) include("iterative_probe.h");
     if (call.starts_with("chain")) include("chain_probe.h");
     if (call.starts_with("handOver")) include("hand_over_probe.h");
     text += fmt::format(

@@ -19,12 +19,12 @@
 namespace malus::f32 {
 #include "tests/hard_cases/probes.h"
 
-#include "tests/hard_cases/loop_probe.h"
+#include "tests/hard_cases/iterative_probe.h"
 }  // namespace malus::f32
 namespace malus::f64 {
 #include "tests/hard_cases/probes.h"
 
-#include "tests/hard_cases/loop_probe.h"
+#include "tests/hard_cases/iterative_probe.h"
 }  // namespace malus::f64
 #include "hard_case_methods.h"
 #pragma GCC diagnostic pop
@@ -71,53 +71,55 @@ inline std::vector<std::string> everyMethod() {
 
 // kRoundings: how many times the roundings of IEEE arithmetic are allowed; a device's division and root may be
 // 2.5 ulp off (Vulkan specification, precision of SPIR-V instructions).
-#define MALUS_BACKEND(Name, Optics, space, isDouble)                                                                 \
-  struct Cpp##Name : Optics {                                                                                        \
-    static constexpr const char* kBackend = "Cpp" #Name;                                                             \
-    static constexpr double kRoundings = 1;                                                                          \
-    using SurfaceIn = space::SurfaceIn;                                                                              \
-    using SurfaceOut = space::SurfaceOut;                                                                            \
-    using FrameIn = space::FrameIn;                                                                                  \
-    using FrameOut = space::FrameOut;                                                                                \
-    using BounceIn = space::BounceIn;                                                                                \
-    using ChainIn = space::ChainIn;                                                                                  \
-    using ChainOut = space::ChainOut;                                                                                \
-    using LoopIn = space::LoopIn;                                                                                    \
-    using LoopOut = space::LoopOut;                                                                                  \
-    using HandOverIn = space::HandOverIn;                                                                            \
-    using HandOverOut = space::HandOverOut;                                                                          \
-    static std::vector<SurfaceOut> surfaces(const std::vector<SurfaceIn>& g) {                                       \
-      return mapped<SurfaceOut>(g, space::surfaceProbe);                                                             \
-    }                                                                                                                \
-    static std::vector<FrameOut> frames(const std::vector<FrameIn>& g) {                                             \
-      return mapped<FrameOut>(g, space::frameProbe);                                                                 \
-    }                                                                                                                \
-    static std::vector<LoopOut> loops(const std::vector<LoopIn>& g) { return mapped<LoopOut>(g, space::loopProbe); } \
-    static std::vector<ChainOut> chains(std::string_view method, const std::vector<ChainIn>& g) {                    \
-      return mapped<ChainOut>(g, space::probesOf(method).chain);                                                     \
-    }                                                                                                                \
-    static std::vector<HandOverOut> handOvers(std::string_view method, const std::vector<HandOverIn>& g) {           \
-      return mapped<HandOverOut>(g, space::probesOf(method).handOver);                                               \
-    }                                                                                                                \
-  };                                                                                                                 \
-  struct Glsl##Name : Cpp##Name {                                                                                    \
-    static constexpr const char* kBackend = "Glsl" #Name;                                                            \
-    static constexpr double kRoundings = 2.5;                                                                        \
-    static std::vector<SurfaceOut> surfaces(const std::vector<SurfaceIn>& g) {                                       \
-      return onDevice<SurfaceOut>(isDouble, "", "SurfaceIn", "SurfaceOut", "surfaceProbe(given[at])", g);            \
-    }                                                                                                                \
-    static std::vector<FrameOut> frames(const std::vector<FrameIn>& g) {                                             \
-      return onDevice<FrameOut>(isDouble, "", "FrameIn", "FrameOut", "frameProbe(given[at])", g);                    \
-    }                                                                                                                \
-    static std::vector<LoopOut> loops(const std::vector<LoopIn>& g) {                                                \
-      return onDevice<LoopOut>(isDouble, "", "LoopIn", "LoopOut", "loopProbe(at)", g);                               \
-    }                                                                                                                \
-    static std::vector<ChainOut> chains(std::string_view method, const std::vector<ChainIn>& g) {                    \
-      return onDevice<ChainOut>(isDouble, method, "ChainIn", "ChainOut", "chainProbe(at)", g);                       \
-    }                                                                                                                \
-    static std::vector<HandOverOut> handOvers(std::string_view method, const std::vector<HandOverIn>& g) {           \
-      return onDevice<HandOverOut>(isDouble, method, "HandOverIn", "HandOverOut", "handOverProbe(at)", g);           \
-    }                                                                                                                \
+#define MALUS_BACKEND(Name, Optics, space, isDouble)                                                       \
+  struct Cpp##Name : Optics {                                                                              \
+    static constexpr const char* kBackend = "Cpp" #Name;                                                   \
+    static constexpr double kRoundings = 1;                                                                \
+    using SurfaceIn = space::SurfaceIn;                                                                    \
+    using SurfaceOut = space::SurfaceOut;                                                                  \
+    using FrameIn = space::FrameIn;                                                                        \
+    using FrameOut = space::FrameOut;                                                                      \
+    using BounceIn = space::BounceIn;                                                                      \
+    using ChainIn = space::ChainIn;                                                                        \
+    using ChainOut = space::ChainOut;                                                                      \
+    using IterativeIn = space::IterativeIn;                                                                \
+    using IterativeOut = space::IterativeOut;                                                              \
+    using HandOverIn = space::HandOverIn;                                                                  \
+    using HandOverOut = space::HandOverOut;                                                                \
+    static std::vector<SurfaceOut> surfaces(const std::vector<SurfaceIn>& g) {                             \
+      return mapped<SurfaceOut>(g, space::surfaceProbe);                                                   \
+    }                                                                                                      \
+    static std::vector<FrameOut> frames(const std::vector<FrameIn>& g) {                                   \
+      return mapped<FrameOut>(g, space::frameProbe);                                                       \
+    }                                                                                                      \
+    static std::vector<IterativeOut> loops(const std::vector<IterativeIn>& g) {                            \
+      return mapped<IterativeOut>(g, space::iterativeProbe);                                               \
+    }                                                                                                      \
+    static std::vector<ChainOut> chains(std::string_view method, const std::vector<ChainIn>& g) {          \
+      return mapped<ChainOut>(g, space::probesOf(method).chain);                                           \
+    }                                                                                                      \
+    static std::vector<HandOverOut> handOvers(std::string_view method, const std::vector<HandOverIn>& g) { \
+      return mapped<HandOverOut>(g, space::probesOf(method).handOver);                                     \
+    }                                                                                                      \
+  };                                                                                                       \
+  struct Glsl##Name : Cpp##Name {                                                                          \
+    static constexpr const char* kBackend = "Glsl" #Name;                                                  \
+    static constexpr double kRoundings = 2.5;                                                              \
+    static std::vector<SurfaceOut> surfaces(const std::vector<SurfaceIn>& g) {                             \
+      return onDevice<SurfaceOut>(isDouble, "", "SurfaceIn", "SurfaceOut", "surfaceProbe(given[at])", g);  \
+    }                                                                                                      \
+    static std::vector<FrameOut> frames(const std::vector<FrameIn>& g) {                                   \
+      return onDevice<FrameOut>(isDouble, "", "FrameIn", "FrameOut", "frameProbe(given[at])", g);          \
+    }                                                                                                      \
+    static std::vector<IterativeOut> loops(const std::vector<IterativeIn>& g) {                            \
+      return onDevice<IterativeOut>(isDouble, "", "IterativeIn", "IterativeOut", "iterativeProbe(at)", g); \
+    }                                                                                                      \
+    static std::vector<ChainOut> chains(std::string_view method, const std::vector<ChainIn>& g) {          \
+      return onDevice<ChainOut>(isDouble, method, "ChainIn", "ChainOut", "chainProbe(at)", g);             \
+    }                                                                                                      \
+    static std::vector<HandOverOut> handOvers(std::string_view method, const std::vector<HandOverIn>& g) { \
+      return onDevice<HandOverOut>(isDouble, method, "HandOverIn", "HandOverOut", "handOverProbe(at)", g); \
+    }                                                                                                      \
   };
 MALUS_BACKEND(Float, F32, f32, false)
 MALUS_BACKEND(Double, F64, f64, true)

@@ -29,25 +29,25 @@ FN ChainOut chainProbe(GIVEN_PARAMETER(ChainIn)) {
   ChainOut r;
   r.gained = R(0.0);
   r.grown = R(0.0);
-  Payload p = payloadSource(splat3(GIVEN.radiance));
+  Payload p = payloadUnpolarized(splat3(GIVEN.radiance));
   for (int i = count - 1; i >= 0; --i) {
     real n1 = GIVEN.bounces[i].n1;
     real n2 = GIVEN.bounces[i].n2;
     real kind = GIVEN.bounces[i].kind;
     real3 s = surfaceS(d[i], GIVEN.bounces[i].n);
     Stokes before = payloadStokes(p, d[i + 1]);
-    Light arriving = lightReceive(p, d[i + 1], s);
-    Factors f;
+    SurfaceLight arriving = lightAtSurface(p, d[i + 1], s);
+    FresnelTerms f;
     if (kind > R(0.5) && kind < R(1.5))
-      f = conductorFactors(c[i], n1, splat3(n2), splat3(GIVEN.bounces[i].k2));
+      f = conductorTerms(c[i], n1, splat3(n2), splat3(GIVEN.bounces[i].k2));
     else
-      f = dielectricFactors(c[i], n1, n2);
-    Light sent;
+      f = dielectricTerms(c[i], n1, n2);
+    SurfaceLight sent;
     if (kind > R(1.5))
       sent = lightTransmit(f, arriving);
     else
       sent = lightReflect(f, arriving);
-    p = payloadSend(sent, d[i], s);
+    p = payloadFromSurface(sent, d[i], s);
     Stokes after = payloadStokes(p, d[i]);
     if (before.s0.x > R(1e-30)) {
       r.gained = maxR(r.gained, (excessOf(after) - maxR(excessOf(before), R(0.0))) / before.s0.x);

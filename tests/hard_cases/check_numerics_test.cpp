@@ -60,12 +60,12 @@ struct Found {
   render::Faults faults;
 };
 std::vector<Found> everyRenderer(const pack::Scene& scene, const std::string& method) {
-  render::View view = render::viewOf(scene);
-  view.checkNumerics = true;
+  render::RenderParameters parameters = render::defaultParameters(scene);
+  parameters.checkNumerics = true;
   std::vector<Found> list;
-  list.push_back({"reference", reference::render(scene, view, 0).faults});
-  list.push_back({"embree", embree::Renderer(scene, 0).render(method, view).faults});
-  list.push_back({"vulkan", vulkan::Renderer(scene, {}).render(method, view).faults});
+  list.push_back({"reference", reference::render(scene, parameters, 0).faults});
+  list.push_back({"embree", embree::Renderer(scene, 0).render(method, parameters).faults});
+  list.push_back({"vulkan", vulkan::Renderer(scene, {}).render(method, parameters).faults});
   return list;
 }
 
@@ -128,7 +128,7 @@ TEST(CheckNumerics, RoundingIsNoFault) {
     s.s1 = glm::vec3(s1);
     s.s2 = glm::vec3(s2);
     s.s3 = glm::vec3(s3);
-    checker.checkSent(checker.missedHit({0, 0, -1}, 0), s, glm::vec3(slack));
+    checker.checkSent(checker.environmentHit({0, 0, -1}, 0), s, glm::vec3(slack));
     return checker.found;
   };
   const float eps = std::numeric_limits<float>::epsilon(), infinity = std::numeric_limits<float>::infinity();
@@ -173,13 +173,14 @@ TEST(CheckNumerics, FindsNothingInASoundScene) {
 
 TEST(CheckNumerics, LeavesThePictureAlone) {
   const pack::Scene scene = lampOverGold(1);
-  render::View view = render::viewOf(scene);
+  render::RenderParameters parameters = render::defaultParameters(scene);
   const embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
-  const auto plain = embree.render("stokes", view).pixels, plainVulkan = vulkan.render("stokes", view).pixels;
-  view.checkNumerics = true;
-  EXPECT_EQ(embree.render("stokes", view).pixels, plain);
-  EXPECT_EQ(vulkan.render("stokes", view).pixels, plainVulkan);
+  const auto plain = embree.render("stokes", parameters).pixels,
+             plainVulkan = vulkan.render("stokes", parameters).pixels;
+  parameters.checkNumerics = true;
+  EXPECT_EQ(embree.render("stokes", parameters).pixels, plain);
+  EXPECT_EQ(vulkan.render("stokes", parameters).pixels, plainVulkan);
 }
 
 }  // namespace

@@ -113,9 +113,9 @@ TYPED_TEST(Frames, LoopsOfMirrorsAreTheProductOfTheirHalfTurns) {
   // Perfect mirrors map a field by 2 n n^T - 1, n along d_out - d_in: back in its direction the light is not back
   // in its polarization (z -> x -> y -> z turns it by 90 degrees).
   Draw draw(108);
-  std::vector<typename B::LoopIn> in;
+  std::vector<typename B::IterativeIn> in;
   for (int i = 0; i < 300; ++i) {
-    typename B::LoopIn loop{};
+    typename B::IterativeIn loop{};
     std::vector<Vec> way;
     if (i < 60) {
       way = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

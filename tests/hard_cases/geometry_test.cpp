@@ -72,10 +72,10 @@ const pack::Pack& packOf(const std::string& name) {
   const bake::Baked baked = bake::bake(bake::readSceneFile(file), settings, [](std::string_view) {});
   return packs.emplace(name, pack::parse(pack::serialize(baked.scene, settings).bytes, name)).first->second;
 }
-render::View checkedView(const pack::Scene& scene) {
-  render::View view = render::viewOf(scene);
-  view.checkNumerics = true;
-  return view;
+render::RenderParameters checkedView(const pack::Scene& scene) {
+  render::RenderParameters parameters = render::defaultParameters(scene);
+  parameters.checkNumerics = true;
+  return parameters;
 }
 
 void expectSound(const Picture& picture, const pack::Scene& scene, const std::string& what) {
@@ -92,14 +92,14 @@ const Pictures& picturesOf(const std::string& name) {
   const auto at = all.find(name);
   if (at != all.end()) return at->second;
   const pack::Scene& scene = packOf(name).scene;
-  const render::View view = checkedView(scene);
+  const render::RenderParameters parameters = checkedView(scene);
   Pictures p;
-  p.reference = reference::render(scene, view, 0);
+  p.reference = reference::render(scene, parameters, 0);
   expectSound(p.reference, scene, name + ", reference");
-  p.embree = embree::Renderer(scene, 0).render("stokes", view);
+  p.embree = embree::Renderer(scene, 0).render("stokes", parameters);
   expectSound(p.embree, scene, name + ", embree stokes");
   if (scenes().at(name).vulkanCanDoIt) {
-    p.vulkan = vulkan::Renderer(scene, {}).render("stokes", view);
+    p.vulkan = vulkan::Renderer(scene, {}).render("stokes", parameters);
     expectSound(p.vulkan, scene, name + ", vulkan stokes");
   }
   return all.emplace(name, std::move(p)).first->second;
@@ -157,12 +157,12 @@ TEST_P(HardScenes, EveryMethodIsSound) {
 TEST_P(HardScenes, AutoEqualsAll) {
   const pack::Scene& scene = packOf(GetParam()).scene;
   const Expected& expected = scenes().at(GetParam());
-  render::View view = render::viewOf(scene);
+  render::RenderParameters parameters = render::defaultParameters(scene);
   const embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
   for (const render::Analyser& analyser : {render::kNoFilter, render::linearPolarizer(30)}) {
-    view.analyser = analyser;
-    const bake::PictureRequest request{view.depth, analyser, false, false};
+    parameters.analyser = analyser;
+    const bake::PictureRequest request{parameters.depth, analyser, false, false};
     for (const std::string method : {"stokes", "importance"}) {
       const std::string cheaper = render::chooseEffects({"auto"}, method, scene, request).method;
       const auto expectEqual = [&](const Picture& a, const Picture& b, const char* what) {
@@ -173,13 +173,13 @@ TEST_P(HardScenes, AutoEqualsAll) {
                 largest, std::abs(static_cast<double>(a.pixels[i * a.channels + c] - b.pixels[i * b.channels + c])));
         EXPECT_LT(largest, 4e-6) << what << ": " << cheaper << " in place of " << method;
       };
-      view.everyEffect = true;
-      const Picture all = embree.render(method, view);
+      parameters.everyEffect = true;
+      const Picture all = embree.render(method, parameters);
       const bool onVulkan = expected.vulkanCanDoIt || method == "importance";
-      const Picture allVulkan = onVulkan ? vulkan.render(method, view) : Picture();
-      view.everyEffect = false;
-      expectEqual(embree.render(cheaper, view), all, "embree");
-      if (onVulkan) expectEqual(vulkan.render(cheaper, view), allVulkan, "vulkan");
+      const Picture allVulkan = onVulkan ? vulkan.render(method, parameters) : Picture();
+      parameters.everyEffect = false;
+      expectEqual(embree.render(cheaper, parameters), all, "embree");
+      if (onVulkan) expectEqual(vulkan.render(cheaper, parameters), allVulkan, "vulkan");
     }
   }
 }
@@ -188,12 +188,12 @@ TEST_P(HardScenes, AutoEqualsAll) {
 TEST_P(HardScenes, EveryMethodIsTheSameInEveryBuild) {
   const pack::Scene& scene = packOf(GetParam()).scene;
   const embree::Renderer renderer(scene, 0);
-  render::View view = render::viewOf(scene);
+  render::RenderParameters parameters = render::defaultParameters(scene);
   for (const std::string& method : render::methodNames()) {
-    view.everyEffect = false;
-    const Picture some = renderer.render(method, view);
-    view.everyEffect = true;
-    const Picture all = renderer.render(method, view);
+    parameters.everyEffect = false;
+    const Picture some = renderer.render(method, parameters);
+    parameters.everyEffect = true;
+    const Picture all = renderer.render(method, parameters);
     double largest = 0;
     for (std::size_t i = 0; i < all.pixels.size(); ++i)
       largest = std::max(largest, std::abs(static_cast<double>(all.pixels[i] - some.pixels[i])));
@@ -205,13 +205,13 @@ TEST_P(HardScenes, ImportanceIsTheIntensityOfTheReference) {
   // Behind filters too, and on Vulkan at any depth: the loop does not recurse.
   const pack::Scene& scene = packOf(GetParam()).scene;
   const Expected& expected = scenes().at(GetParam());
-  render::View view = checkedView(scene);
+  render::RenderParameters parameters = checkedView(scene);
   const embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
   for (const render::Analyser& analyser : {render::kNoFilter, render::linearPolarizer(30),
                                            render::behindWavePlate(render::linearPolarizer(75), {20, 90})}) {
-    view.analyser = analyser;
-    const Picture truth = reference::render(scene, view, 0);
+    parameters.analyser = analyser;
+    const Picture truth = reference::render(scene, parameters, 0);
     const auto expectClose = [&](const Picture& p, const char* what) {
       expectSound(p, scene, what);
       std::size_t off = 0;
@@ -223,8 +223,8 @@ TEST_P(HardScenes, ImportanceIsTheIntensityOfTheReference) {
       }
       EXPECT_LE(off, expected.outliers) << what;
     };
-    expectClose(embree.render("importance", view), "embree importance");
-    if (expected.renderersAgree) expectClose(vulkan.render("importance", view), "vulkan importance");
+    expectClose(embree.render("importance", parameters), "embree importance");
+    if (expected.renderersAgree) expectClose(vulkan.render("importance", parameters), "vulkan importance");
   }
 }
 
@@ -232,9 +232,9 @@ TEST_P(HardScenes, ImportanceIsTheIntensityOfTheReference) {
 TEST_P(HardScenes, ImportanceGivesTheStokesVectorsOfTheReference) {
   const Expected& expected = scenes().at(GetParam());
   const pack::Scene& scene = packOf(GetParam()).scene;
-  render::View view = checkedView(scene);
-  view.stokes = true;
-  const Picture picture = embree::Renderer(scene, 0).render("importance", view);
+  render::RenderParameters parameters = checkedView(scene);
+  parameters.stokes = true;
+  const Picture picture = embree::Renderer(scene, 0).render("importance", parameters);
   expectSound(picture, scene, GetParam() + ", importance");
   const Picture& truth = picturesOf(GetParam()).reference;
   ASSERT_EQ(picture.pixels.size(), truth.pixels.size());
@@ -315,16 +315,16 @@ TEST(HardScene, AutoIsExactWherePolarizationCannotShow) {
     for (const pack::MaterialKind kind :
          {pack::MaterialKind::metal, pack::MaterialKind::paint, pack::MaterialKind::mirrorGlass}) {
       const pack::Scene scene = withoutMutualSight(flat, kind);
-      const render::View view = render::viewOf(scene);
-      const bake::PictureRequest request{view.depth, view.analyser, false, false};
+      const render::RenderParameters parameters = render::defaultParameters(scene);
+      const bake::PictureRequest request{parameters.depth, parameters.analyser, false, false};
       SCOPED_TRACE(testing::Message() << (flat ? "flat " : "ball ") << pack::nameOf(kind));
       EXPECT_EQ(render::chooseEffects({"auto"}, "stokes", scene, request).method, "fresnel");
-      EXPECT_EQ(render::chooseEffects({"auto"}, "importance", scene, request).method, "fresnel-loop");
-      const Picture truth = reference::render(scene, view, 0);
+      EXPECT_EQ(render::chooseEffects({"auto"}, "importance", scene, request).method, "fresnel-iterative");
+      const Picture truth = reference::render(scene, parameters, 0);
       const embree::Renderer embree(scene, 0);
       vulkan::Renderer vulkan(scene, {});
-      for (const char* method : {"fresnel", "fresnel-loop"})
-        for (const Picture& p : {embree.render(method, view), vulkan.render(method, view)}) {
+      for (const char* method : {"fresnel", "fresnel-iterative"})
+        for (const Picture& p : {embree.render(method, parameters), vulkan.render(method, parameters)}) {
           std::size_t off = 0;
           double sum = 0;
           for (std::size_t i = 0; i < std::size_t{p.width} * p.height; ++i)
@@ -373,7 +373,7 @@ TEST(HardScene, CircularLightDecides) {
   // Without it the periscope is too bright in blue, and the dark is lit.
   const auto linear = [](const std::string& name) {
     const pack::Scene& scene = packOf(name).scene;
-    return centreOf(embree::Renderer(scene, 0).render("stokes-linear", render::viewOf(scene)))[0];
+    return centreOf(embree::Renderer(scene, 0).render("stokes-linear", render::defaultParameters(scene)))[0];
   };
   EXPECT_NEAR(linear("gold-periscope")[2], .058156, 2e-6);
   EXPECT_NEAR(linear("glass-gold-gold-glass")[0], .004326, 2e-6);
@@ -390,16 +390,16 @@ TEST(HardScene, ChainsOfMirrors) {
   vulkan::Renderer renderer(scene, {});
   if (renderer.maxDepth() < scene.depth) {
     try {
-      renderer.render("stokes", render::viewOf(scene));
+      renderer.render("stokes", render::defaultParameters(scene));
       ADD_FAILURE() << "a depth past the device's recursion limit was accepted";
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find(fmt::format("at most {}", renderer.maxDepth())), std::string::npos);
       EXPECT_NE(std::string(error.what()).find("found 64"), std::string::npos) << error.what();
     }
     // To its limit it goes, and agrees.
-    render::View view = checkedView(scene);
-    view.depth = renderer.maxDepth();
-    const Picture a = renderer.render("stokes", view), b = reference::render(scene, view, 0);
+    render::RenderParameters parameters = checkedView(scene);
+    parameters.depth = renderer.maxDepth();
+    const Picture a = renderer.render("stokes", parameters), b = reference::render(scene, parameters, 0);
     expectSound(a, scene, "vulkan at its limit");
     double largest = 0;
     EXPECT_EQ(pixelsOff(a, b, 1e-4, largest), 0u) << largest;

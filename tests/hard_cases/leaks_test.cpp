@@ -86,15 +86,16 @@ struct Counts {
 };
 // Pixels whose green S0 is not `expected`.
 Counts off(const pack::Scene& scene, double expected) {
-  const render::View view = render::viewOf(scene);
+  const render::RenderParameters parameters = render::defaultParameters(scene);
   const auto count = [&](const render::Picture& p) {
     std::size_t n = 0;
     for (std::size_t i = 0; i < std::size_t{kCells} * kCells; ++i)
       if (std::abs(p.pixels[i * p.channels + 4] - expected) > 1e-3) ++n;
     return n;
   };
-  return {count(embree::Renderer(scene, 0).render("stokes", view)), count(reference::render(scene, view, 0)),
-          count(vulkan::Renderer(scene, {}).render("stokes", view))};
+  return {count(embree::Renderer(scene, 0).render("stokes", parameters)),
+          count(reference::render(scene, parameters, 0)),
+          count(vulkan::Renderer(scene, {}).render("stokes", parameters))};
 }
 // share: of the pixels, that may be off.
 void expectAtMost(const Counts& c, double share, const char* what) {

@@ -36,7 +36,7 @@ FN SurfaceOut surfaceProbe(SurfaceIn g) {
   r.transmittance = dielectricTransmittance(c, g.n1, g.n2);
   r.conductor = conductorReflectance(c, g.n1, g.n2, g.k2);
   r.schlick = schlickReflectance(c, g.n1, g.n2, g.k2);
-  Refraction f = refractionTerms(c, g.n1, g.n2);
+  RefractionTerms f = refractionTerms(c, g.n1, g.n2);
   r.t = f.t;
   r.tau = f.tau;
   r.total = selectR(f.total, R(1.0), R(0.0));
@@ -83,14 +83,14 @@ FN FrameOut frameProbe(FrameIn g) {
   real c = clampUnit(R(0.0) - dot3(g.d, g.n));
   canonicalFrame(g.d * R(-1.0), r.x, r.y);
   r.s = sDirection(g.d, g.n);
-  turnTo(r.s, r.x, r.y, r.cos2, r.sin2);
+  frameRotation(r.s, r.x, r.y, r.cos2, r.sin2);
   r.mirror = mirrorDirection(g.d, g.n, c);
   r.refracted = refractedDirection(g.d, g.n, c, g.n1, g.n2);
   real3 x;
   real3 y;
   canonicalFrame(r.mirror * R(-1.0), x, y);
-  turnTo(r.s, x, y, r.mirrorCos, r.mirrorSin);
-  cameraFrameTurn(g.d, g.n, r.cameraCos, r.cameraSin);
+  frameRotation(r.s, x, y, r.mirrorCos, r.mirrorSin);
+  cameraFrameRotation(g.d, g.n, r.cameraCos, r.cameraSin);
   return r;
 }
 
@@ -117,13 +117,13 @@ struct ChainOut {
 };
 
 // Light on a way around perfect mirrors: r_s = -1, r_p = 1. Of the light itself: d is where it goes.
-struct LoopIn {
+struct IterativeIn {
   real3 d;
   real3 light;  // S1, S2, S3 in the canonical frame of d, S0 = 1
   real count;
   real3 n[64];
 };
-struct LoopOut {
+struct IterativeOut {
   real s0, s1, s2, s3;  // in the canonical frame of the last direction
   real3 last;
 };

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using pack::Material;
 using pack::MaterialKind;
 using render::Picture;
-using render::View;
+using render::RenderParameters;
 
 // S0..S3 of one colour of a pixel.
 using Stokes = std::array<double, 4>;
@@ -40,17 +40,17 @@ Stokes stokesAt(const Picture& p, std::size_t pixel, std::size_t colour) {
 
 // The picture by every renderer that has Stokes vectors; the reference comes first.
 std::map<std::string, Picture> everywhere(const pack::Scene& scene) {
-  View view = render::viewOf(scene);
-  view.stokes = true;
+  RenderParameters parameters = render::defaultParameters(scene);
+  parameters.stokes = true;
   const embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
   std::map<std::string, Picture> pictures;
   for (const char* method : {"stokes", "importance"})
-    pictures[std::string("vulkan ") + method] = vulkan.render(method, view);
-  view.checkNumerics = true;
-  pictures["reference"] = reference::render(scene, view, 0);
+    pictures[std::string("vulkan ") + method] = vulkan.render(method, parameters);
+  parameters.checkNumerics = true;
+  pictures["reference"] = reference::render(scene, parameters, 0);
   for (const char* method : {"stokes", "importance"})
-    pictures[std::string("embree ") + method] = embree.render(method, view);
+    pictures[std::string("embree ") + method] = embree.render(method, parameters);
   for (const auto& [name, picture] : pictures) EXPECT_EQ(picture.faults.count, 0u) << name;
   return pictures;
 }
@@ -76,7 +76,7 @@ Material sheet(MaterialKind kind, double axisDegrees) {
   m.kind = kind;
   const double a = axisDegrees * std::numbers::pi / 180;
   m.axis = {std::cos(a), std::sin(a), 0};
-  if (kind == MaterialKind::polarizer) m.across = glm::dvec3(0);
+  if (kind == MaterialKind::polarizer) m.transmittanceCrossed = glm::dvec3(0);
   if (kind == MaterialKind::wavePlate) m.retardanceDegrees = glm::dvec3(90);
   return m;
 }
@@ -106,8 +106,8 @@ TEST(EffectClosedForms, QuarterWaveMakesCircularLight) {
   expectEverywhere(scene, 1, {0.5, 0, 0, 0.5}, 1e-6);
   scene.materials[plate].retardanceDegrees = glm::dvec3(180);  // a half wave turns it to the y axis
   expectEverywhere(scene, 1, {0.5, -0.5, 0, 0}, 1e-6);
-  // As the plate in front of a camera's filter (view.h), a third implementation: behind a quarter wave and a linear
-  // filter at 0, light from +45 degrees.
+  // As the plate in front of a camera's filter (render_parameters.h), a third implementation: behind a quarter wave and
+  // a linear filter at 0, light from +45 degrees.
   pack::Scene bare = along(4);
   Material panel = test::emitter(glm::dvec3(1));
   panel.axis = glm::normalize(glm::dvec3(1, 1, 0));
@@ -115,11 +115,11 @@ TEST(EffectClosedForms, QuarterWaveMakesCircularLight) {
   test::addSquare(bare, test::addMaterial(bare, panel), {0, 0, -1}, {0, 0, 1}, 1);
   pack::Scene withPlate = bare;
   test::addSquare(withPlate, test::addMaterial(withPlate, sheet(MaterialKind::wavePlate, 20)), {0, 0, 1}, {0, 0, 1}, 1);
-  View view = render::viewOf(bare);
-  view.analyser = render::behindWavePlate(render::linearPolarizer(70), {20, 90});
-  const double filtered = reference::render(bare, view, 0).pixels[0];
-  view.analyser = render::linearPolarizer(70);
-  EXPECT_NEAR(reference::render(withPlate, view, 0).pixels[0], filtered, 1e-6);
+  RenderParameters parameters = render::defaultParameters(bare);
+  parameters.analyser = render::behindWavePlate(render::linearPolarizer(70), {20, 90});
+  const double filtered = reference::render(bare, parameters, 0).pixels[0];
+  parameters.analyser = render::linearPolarizer(70);
+  EXPECT_NEAR(reference::render(withPlate, parameters, 0).pixels[0], filtered, 1e-6);
 }
 
 TEST(EffectClosedForms, DisplayIsSeenAtItsAngleAndDegree) {
@@ -217,7 +217,7 @@ TEST(EffectClosedForms, QuarterWaveCoatingTakesTheReflectionAway) {
 TEST(EffectClosedForms, TexturesAreWhatTheirPicturesSay) {
   pack::Scene scene = along(0);
   scene.environment.radiance = glm::dvec3(1);
-  scene.environment.diffuseFill = 1;
+  scene.environment.ambientIrradiance = 1;
   scene.environment.irradiance[0] = glm::dvec3(std::numbers::pi);
   Material wall;
   wall.albedo = {1, 0.5, 1};
@@ -255,17 +255,17 @@ TEST(EffectClosedForms, RoughMirrorsKeepWhatTheyReflect) {
   Material mirror = test::metal(glm::dvec3(1e-3), glm::dvec3(1e3));
   mirror.roughness = 0.3;
   test::addSquare(scene, test::addMaterial(scene, mirror), {0, 0, 0}, {0, 1, 0}, 1);
-  const Stokes rough = stokesAt(reference::render(scene, render::viewOf(scene), 0), 0, 0);
+  const Stokes rough = stokesAt(reference::render(scene, render::defaultParameters(scene), 0), 0, 0);
   EXPECT_NEAR(rough[0], 0.8273, 0.01);
   expectEverywhere(scene, 0, rough, 3e-6);
   // A nearly smooth one is the smooth one, its polarization too.
   scene.materials[0] = test::dielectric(MaterialKind::mirrorGlass, 1.5);
-  const Stokes smooth = stokesAt(reference::render(scene, render::viewOf(scene), 0), 0, 0);
+  const Stokes smooth = stokesAt(reference::render(scene, render::defaultParameters(scene), 0), 0, 0);
   scene.materials[0].roughness = 1e-4;
   expectEverywhere(scene, 0, smooth, 2e-5);
   // A rough one is less polarized.
   scene.materials[0].roughness = 0.5;
-  const Stokes dull = stokesAt(reference::render(scene, render::viewOf(scene), 0), 0, 0);
+  const Stokes dull = stokesAt(reference::render(scene, render::defaultParameters(scene), 0), 0, 0);
   EXPECT_LT(dull[1] / dull[0], 0.95 * smooth[1] / smooth[0]);
   expectEverywhere(scene, 0, dull, 3e-6);
 }
@@ -322,15 +322,15 @@ TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
   for (const auto& [name, other] : scenes())
     EXPECT_EQ(bake::isOn(scene.effects, other.effect), name == GetParam()) << other.effect;
   // Without it the picture is another.
-  const View view = render::viewOf(scene);
-  const Picture truth = reference::render(scene, view, 0),
-                without = reference::render(bake::withoutEffects(scene, {expected.effect}), view, 0);
+  const RenderParameters parameters = render::defaultParameters(scene);
+  const Picture truth = reference::render(scene, parameters, 0),
+                without = reference::render(bake::withoutEffects(scene, {expected.effect}), parameters, 0);
   EXPECT_GT(render::pictureError(without, truth, 0).relRms, expected.leastChange);
   // What is forced off is warned of.
   std::vector<std::string> kept;
   for (const pack::Effect& e : scene.effects)
     if (e.name != expected.effect) kept.push_back(e.name);
-  const bake::PictureRequest request{view.depth, view.analyser, false, false};
+  const bake::PictureRequest request{parameters.depth, parameters.analyser, false, false};
   const auto choice = render::chooseEffects(kept, "stokes", scene, request);
   ASSERT_EQ(choice.off, std::vector<std::string>{expected.effect});
   ASSERT_EQ(choice.warnings.size(), 1u);
@@ -342,12 +342,12 @@ TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
 TEST_P(EffectScenes, AutoEqualsAll) {
   const pack::Scene& scene = sceneNamed(GetParam());
   vulkan::Renderer vulkan(scene, {});
-  View view = render::viewOf(scene);
+  RenderParameters parameters = render::defaultParameters(scene);
   for (const char* method : {"stokes", "importance", "sp"}) {
-    view.everyEffect = false;
-    const Picture some = vulkan.render(method, view);
-    view.everyEffect = true;
-    const Picture all = vulkan.render(method, view);
+    parameters.everyEffect = false;
+    const Picture some = vulkan.render(method, parameters);
+    parameters.everyEffect = true;
+    const Picture all = vulkan.render(method, parameters);
     double largest = 0;
     for (std::size_t i = 0; i < all.pixels.size(); ++i)
       largest = std::max(largest, static_cast<double>(std::abs(all.pixels[i] - some.pixels[i])));
@@ -360,8 +360,8 @@ TEST_P(EffectScenes, AutoEqualsAll) {
 TEST_P(EffectScenes, ToleranceBoundsTheError) {
   const pack::Scene& scene = sceneNamed(GetParam());
   const embree::Renderer embree(scene, 0);
-  View view = render::viewOf(scene);
-  const Picture exact = embree.render("importance", view);
+  RenderParameters parameters = render::defaultParameters(scene);
+  const Picture exact = embree.render("importance", parameters);
   // The brightest source, which a picture may show in mirrors alone; a Rayleigh sky is up to 1.5 times its mean.
   double most = *std::max_element(exact.pixels.begin(), exact.pixels.end());
   for (int c = 0; c < 3; ++c) {
@@ -370,14 +370,14 @@ TEST_P(EffectScenes, ToleranceBoundsTheError) {
   }
   std::uint64_t rays = exact.cost.rays;
   for (const double tolerance : {1e-6, 1e-4, 1e-3}) {
-    view.tolerance = tolerance;
-    const Picture picture = embree.render("importance", view);
+    parameters.tolerance = tolerance;
+    const Picture picture = embree.render("importance", parameters);
     EXPECT_LE(picture.cost.rays, rays);
     rays = picture.cost.rays;
     double largest = 0;
     for (std::size_t i = 0; i < exact.pixels.size(); ++i)
       largest = std::max(largest, static_cast<double>(std::abs(picture.pixels[i] - exact.pixels[i])));
-    EXPECT_LE(largest, (view.depth + 16) * tolerance * most) << tolerance;
+    EXPECT_LE(largest, (parameters.depth + 16) * tolerance * most) << tolerance;
   }
 }
 

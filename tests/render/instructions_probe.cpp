@@ -23,16 +23,16 @@ int main(int argc, char** argv) {
       const std::string pack = argv[i], method = argv[i + 1], off = argv[i + 2], effects = argv[i + 3];
       pack::Scene scene = pack::read(pack).scene;
       if (off != "-") scene = bake::withoutEffects(std::move(scene), {off});
-      render::View view = render::viewOf(scene);
-      view.height = std::max(1u, view.height * 24 / view.width);
-      view.width = 24;
-      view.region = {0, 0, view.width, view.height};
-      view.everyEffect = effects == "all";
-      if (effects.starts_with("DEPTH=")) view.depth = static_cast<std::uint32_t>(std::stoul(effects.substr(6)));
+      render::RenderParameters parameters = render::defaultParameters(scene);
+      parameters.height = std::max(1u, parameters.height * 24 / parameters.width);
+      parameters.width = 24;
+      parameters.region = {0, 0, parameters.width, parameters.height};
+      parameters.everyEffect = effects == "all";
+      if (effects.starts_with("DEPTH=")) parameters.depth = static_cast<std::uint32_t>(std::stoul(effects.substr(6)));
       const embree::Renderer renderer(scene, 1);
-      renderer.render(method, view);  // the scheduler starts up
+      renderer.render(method, parameters);  // the scheduler starts up
       CALLGRIND_ZERO_STATS;
-      renderer.render(method, view);
+      renderer.render(method, parameters);
       CALLGRIND_DUMP_STATS_AT("picture");
     }
   } catch (const Error& error) {

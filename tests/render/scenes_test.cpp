@@ -45,12 +45,13 @@ const nlohmann::json& tolerances() {
   return kTolerances;
 }
 
-render::View smallView(const pack::Scene& scene) {
-  render::View view = render::viewOf(scene);
-  view.width = tolerances().at("width").get<std::uint32_t>();
-  view.height = static_cast<std::uint32_t>(std::lround(view.width * static_cast<double>(scene.height) / scene.width));
-  view.region = {0, 0, view.width, view.height};
-  return view;
+render::RenderParameters smallView(const pack::Scene& scene) {
+  render::RenderParameters parameters = render::defaultParameters(scene);
+  parameters.width = tolerances().at("width").get<std::uint32_t>();
+  parameters.height =
+      static_cast<std::uint32_t>(std::lround(parameters.width * static_cast<double>(scene.height) / scene.width));
+  parameters.region = {0, 0, parameters.width, parameters.height};
+  return parameters;
 }
 
 image::Image asImage(const pack::Pack& pack, const render::Picture& picture, const std::string& renderer,
@@ -62,11 +63,11 @@ image::Image asImage(const pack::Pack& pack, const render::Picture& picture, con
 }
 
 image::Image rendered(const pack::Pack& pack, const std::string& renderer, const std::string& method) {
-  const render::View view = smallView(pack.scene);
-  if (renderer == "reference") return asImage(pack, reference::render(pack.scene, view, 0), renderer, method);
+  const render::RenderParameters parameters = smallView(pack.scene);
+  if (renderer == "reference") return asImage(pack, reference::render(pack.scene, parameters, 0), renderer, method);
   if (renderer == "embree")
-    return asImage(pack, embree::Renderer(pack.scene, 0).render(method, view), renderer, method);
-  return asImage(pack, vulkan::Renderer(pack.scene, {}).render(method, view), renderer, method);
+    return asImage(pack, embree::Renderer(pack.scene, 0).render(method, parameters), renderer, method);
+  return asImage(pack, vulkan::Renderer(pack.scene, {}).render(method, parameters), renderer, method);
 }
 
 // kind: a preset of tolerances.json: the difference that makes a pixel an outlier, and the share of outliers
@@ -118,17 +119,18 @@ TEST_P(Scenes, StokesEqualsTheDoublePrecisionReference) {
 
 TEST_P(Scenes, EveryValueIsOneThatLightCanHave) {
   const pack::Scene& scene = packOf(GetParam()).scene;
-  render::View view = smallView(scene);
-  view.checkNumerics = true;
+  render::RenderParameters parameters = smallView(scene);
+  parameters.checkNumerics = true;
   const auto expectSound = [&](const render::Picture& picture, const std::string& what) {
     EXPECT_EQ(picture.faults.count, 0u) << what << ": " << describe(picture.faults, scene);
   };
-  expectSound(reference::render(scene, view, 0), "reference");
+  expectSound(reference::render(scene, parameters, 0), "reference");
   const embree::Renderer embree(scene, 0);
-  for (const std::string& method : render::methodNames()) expectSound(embree.render(method, view), "embree " + method);
+  for (const std::string& method : render::methodNames())
+    expectSound(embree.render(method, parameters), "embree " + method);
   vulkan::Renderer vulkan(scene, {});
   for (const std::string method : {"stokes", "importance"})
-    expectSound(vulkan.render(method, view), "vulkan " + method);
+    expectSound(vulkan.render(method, parameters), "vulkan " + method);
 }
 
 TEST_P(Scenes, PolarizationIsVisible) {

@@ -32,7 +32,7 @@ TYPED_TEST(CameraTest, FrameOfARayHasXAcrossUp) {
     const Vec d = draw.direction(), up{0, 0, 1};
     if (std::abs(d[2]) > 0.99L) continue;  // x loses its meaning along up
     real cos2, sin2;
-    O::cameraFrameTurn(toReal3<O>(d), toReal3<O>(up), cos2, sin2);
+    O::cameraFrameRotation(toReal3<O>(d), toReal3<O>(up), cos2, sin2);
     // The turn must take light measured in the canonical frame of -d to that measured with x = d x up.
     const Vec k = oracle::along(d, -1, d, 0), x = oracle::unit(oracle::cross(d, up));
     const oracle::Beam beam = oracle::polarized(k, oracle::anyAcross(k), {0.6L, 0.3L}, {-0.2L, 0.5L});
@@ -42,7 +42,7 @@ TYPED_TEST(CameraTest, FrameOfARayHasXAcrossUp) {
     in.s1 = O::splat3(R(s[1]));
     in.s2 = O::splat3(R(s[2]));
     in.s3 = O::splat3(R(s[3]));
-    const auto out = O::stokesTurn(in, cos2, sin2);
+    const auto out = O::rotateStokes(in, cos2, sin2);
     const real got[4] = {out.s0.x, out.s1.y, out.s2.z, out.s3.x};
     for (std::size_t j = 0; j < 4; ++j) worst.add((got[j] - want[j]) * std::sqrt(1 - d[2] * d[2]));
   }

@@ -54,7 +54,7 @@ TYPED_TEST(FilmTest, EqualsTheCharacteristicMatrix) {
     // Away from both critical angles, where a rounding of the cosine moves everything.
     const auto near = [&](real n) { return std::abs((n / n1) * (n / n1) - (1 - c) * (1 + c)) < R(0.02); };
     if (near(nf) || (k3 == 0 && near(n3))) continue;
-    const auto film = O::filmOf(c, n1, nf, turns, n3, k3);
+    const auto film = O::thinFilm(c, n1, nf, turns, n3, k3);
     const Stack truth = layered(c, n1, nf, static_cast<Real>(turns) / 2, Cx(n3, -k3));
     const Cx x = truth.rp * std::conj(truth.rs), y = truth.tp * std::conj(truth.ts);
     reflection.add(film.reflected.rs - std::norm(truth.rs));
@@ -77,14 +77,14 @@ TYPED_TEST(FilmTest, EqualsTheCharacteristicMatrix) {
 TYPED_TEST(FilmTest, WithoutThicknessItIsNotThere) {
   MALUS_TYPES;
   for (const real c : {R(1.0L), R(0.7L), R(0.2L), R(0.01L)}) {
-    const auto metal = O::filmOf(c, 1, R(1.46L), 0, R(0.2L), R(3.4L));
+    const auto metal = O::thinFilm(c, 1, R(1.46L), 0, R(0.2L), R(3.4L));
     const auto bare = O::conductorReflectance(c, 1, R(0.2L), R(3.4L));
     EXPECT_CLOSE(metal.reflected.rs, bare.rs, 32 * kEps);
     EXPECT_CLOSE(metal.reflected.rp, bare.rp, 32 * kEps);
     EXPECT_CLOSE(metal.reflected.xRe, bare.xRe, 32 * kEps);
     EXPECT_CLOSE(metal.reflected.xIm, bare.xIm, 32 * kEps);
     for (const auto& [n1, n3] : {std::pair(R(1.0L), R(1.5L)), std::pair(R(1.5L), R(1.0L))}) {
-      const auto glass = O::filmOf(c, n1, R(2.0L), 0, n3, 0);
+      const auto glass = O::thinFilm(c, n1, R(2.0L), 0, n3, 0);
       const auto interface = O::dielectricReflectance(c, n1, n3);
       const auto through = O::dielectricTransmittance(c, n1, n3);
       EXPECT_CLOSE(glass.reflected.rs, interface.rs, 64 * kEps);
@@ -101,10 +101,10 @@ TYPED_TEST(FilmTest, QuarterAndHalfWaveAtNormalIncidence) {
   MALUS_TYPES;
   const Real nf = 1.38L, n3 = 1.52L, reflected = (n3 - nf * nf) / (n3 + nf * nf), bare = (n3 - 1) / (n3 + 1);
   // A quarter of the wavelength in the film: twice its thickness over that in vacuum is 1/(2 nf).
-  const auto quarter = O::filmOf(1, 1, R(nf), R(1 / (2 * nf)), R(n3), 0);
+  const auto quarter = O::thinFilm(1, 1, R(nf), R(1 / (2 * nf)), R(n3), 0);
   EXPECT_CLOSE(quarter.reflected.rs, reflected * reflected, 4 * kEps);
   EXPECT_CLOSE(quarter.through.rs, 1 - reflected * reflected, 4 * kEps);
-  const auto half = O::filmOf(1, 1, R(nf), R(1 / nf), R(n3), 0);
+  const auto half = O::thinFilm(1, 1, R(nf), R(1 / nf), R(n3), 0);
   EXPECT_CLOSE(half.reflected.rs, bare * bare, 8 * kEps);
   EXPECT_CLOSE(half.reflected.rp, bare * bare, 8 * kEps);
 }
@@ -117,7 +117,7 @@ TYPED_TEST(FilmTest, StaysPhysicalAtTheEnds) {
         for (const real n3 : {R(0.001L), R(1), R(1.5L), R(1000)})
           for (const real k3 : {R(0), R(1e-3L), R(1000)})
             for (const real turns : {R(0), R(0.5L), R(400)}) {
-              const auto f = O::filmOf(c, n1, nf, turns, n3, k3);
+              const auto f = O::thinFilm(c, n1, nf, turns, n3, k3);
               for (const auto& r : {f.reflected, f.through}) {
                 ASSERT_TRUE(std::isfinite(r.rs) && std::isfinite(r.rp) && std::isfinite(r.xRe) && std::isfinite(r.xIm))
                     << c << ' ' << n1 << ' ' << nf << ' ' << n3 << ' ' << k3 << ' ' << turns;
@@ -136,11 +136,11 @@ TYPED_TEST(FilmTest, TurnsAndRoots) {
   Draw draw(3);
   for (int i = 0; i < 1000; ++i) {
     const real x = R(draw.between(-8, 8));
-    const auto turn = O::complexTurn(x);
+    const auto turn = O::cisTwoPi(x);
     EXPECT_CLOSE(turn.re, std::cos(2 * kPi * static_cast<Real>(x)), 8 * kEps);
     EXPECT_CLOSE(turn.im, std::sin(2 * kPi * static_cast<Real>(x)), 8 * kEps);
     const real a = R(draw.between(-2, 2)), b = R(draw.between(-2, 2));
-    const auto root = O::complexRoot(a, b);
+    const auto root = O::complexSqrtLower(a, b);
     EXPECT_LE(root.im, 0);
     EXPECT_CLOSE(root.re * root.re - root.im * root.im, a, 16 * kEps);
     EXPECT_CLOSE(2 * root.re * -root.im, std::abs(b), 16 * kEps);

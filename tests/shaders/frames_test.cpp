@@ -96,7 +96,7 @@ TYPED_TEST(FramesTest, TurnEqualsTheExplicitAngle) {
   for (int degree = 0; degree < 360; degree += 5) {
     const Real f = degree * std::acos(Real(-1)) / 180;
     real cos2, sin2;
-    O::turnTo(O::make3(R(std::cos(f)), R(std::sin(f)), 0), x, y, cos2, sin2);
+    O::frameRotation(O::make3(R(std::cos(f)), R(std::sin(f)), 0), x, y, cos2, sin2);
     EXPECT_CLOSE(cos2, std::cos(2 * f), 4 * kEps) << degree;
     EXPECT_CLOSE(sin2, std::sin(2 * f), 4 * kEps) << degree;
   }
@@ -112,7 +112,7 @@ TYPED_TEST(FramesTest, TurnIsUnitAndNeverNan) {
     // Whether s lies across the ray or not.
     const real3 s = i % 2 == 0 ? toReal3<O>(draw.direction()) : d;
     real cos2, sin2;
-    O::turnTo(s, x, y, cos2, sin2);
+    O::frameRotation(s, x, y, cos2, sin2);
     EXPECT_CLOSE(Real(cos2) * cos2 + Real(sin2) * sin2, 1, 6 * kEps);
   }
 }

@@ -10,25 +10,25 @@ template <class O>
 struct Rows;
 template <>
 struct Rows<F32> {
-  using Row = f32::Row;
-  static Row turn(Row r, float c, float s) { return f32::rowTurn(r, c, s); }
-  static Row interface(Row r, float rs, float rp, float xRe, float xIm) {
-    return f32::rowInterface(r, rs, rp, xRe, xIm);
+  using ImportanceVector = f32::ImportanceVector;
+  static ImportanceVector turn(ImportanceVector r, float c, float s) { return f32::rotateImportance(r, c, s); }
+  static ImportanceVector interface(ImportanceVector r, float rs, float rp, float xRe, float xIm) {
+    return f32::applyInterfaceTransposed(r, rs, rp, xRe, xIm);
   }
 };
 template <>
 struct Rows<F64> {
-  using Row = f64::Row;
-  static Row turn(Row r, double c, double s) { return f64::rowTurn(r, c, s); }
-  static Row interface(Row r, double rs, double rp, double xRe, double xIm) {
-    return f64::rowInterface(r, rs, rp, xRe, xIm);
+  using ImportanceVector = f64::ImportanceVector;
+  static ImportanceVector turn(ImportanceVector r, double c, double s) { return f64::rotateImportance(r, c, s); }
+  static ImportanceVector interface(ImportanceVector r, double rs, double rp, double xRe, double xIm) {
+    return f64::applyInterfaceTransposed(r, rs, rp, xRe, xIm);
   }
 };
 
 MALUS_OPTICS_SUITE(ImportanceTest);
 
-template <class O, class Row>
-Real weighed(const Row& r, const typename O::Stokes& s) {
+template <class O, class ImportanceVector>
+Real weighed(const ImportanceVector& r, const typename O::Stokes& s) {
   return Real(r.w) * s.s0.x + Real(r.q) * s.s1.x + Real(r.u) * s.s2.x + Real(r.v) * s.s3.x;
 }
 
@@ -39,7 +39,7 @@ TYPED_TEST(ImportanceTest, EveryStepKeepsTheProduct) {
   Worst turned("turned", double(kEps)), met("met", double(kEps));
   for (int i = 0; i < 5000; ++i) {
     const oracle::Vec p = draw.direction(), q = draw.direction();
-    const typename A::Row row{1, R(p[0]), R(p[1]), R(p[2])};
+    const typename A::ImportanceVector row{1, R(p[0]), R(p[1]), R(p[2])};
     typename O::Stokes light = O::stokesUnpolarized(O::splat3(1));
     light.s1 = O::splat3(R(q[0]));
     light.s2 = O::splat3(R(q[1]));
@@ -47,7 +47,7 @@ TYPED_TEST(ImportanceTest, EveryStepKeepsTheProduct) {
     // A frame turned: both turn, the product stays.
     const Real angle = draw.between(0, 6.3);
     const real c = R(std::cos(angle)), s = R(std::sin(angle));
-    turned.add(weighed<O>(A::turn(row, c, s), O::stokesTurn(light, c, s)) - weighed<O>(row, light));
+    turned.add(weighed<O>(A::turn(row, c, s), O::rotateStokes(light, c, s)) - weighed<O>(row, light));
     // An interface: the row that meets it, times what arrives, is the row that left it, times what it makes of that.
     const Metal& m = kMetals[draw.below(5)];
     const auto f = draw.below(2) == 0 ? O::conductorReflectance(R(draw.unit()), 1, R(m.n[0]), R(m.k[0]))
@@ -65,7 +65,7 @@ TYPED_TEST(ImportanceTest, CrossedMirrorsLeaveNothingAndNoNan) {
   using A = Rows<O>;
   // Brewster, a quarter turn, Brewster: w vanishes. Whatever follows stays that small; nothing is divided by w.
   const auto f = O::dielectricReflectance(R(1 / std::sqrt(3.25L)), 1, R(1.5L));
-  typename A::Row row{1, 0, 0, 0};
+  typename A::ImportanceVector row{1, 0, 0, 0};
   row = A::interface(row, f.rs, f.rp, f.xRe, f.xIm);
   row = A::turn(row, -1, 0);
   row = A::interface(row, f.rs, f.rp, f.xRe, f.xIm);

@@ -174,7 +174,7 @@ inline Stokes4 measured(const Beam& beam, const Vec& x) {
   return total;
 }
 
-// The frame of a ray that both its ends agree on: x of space, carried by the shortest turn that takes the
+// The frame of a ray that both its ends agree on: x of space, throughput by the shortest turn that takes the
 // z axis onto the direction or its opposite, whichever is above the horizon (or so little
 // below that a float may have lost it).
 inline Vec canonicalX(const Vec& k) {

@@ -121,7 +121,7 @@ void compareOptics() {
   MALUS_SAME(refractedDirection)
   MALUS_SAME(stokesUnpolarized)
   MALUS_SAME(stokesAdd)
-  MALUS_SAME(stokesTurn)
+  MALUS_SAME(rotateStokes)
   MALUS_SAME(stokesInterface)
   MALUS_SAME(lambertRadiance)
   MALUS_SAME(phongLobe)
@@ -152,9 +152,9 @@ void compareOptics() {
     expectSame<S>(y, y0, y1, "canonicalFrame y");
     real u0, v0, u1, v1;
     Lane u, v;
-    F::turnTo(n0, x0, y0, u0, v0);
-    F::turnTo(n1, x1, y1, u1, v1);
-    L::turnTo(n, x, y, u, v);
+    F::frameRotation(n0, x0, y0, u0, v0);
+    F::frameRotation(n1, x1, y1, u1, v1);
+    L::frameRotation(n, x, y, u, v);
     expectSame<S>(u, u0, u1, "turnTo cos");
     expectSame<S>(v, v0, v1, "turnTo sin");
     expectSame<S>(L::sDirection(a, n), F::sDirection(a0, n0), F::sDirection(a1, n1), "sDirection");
@@ -163,9 +163,9 @@ void compareOptics() {
     L::octahedralFromDirection(a, u, v);
     expectSame<S>(u, u0, u1, "octahedral u");
     expectSame<S>(v, v0, v1, "octahedral v");
-    F::cameraFrameTurn(a0, n0, u0, v0);
-    F::cameraFrameTurn(a1, n1, u1, v1);
-    L::cameraFrameTurn(a, n, u, v);
+    F::cameraFrameRotation(a0, n0, u0, v0);
+    F::cameraFrameRotation(a1, n1, u1, v1);
+    L::cameraFrameRotation(a, n, u, v);
     expectSame<S>(u, u0, u1, "cameraFrameTurn cos");
     expectSame<S>(v, v0, v1, "cameraFrameTurn sin");
     const real c0 = drawScalar<S>(draw), c1 = drawScalar<S>(draw);
@@ -184,20 +184,20 @@ void compareMethod() {
   SCOPED_TRACE(F::kName);
   using S = float;
   MALUS_SAME(payloadDepth)
-  MALUS_SAME(payloadSource)
+  MALUS_SAME(payloadUnpolarized)
   MALUS_SAME(payloadStokes)
-  MALUS_SAME(payloadSend)
+  MALUS_SAME(payloadFromSurface)
   MALUS_SAME(surfaceS)
   MALUS_SAME(lightUnpolarized)
   MALUS_SAME(lightAdd)
-  MALUS_SAME(lightReceive)
+  MALUS_SAME(lightAtSurface)
   MALUS_SAME(lightReflect)
   MALUS_SAME(lightTransmit)
-  MALUS_SAME(lightLeave)
+  MALUS_SAME(lightFromBelow)
   MALUS_SAME(meanTransmittance)
-  MALUS_SAME(dielectricFactors)
-  MALUS_SAME(conductorFactors)
-  auto p = L::payloadSource(lanes32::splat3({1, 2}));
+  MALUS_SAME(dielectricTerms)
+  MALUS_SAME(conductorTerms)
+  auto p = L::payloadUnpolarized(lanes32::splat3({1, 2}));
   L::payloadSetDepth(p, {3, 4});
   EXPECT_EQ(L::payloadDepth(p).lane[1], 4);
 }

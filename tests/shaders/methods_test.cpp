@@ -36,7 +36,7 @@ TYPED_TEST_SUITE(MethodTest, Methods, MethodNames);
 // What an eye ray brings back from a source of this radiance at the path's end.
 template <class M>
 typename M::Payload trace(const Path& path, real3 radiance = splat3(1)) {
-  typename M::Payload p = M::payloadSource(radiance);
+  typename M::Payload p = M::payloadUnpolarized(radiance);
   for (std::size_t i = path.bounces.size(); i-- > 0;) {
     const Bounce& b = path.bounces[i];
     const real3 n = toReal3<F32>(b.n), d = toReal3<F32>(path.d[i]), next = toReal3<F32>(path.d[i + 1]);
@@ -46,10 +46,10 @@ typename M::Payload trace(const Path& path, real3 radiance = splat3(1)) {
       k2[j] = static_cast<float>(-b.n2[static_cast<std::size_t>(j)].imag());
     }
     const real c = clampUnit(-dot3(d, n)), n1 = static_cast<float>(b.n1);
-    const auto f = b.metal ? M::conductorFactors(c, n1, n2, k2) : M::dielectricFactors(c, n1, n2.y);
+    const auto f = b.metal ? M::conductorTerms(c, n1, n2, k2) : M::dielectricTerms(c, n1, n2.y);
     const real3 s = M::surfaceS(d, n);
-    const auto arriving = M::lightReceive(p, next, s);
-    p = M::payloadSend(b.transmits ? M::lightTransmit(f, arriving) : M::lightReflect(f, arriving), d, s);
+    const auto arriving = M::lightAtSurface(p, next, s);
+    p = M::payloadFromSurface(b.transmits ? M::lightTransmit(f, arriving) : M::lightReflect(f, arriving), d, s);
   }
   return p;
 }
@@ -102,7 +102,7 @@ TEST(MethodsTest, PayloadSizesAreThoseOfTheDesign) {
 
 TYPED_TEST(MethodTest, DepthIsSetAndRead) {
   EXPECT_EQ(sizeof(typename TypeParam::Payload), static_cast<std::size_t>(TypeParam::kPayloadBytes));
-  typename TypeParam::Payload p = TypeParam::payloadSource(make3(5, 6, 7));
+  typename TypeParam::Payload p = TypeParam::payloadUnpolarized(make3(5, 6, 7));
   for (const float depth : {0.0f, 1.0f, 31.0f}) {
     TypeParam::payloadSetDepth(p, depth);
     EXPECT_EQ(TypeParam::payloadDepth(p), depth);
@@ -114,11 +114,11 @@ TYPED_TEST(MethodTest, SourcesAreUnpolarizedAndKeepTheirRadiance) {
   for (int i = 0; i < 100; ++i) {
     const real3 d = toReal3<F32>(draw.direction()), n = toReal3<F32>(draw.direction());
     const real3 radiance = make3(0.25f, 3, 0.5f);
-    const auto p = TypeParam::payloadSource(radiance);
+    const auto p = TypeParam::payloadUnpolarized(radiance);
     EXPECT_LE(difference(TypeParam::payloadStokes(p, d), stokesUnpolarized(radiance)), 3 * packingLoss<TypeParam>());
     // Received by a surface and sent on unchanged it is still all there.
     const real3 s = TypeParam::surfaceS(d, n);
-    const auto sent = TypeParam::payloadSend(TypeParam::lightReceive(p, d, s), d, s);
+    const auto sent = TypeParam::payloadFromSurface(TypeParam::lightAtSurface(p, d, s), d, s);
     EXPECT_LT(difference(TypeParam::payloadStokes(sent, d), stokesUnpolarized(radiance)),
               3 * (4 * kEps + 2 * packingLoss<TypeParam>()));
   }
@@ -129,12 +129,12 @@ TYPED_TEST(MethodTest, LightSumsAndLeaves) {
   const real3 d = toReal3<F32>(draw.direction()), n = toReal3<F32>(draw.direction());
   const auto sum = TypeParam::lightAdd(TypeParam::lightUnpolarized(make3(1, 2, 3)),
                                        TypeParam::lightUnpolarized(make3(0.5f, 0.25f, 1)));
-  const Stokes s = TypeParam::payloadStokes(TypeParam::payloadSend(sum, d, TypeParam::surfaceS(d, n)), d);
+  const Stokes s = TypeParam::payloadStokes(TypeParam::payloadFromSurface(sum, d, TypeParam::surfaceS(d, n)), d);
   EXPECT_LT(difference(s, stokesUnpolarized(make3(1.5f, 2.25f, 4))), 4 * (4 * kEps + packingLoss<TypeParam>()));
   // Light from below an interface has its mean transmittance.
-  const auto f = TypeParam::dielectricFactors(0.3f, 1, 1.5f);
+  const auto f = TypeParam::dielectricTerms(0.3f, 1, 1.5f);
   const Stokes left = TypeParam::payloadStokes(
-      TypeParam::payloadSend(TypeParam::lightLeave(f, splat3(1)), d, TypeParam::surfaceS(d, n)), d);
+      TypeParam::payloadFromSurface(TypeParam::lightFromBelow(f, splat3(1)), d, TypeParam::surfaceS(d, n)), d);
   EXPECT_NEAR(left.s0.y, TypeParam::meanTransmittance(f).y, 2 * kEps + packingLoss<TypeParam>());
 }
 
@@ -188,10 +188,11 @@ TYPED_TEST(MethodTest, NothingIsEverNanOrNegative) {
     const real3 d = direction(), next = direction(), n = draw.below(4) == 0 ? d * -1.0f : direction();
     const real c = draw.below(8) == 0 ? 0.0f : static_cast<float>(draw.unit());
     const auto f =
-        draw.below(2) == 0 ? M::dielectricFactors(c, 1, 1.5f) : M::conductorFactors(c, 1, splat3(0.2f), splat3(3));
-    auto p = M::payloadSource(draw.below(8) == 0 ? splat3(0) : make3(1, 0, 1e30f));
+        draw.below(2) == 0 ? M::dielectricTerms(c, 1, 1.5f) : M::conductorTerms(c, 1, splat3(0.2f), splat3(3));
+    auto p = M::payloadUnpolarized(draw.below(8) == 0 ? splat3(0) : make3(1, 0, 1e30f));
     for (int bounce = 0; bounce < 3; ++bounce)
-      p = M::payloadSend(M::lightReflect(f, M::lightReceive(p, next, M::surfaceS(d, n))), d, M::surfaceS(d, n));
+      p = M::payloadFromSurface(M::lightReflect(f, M::lightAtSurface(p, next, M::surfaceS(d, n))), d,
+                                M::surfaceS(d, n));
     const Stokes s = M::payloadStokes(p, d);
     for (int colour = 0; colour < 3; ++colour) {
       for (const oracle::Real v : stokes4(s, colour)) ASSERT_TRUE(std::isfinite(static_cast<float>(v)));
@@ -308,11 +309,12 @@ TEST(MethodsTest, AbsoluteCosinesMakeLight) {
     const Vec d = draw.direction(), s = oracle::anyAcross(d), p = oracle::cross(d, s);
     const real3 at45 = toReal3<F32>(oracle::along(s, std::sqrt(0.5L), p, std::sqrt(0.5L)));
     const auto light = Method_sp::lightUnpolarized(splat3(1));
-    const auto sent = Method_sp::payloadSend(light, toReal3<F32>(d), toReal3<F32>(s));
-    const auto got = Method_sp::lightReceive(sent, toReal3<F32>(d), at45);
+    const auto sent = Method_sp::payloadFromSurface(light, toReal3<F32>(d), toReal3<F32>(s));
+    const auto got = Method_sp::lightAtSurface(sent, toReal3<F32>(d), at45);
     EXPECT_CLOSE(got.s.x + got.p.x, std::sqrt(2.0L), 8 * kEps);
-    const auto malus = Method_sp_malus::lightReceive(
-        Method_sp_malus::payloadSend(Method_sp_malus::lightUnpolarized(splat3(1)), toReal3<F32>(d), toReal3<F32>(s)),
+    const auto malus = Method_sp_malus::lightAtSurface(
+        Method_sp_malus::payloadFromSurface(Method_sp_malus::lightUnpolarized(splat3(1)), toReal3<F32>(d),
+                                            toReal3<F32>(s)),
         toReal3<F32>(d), at45);
     EXPECT_CLOSE(malus.s.x + malus.p.x, 1, 8 * kEps);
   }
@@ -353,22 +355,22 @@ TEST(MethodsTest, RatioKeepsLightWithoutS) {
   for (int i = 0; i < 500; ++i) {
     const Vec d = draw.direction();
     const real3 along = toReal3<F32>(d), s = sDirection(along, toReal3<F32>(normalAt(draw, d, 0.5L)));
-    M::Light light = M::lightUnpolarized(splat3(0));
+    M::SurfaceLight light = M::lightUnpolarized(splat3(0));
     light.p = make3(0.1f, 0.2f, 0.3f);
-    const auto p = M::payloadSend(light, along, s);
+    const auto p = M::payloadFromSurface(light, along, s);
     EXPECT_EQ(p.ratio, 0);
     // Fully polarized along p, in its own colours; as `sp` says without loss.
-    Method_sp::Light same{light.s, light.p};
+    Method_sp::SurfaceLight same{light.s, light.p};
     const Stokes got = M::payloadStokes(p, along);
-    const Stokes want = Method_sp::payloadStokes(Method_sp::payloadSend(same, along, s), along);
+    const Stokes want = Method_sp::payloadStokes(Method_sp::payloadFromSurface(same, along, s), along);
     EXPECT_LT(difference(got, want), 0.3 * 2 * 7e-4);
     EXPECT_EQ(got.s0, light.p);
     // And none of it is lost at the next surface with the same s.
-    const auto received = M::lightReceive(p, along, s);
+    const auto received = M::lightAtSurface(p, along, s);
     EXPECT_NEAR(received.p.y, 0.2f, 1e-5);
     EXPECT_NEAR(received.s.y, 0, 2e-4);
   }
-  const auto dark = M::payloadSend(M::lightUnpolarized(splat3(0)), make3(0, 0, 1), make3(0, 0, -1));
+  const auto dark = M::payloadFromSurface(M::lightUnpolarized(splat3(0)), make3(0, 0, 1), make3(0, 0, -1));
   EXPECT_EQ(M::payloadStokes(dark, make3(0, 0, 1)).s0, splat3(0));
 }
 
@@ -378,10 +380,10 @@ TEST(MethodsTest, MissesCountAsHalfEach) {
     EXPECT_EQ(light.s, splat3(0.5f));
     EXPECT_EQ(light.p, splat3(0.5f));
   };
-  expectHalves(Method_sp::lightReceive(Method_sp::payloadSource(splat3(1)), d, s));
-  expectHalves(Method_sp_malus::lightReceive(Method_sp_malus::payloadSource(splat3(1)), d, s));
-  expectHalves(Method_sp_cosine::lightReceive(Method_sp_cosine::payloadSource(splat3(1)), d, s));
-  expectHalves(Method_sp_ratio::lightReceive(Method_sp_ratio::payloadSource(splat3(1)), d, s));
+  expectHalves(Method_sp::lightAtSurface(Method_sp::payloadUnpolarized(splat3(1)), d, s));
+  expectHalves(Method_sp_malus::lightAtSurface(Method_sp_malus::payloadUnpolarized(splat3(1)), d, s));
+  expectHalves(Method_sp_cosine::lightAtSurface(Method_sp_cosine::payloadUnpolarized(splat3(1)), d, s));
+  expectHalves(Method_sp_ratio::lightAtSurface(Method_sp_ratio::payloadUnpolarized(splat3(1)), d, s));
 }
 
 }  // namespace

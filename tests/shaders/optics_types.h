@@ -18,63 +18,63 @@
 namespace malus::test {
 
 #define MALUS_FORWARD(space, name) static constexpr auto& name = malus::space::name;
-#define MALUS_OPTICS(Name, space, scalar, label)       \
-  struct Name {                                        \
-    using real = scalar;                               \
-    using real3 = malus::space::real3;                 \
-    using Stokes = malus::space::Stokes;               \
-    using Reflectance = malus::space::Reflectance;     \
-    using Transmittance = malus::space::Transmittance; \
-    using Refraction = malus::space::Refraction;       \
-    using Film = malus::space::Film;                   \
-    using Complex = malus::space::Complex;             \
-    static constexpr real kPi = malus::space::kPi;     \
-    static constexpr const char* kName = label;        \
-    MALUS_FORWARD(space, make3)                        \
-    MALUS_FORWARD(space, splat3)                       \
-    MALUS_FORWARD(space, dot3)                         \
-    MALUS_FORWARD(space, cross3)                       \
-    MALUS_FORWARD(space, select3)                      \
-    MALUS_FORWARD(space, max3)                         \
-    MALUS_FORWARD(space, normalize3)                   \
-    MALUS_FORWARD(space, signNotZero)                  \
-    MALUS_FORWARD(space, square)                       \
-    MALUS_FORWARD(space, clampUnit)                    \
-    MALUS_FORWARD(space, powInteger)                   \
-    MALUS_FORWARD(space, refractionTerms)              \
-    MALUS_FORWARD(space, dielectricReflectance)        \
-    MALUS_FORWARD(space, dielectricTransmittance)      \
-    MALUS_FORWARD(space, conductorReflectance)         \
-    MALUS_FORWARD(space, schlickReflectance)           \
-    MALUS_FORWARD(space, complexTurn)                  \
-    MALUS_FORWARD(space, complexRoot)                  \
-    MALUS_FORWARD(space, filmOf)                       \
-    MALUS_FORWARD(space, rayleighDegree)               \
-    MALUS_FORWARD(space, rayleighPhase)                \
-    MALUS_FORWARD(space, facetNormal)                  \
-    MALUS_FORWARD(space, facetWeight)                  \
-    MALUS_FORWARD(space, mirrorDirection)              \
-    MALUS_FORWARD(space, refractedDirection)           \
-    MALUS_FORWARD(space, canonicalFrame)               \
-    MALUS_FORWARD(space, sDirection)                   \
-    MALUS_FORWARD(space, turnTo)                       \
-    MALUS_FORWARD(space, stokesUnpolarized)            \
-    MALUS_FORWARD(space, stokesAdd)                    \
-    MALUS_FORWARD(space, stokesTurn)                   \
-    MALUS_FORWARD(space, stokesInterface)              \
-    MALUS_FORWARD(space, lambertRadiance)              \
-    MALUS_FORWARD(space, phongLobe)                    \
-    MALUS_FORWARD(space, octahedralFromDirection)      \
-    MALUS_FORWARD(space, directionFromOctahedral)      \
-    MALUS_FORWARD(space, irradiancePolynomial)         \
-    MALUS_FORWARD(space, shadingNormal)                \
-    MALUS_FORWARD(space, hitPointError)                \
-    MALUS_FORWARD(space, intersectionError)            \
-    MALUS_FORWARD(space, insideTriangle)               \
-    MALUS_FORWARD(space, rayOrigin)                    \
-    MALUS_FORWARD(space, cameraDirection)              \
-    MALUS_FORWARD(space, cameraFrameTurn)              \
-    MALUS_FORWARD(space, analysed)                     \
+#define MALUS_OPTICS(Name, space, scalar, label)           \
+  struct Name {                                            \
+    using real = scalar;                                   \
+    using real3 = malus::space::real3;                     \
+    using Stokes = malus::space::Stokes;                   \
+    using Reflectance = malus::space::Reflectance;         \
+    using Transmittance = malus::space::Transmittance;     \
+    using RefractionTerms = malus::space::RefractionTerms; \
+    using Film = malus::space::Film;                       \
+    using Complex = malus::space::Complex;                 \
+    static constexpr real kPi = malus::space::kPi;         \
+    static constexpr const char* kName = label;            \
+    MALUS_FORWARD(space, make3)                            \
+    MALUS_FORWARD(space, splat3)                           \
+    MALUS_FORWARD(space, dot3)                             \
+    MALUS_FORWARD(space, cross3)                           \
+    MALUS_FORWARD(space, select3)                          \
+    MALUS_FORWARD(space, max3)                             \
+    MALUS_FORWARD(space, normalize3)                       \
+    MALUS_FORWARD(space, signNotZero)                      \
+    MALUS_FORWARD(space, square)                           \
+    MALUS_FORWARD(space, clampUnit)                        \
+    MALUS_FORWARD(space, powInteger)                       \
+    MALUS_FORWARD(space, refractionTerms)                  \
+    MALUS_FORWARD(space, dielectricReflectance)            \
+    MALUS_FORWARD(space, dielectricTransmittance)          \
+    MALUS_FORWARD(space, conductorReflectance)             \
+    MALUS_FORWARD(space, schlickReflectance)               \
+    MALUS_FORWARD(space, cisTwoPi)                         \
+    MALUS_FORWARD(space, complexSqrtLower)                 \
+    MALUS_FORWARD(space, thinFilm)                         \
+    MALUS_FORWARD(space, rayleighDegree)                   \
+    MALUS_FORWARD(space, rayleighPhase)                    \
+    MALUS_FORWARD(space, facetNormal)                      \
+    MALUS_FORWARD(space, facetWeight)                      \
+    MALUS_FORWARD(space, mirrorDirection)                  \
+    MALUS_FORWARD(space, refractedDirection)               \
+    MALUS_FORWARD(space, canonicalFrame)                   \
+    MALUS_FORWARD(space, sDirection)                       \
+    MALUS_FORWARD(space, frameRotation)                    \
+    MALUS_FORWARD(space, stokesUnpolarized)                \
+    MALUS_FORWARD(space, stokesAdd)                        \
+    MALUS_FORWARD(space, rotateStokes)                     \
+    MALUS_FORWARD(space, stokesInterface)                  \
+    MALUS_FORWARD(space, lambertRadiance)                  \
+    MALUS_FORWARD(space, phongLobe)                        \
+    MALUS_FORWARD(space, octahedralFromDirection)          \
+    MALUS_FORWARD(space, directionFromOctahedral)          \
+    MALUS_FORWARD(space, irradiancePolynomial)             \
+    MALUS_FORWARD(space, shadingNormal)                    \
+    MALUS_FORWARD(space, hitPointError)                    \
+    MALUS_FORWARD(space, intersectionError)                \
+    MALUS_FORWARD(space, insideTriangle)                   \
+    MALUS_FORWARD(space, rayOrigin)                        \
+    MALUS_FORWARD(space, cameraDirection)                  \
+    MALUS_FORWARD(space, cameraFrameRotation)              \
+    MALUS_FORWARD(space, analysed)                         \
   };
 MALUS_OPTICS(F32, f32, float, "float")
 MALUS_OPTICS(F64, f64, double, "double")

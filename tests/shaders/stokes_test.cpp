@@ -34,8 +34,8 @@ S turned(const S& s, const V& d, const V& across, bool toSurface) {
   V x, y;
   real cos2, sin2;
   O::canonicalFrame(d * real(-1), x, y);
-  O::turnTo(across, x, y, cos2, sin2);
-  return O::stokesTurn(s, cos2, toSurface ? sin2 : -sin2);
+  O::frameRotation(across, x, y, cos2, sin2);
+  return O::rotateStokes(s, cos2, toSurface ? sin2 : -sin2);
 }
 // The optics along a path, back to the eye, in the canonical frame of its first ray.
 template <class O>
@@ -73,7 +73,7 @@ TYPED_TEST(StokesTest, TurningIdentities) {
   MALUS_TYPES;
   Draw draw(20);
   const auto turn = [&](const typename O::Stokes& s, Real angle) {
-    return O::stokesTurn(s, R(std::cos(2 * angle)), R(std::sin(2 * angle)));
+    return O::rotateStokes(s, R(std::cos(2 * angle)), R(std::sin(2 * angle)));
   };
   for (int i = 0; i < 500; ++i) {
     const auto s = toStokes<O>(randomStokes(draw, draw.unit()));
@@ -88,7 +88,7 @@ TYPED_TEST(StokesTest, TurningIdentities) {
     }
   }
   // A frame turned by +45 degrees has its x along the +45 of the old one.
-  const Stokes4 s = toStokes4(O::stokesTurn(toStokes<O>({1, 0, 1, 0}), 0, 1), 0);
+  const Stokes4 s = toStokes4(O::rotateStokes(toStokes<O>({1, 0, 1, 0}), 0, 1), 0);
   EXPECT_TRUE(s[1] == 1 && s[2] == 0);
 }
 

@@ -48,8 +48,8 @@ struct Values {
   real3 origin;
   real3 camera;
   real3 clamped;
-  Row turnedRow;
-  Row metRow;
+  ImportanceVector turnedRow;
+  ImportanceVector metRow;
   Film film;
   real3 facet;
   real facetShare;
@@ -64,7 +64,7 @@ FN Values valuesOf(Given g) {
   r.dielectric = dielectricReflectance(g.c, g.n1, g.n2);
   r.transmittance = dielectricTransmittance(g.c, g.n1, g.n2);
   r.conductor = conductorReflectance(g.c, g.n1, g.n2, g.k2);
-  Refraction f = refractionTerms(g.c, g.n1, g.n2);
+  RefractionTerms f = refractionTerms(g.c, g.n1, g.n2);
   r.t = f.t;
   r.tau = f.tau;
   r.total = selectR(f.total, R(1.0), R(0.0));
@@ -75,15 +75,15 @@ FN Values valuesOf(Given g) {
   r.refracted = refractedDirection(g.d, g.n, c, g.n1, g.n2);
   canonicalFrame(g.d, r.x, r.y);
   r.s = sDirection(g.d, g.n);
-  turnTo(r.s, r.x, r.y, r.turnCos, r.turnSin);
-  cameraFrameTurn(g.d, g.n, r.cameraCos, r.cameraSin);
+  frameRotation(r.s, r.x, r.y, r.turnCos, r.turnSin);
+  cameraFrameRotation(g.d, g.n, r.cameraCos, r.cameraSin);
   Stokes light;
   light.s0 = g.radiance;
   light.s1 = g.radiance * R(0.5);
   light.s2 = g.radiance * R(-0.25);
   light.s3 = g.radiance * R(0.75);
   light = stokesAdd(light, stokesUnpolarized(g.radiance));
-  r.turned = stokesTurn(light, g.cos2, g.sin2);
+  r.turned = rotateStokes(light, g.cos2, g.sin2);
   r.reflected = stokesInterface(light, splat3(r.conductor.rs), splat3(r.conductor.rp), splat3(r.conductor.xRe),
                                 splat3(r.conductor.xIm));
   r.analysed = analysed(light, R(0.5), R(0.5) * g.cos2, R(0.5) * g.sin2, g.c);
@@ -100,18 +100,18 @@ FN Values valuesOf(Given g) {
   r.origin = rayOrigin(g.radiance, r.error, g.n, R(0.001));
   r.camera = cameraDirection(g.d, g.n, g.interpolated, R(0.5), R(0.25), g.c, g.cos2);
   r.clamped = max3(select3(lessR(g.c, R(0.5)), cross3(g.d, g.n), g.n), square(g.c) * kPi);
-  Row row;
+  ImportanceVector row;
   row.w = g.c;
   row.q = g.d.x;
   row.u = g.d.y;
   row.v = g.d.z;
-  r.turnedRow = rowTurn(row, g.cos2, g.sin2);
-  r.metRow = rowInterface(row, r.conductor.rs, r.conductor.rp, r.conductor.xRe, r.conductor.xIm);
+  r.turnedRow = rotateImportance(row, g.cos2, g.sin2);
+  r.metRow = applyInterfaceTransposed(row, r.conductor.rs, r.conductor.rp, r.conductor.xRe, r.conductor.xIm);
   word bits = joinWord(halfBits(g.k2), fractionBits(g.cos2));
   r.halved = halfValue(lowHalf(bits));
   r.fraction = fractionValue(highHalf(bits));
   // Denser than the first medium: GLSL has no exponential function in double for what fades.
-  r.film = filmOf(g.c, R(1.0), R(1.0) + absR(g.cos2), R(1.25), R(1.0) + absR(g.sin2), g.k2);
+  r.film = thinFilm(g.c, R(1.0), R(1.0) + absR(g.cos2), R(1.25), R(1.0) + absR(g.sin2), g.k2);
   r.facet = facetNormal(g.d, g.n, R(0.25), R(0.5) * g.cos2, R(0.5) * g.sin2);
   r.facetShare = facetWeight(g.d, g.interpolated, g.n, R(0.25));
   r.skyDegree = rayleighDegree(g.c, R(0.75));

@@ -79,7 +79,7 @@ constexpr std::uint32_t setOf(std::initializer_list<Effect> effects) {
 }
 constexpr std::uint32_t kLit =
     setOf({Effect::kLambert, Effect::kPaint, Effect::kMetal, Effect::kGlass, Effect::kEmitter, Effect::kPointLights,
-           Effect::kShadows, Effect::kHighlights, Effect::kFill, Effect::kEnvironmentMap});
+           Effect::kShadows, Effect::kHighlights, Effect::kAmbient, Effect::kEnvironmentMap});
 constexpr std::uint32_t kSets[] = {shaders::kEveryEffect, kLit, setOf({Effect::kPaint, Effect::kMetal}),
                                    setOf({Effect::kMetal})};
 
@@ -163,7 +163,7 @@ TEST(VariantsTest, AnEffectThatIsOffCostsNothing) {
       EXPECT_EQ(std::count(c.bindings.begin(), c.bindings.end(), binding) > 0, there) << method << ' ' << binding;
     };
     for (const std::uint32_t binding : {12u, 13u, 14u}) expectBinding(without, binding, false);
-    for (const Effect effect : {Effect::kSheet, Effect::kTextures, Effect::kAbsorption, Effect::kCoatings,
+    for (const Effect effect : {Effect::kPolarizingElement, Effect::kTextures, Effect::kAbsorption, Effect::kCoatings,
                                 Effect::kRoughness, Effect::kSky, Effect::kPolarizedEmitters}) {
       SCOPED_TRACE(std::string(method) + " " + shaders::kEffectMacros[static_cast<std::size_t>(effect)]);
       Variant on = off;
@@ -173,7 +173,7 @@ TEST(VariantsTest, AnEffectThatIsOffCostsNothing) {
       expectBinding(with, 12, effect != Effect::kSky);
       expectBinding(with, 13, effect == Effect::kTextures);
       // More trace sites where an effect sends rays of its own; a loop has its two.
-      const bool traces = effect == Effect::kSheet || effect == Effect::kRoughness;
+      const bool traces = effect == Effect::kPolarizingElement || effect == Effect::kRoughness;
       if (off.stackSize == 0)
         EXPECT_EQ(with.traces > without.traces, traces);
       else
@@ -188,7 +188,7 @@ TEST(VariantsTest, AnEffectThatIsOffCostsNothing) {
       EXPECT_EQ(few.traces, 3u);
     else  // no shadow ray
       EXPECT_EQ(few.queries, 1u);
-    for (const Effect effect : {Effect::kPointLights, Effect::kShadows, Effect::kFill, Effect::kHighlights,
+    for (const Effect effect : {Effect::kPointLights, Effect::kShadows, Effect::kAmbient, Effect::kHighlights,
                                 Effect::kEnvironmentMap, Effect::kGlass, Effect::kLambert, Effect::kEmitter}) {
       Variant less = off;
       less.effects &= ~shaders::bitOf(effect);
@@ -208,7 +208,7 @@ TEST(VariantsTest, EveryStageIsThere) {
 
 TEST(VariantsTest, LoopsHaveOneStageAndNoPayload) {
 #define MALUS_NAME(M) f32::M::kName,
-  for (const char* loop : {MALUS_FOR_EACH_LOOP(MALUS_NAME)})
+  for (const char* loop : {MALUS_FOR_EACH_ITERATIVE(MALUS_NAME)})
     for (int flags = 0; flags < 16; ++flags) {
       Variant variant;
       variant.method = loop;

@@ -93,7 +93,7 @@ class Instructions(unittest.TestCase):
 
     def test_auto_does_less_than_all(self):
         cases = [(scene, method) for scene in ("hard/mirror-loop", "hard/glass-slab")
-                 for method in ("schlick-loop", "stokes")]
+                 for method in ("schlick-iterative", "stokes")]
         counts = self.counts([(self.pack(scene), method, "-", effects) for scene, method in cases
                               for effects in ("auto", "all")])
         for i, (scene, method) in enumerate(cases):

@@ -2,7 +2,7 @@
 
 A pack's environment is a constant or an octahedral map (Cigolle et al., JCGT 3(2), 2014) of N x N texels with
 a border of one texel that repeats what lies across the edges; it is looked up bilinearly
-(shaders/optics/environment.h, shaders/surfaces/surroundings.h). Mitsuba's `envmap` is a latitude-longitude picture.
+(shaders/optics/environment.h, shaders/surfaces/environment.h). Mitsuba's `envmap` is a latitude-longitude picture.
 The deterministic integrator looks up the octahedral map itself, in double precision; Mitsuba's own
 integrators get a latitude-longitude picture resampled from it, and are compared with the deterministic
 integrator on that same picture. Directions are unit vectors in the pack's axes, +y up.

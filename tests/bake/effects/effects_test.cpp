@@ -172,7 +172,7 @@ TEST(Effects, PolarizedSourcesAreTheFirstOfTwoDiattenuators) {
   EXPECT_TRUE(effectsOf(scene).at("linear-polarization"));
   // A polarizer and a mirror of glass (D = 1 both): (2 2 + 0)/2 - 1.
   scene = sceneOf({material(MaterialKind::polarizer)}, 2);
-  scene.materials[0].across = glm::dvec3(0);
+  scene.materials[0].transmittanceCrossed = glm::dvec3(0);
   request = {2, {1, 0, 0, 0}, false, false};
   EXPECT_DOUBLE_EQ(polarizationErrorBound(scene, request).x, 1);
 }
@@ -185,7 +185,7 @@ TEST(Effects, SheetsCountByTheirNumbers) {
   turner.retardanceDegrees = glm::dvec3(0);
   EXPECT_FALSE(effectsOf(sceneOf({turner}, 4)).at("circular-polarization"));
   Material plate = material(MaterialKind::wavePlate);
-  plate.across = glm::dvec3(0);
+  plate.transmittanceCrossed = glm::dvec3(0);
   EXPECT_DOUBLE_EQ(polarizationErrorBound(sceneOf({plate}, 2), {2, {1, 0, 0, 0}, false, false}).x, 1);
 }
 

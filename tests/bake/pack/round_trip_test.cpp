@@ -48,7 +48,7 @@ TEST(PackRoundTrip, EveryFieldComesBack) {
   EXPECT_EQ(s.environment.radiance, scene.environment.radiance);
   EXPECT_EQ(s.environment.size, scene.environment.size);
   EXPECT_EQ(s.environment.texels, scene.environment.texels);
-  EXPECT_EQ(s.environment.diffuseFill, scene.environment.diffuseFill);
+  EXPECT_EQ(s.environment.ambientIrradiance, scene.environment.ambientIrradiance);
   EXPECT_EQ(s.environment.irradiance, scene.environment.irradiance);
   ASSERT_EQ(s.lights.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -99,8 +99,8 @@ TEST(PackRoundTrip, WhatFewScenesHaveComesBack) {
     EXPECT_EQ(m.roughness, truth.roughness);
     EXPECT_EQ(m.axis, truth.axis);
     EXPECT_EQ(m.polarization, truth.polarization);
-    EXPECT_EQ(m.along, truth.along);
-    EXPECT_EQ(m.across, truth.across);
+    EXPECT_EQ(m.transmittanceParallel, truth.transmittanceParallel);
+    EXPECT_EQ(m.transmittanceCrossed, truth.transmittanceCrossed);
     EXPECT_EQ(m.retardanceDegrees, truth.retardanceDegrees);
     EXPECT_EQ(m.maps.albedo, truth.maps.albedo);
     EXPECT_EQ(m.maps.eta, truth.maps.eta);

@@ -61,7 +61,7 @@ TEST(SceneFile, DefaultsAreThoseOfTheDocument) {
   EXPECT_EQ(scene.exposureEv, 0);
   EXPECT_EQ(scene.environmentRadiance, glm::dvec3(0));
   EXPECT_TRUE(scene.environmentImage.empty());
-  EXPECT_EQ(scene.diffuseFill, 0);
+  EXPECT_EQ(scene.ambientIrradiance, 0);
   EXPECT_TRUE(scene.lights.empty());
   ASSERT_EQ(scene.materials.size(), 1u);
   EXPECT_EQ(scene.materials[0].kind, pack::MaterialKind::lambert);
@@ -109,7 +109,7 @@ TEST(SceneFile, EveryKeyIsRead) {
   EXPECT_EQ(scene.environmentImage, scene.file.parent_path() / "sky.hdr");
   EXPECT_EQ(scene.environmentScale, 2.5);
   EXPECT_EQ(scene.environmentRotationDegrees, -90);
-  EXPECT_EQ(scene.diffuseFill, 0.25);
+  EXPECT_EQ(scene.ambientIrradiance, 0.25);
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_EQ(scene.lights[0].intensity, glm::dvec3(2, 3, 4));
   ASSERT_EQ(scene.materials.size(), 6u);
@@ -290,14 +290,14 @@ TEST(SceneFile, WhatFewMaterialsHave) {
   m = materialOf(R"({"type": "polarizer", "axis": [0, 2, 0], "across": 0.01})");
   EXPECT_EQ(m.kind, Kind::polarizer);
   EXPECT_EQ(m.axis, glm::dvec3(0, 1, 0));
-  EXPECT_EQ(m.along, glm::dvec3(1));
-  EXPECT_EQ(m.across, glm::dvec3(0.01));
+  EXPECT_EQ(m.transmittanceParallel, glm::dvec3(1));
+  EXPECT_EQ(m.transmittanceCrossed, glm::dvec3(0.01));
   m = materialOf(
       R"({"type": "wave-plate", "axis": [1, 0, 0], "retardanceDegrees": [80, 90, 100], "transmittance": 0.9})");
   EXPECT_EQ(m.kind, Kind::wavePlate);
   EXPECT_EQ(m.retardanceDegrees, glm::dvec3(80, 90, 100));
-  EXPECT_EQ(m.along, glm::dvec3(0.9));
-  EXPECT_EQ(m.across, glm::dvec3(0.9));
+  EXPECT_EQ(m.transmittanceParallel, glm::dvec3(0.9));
+  EXPECT_EQ(m.transmittanceCrossed, glm::dvec3(0.9));
   EXPECT_TRUE(materialOf(R"({"type": "lambert", "albedo": 1})").isPlain());
 
   for (const char* bad :

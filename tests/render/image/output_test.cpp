@@ -36,7 +36,9 @@ pack::Pack somePack() {
   return pack;
 }
 
-image::Image someImage() { return toImage(stokesPicture(), somePack(), View{3, 2, {0, 0, 3, 2}}, "embree", "stokes"); }
+image::Image someImage() {
+  return toImage(stokesPicture(), somePack(), RenderParameters{3, 2, {0, 0, 3, 2}}, "embree", "stokes");
+}
 
 TEST(Output, ExrKeepsChannelsAndMetadata) {
   const fs::path path = fs::path(testing::TempDir()) / "output_test.exr";

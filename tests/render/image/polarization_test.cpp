@@ -50,16 +50,16 @@ pack::Scene brewsterMirror(double roll, std::uint32_t side = 1) {
 }
 
 double green(const pack::Scene& scene, const render::Analyser& analyser, const char* method) {
-  render::View view = render::viewOf(scene);
-  view.analyser = analyser;
-  return std::string(method) == "reference" ? reference::render(scene, view, 1).pixels[1]
-                                            : embree::Renderer(scene, 1).render(method, view).pixels[1];
+  render::RenderParameters parameters = render::defaultParameters(scene);
+  parameters.analyser = analyser;
+  return std::string(method) == "reference" ? reference::render(scene, parameters, 1).pixels[1]
+                                            : embree::Renderer(scene, 1).render(method, parameters).pixels[1];
 }
 
 image::Image imageOf(const pack::Scene& scene, const render::Picture& picture) {
   pack::Pack pack;
   pack.scene = scene;
-  return render::toImage(picture, pack, render::viewOf(scene), "embree", "stokes");
+  return render::toImage(picture, pack, render::defaultParameters(scene), "embree", "stokes");
 }
 
 TEST(Polarization, NumbersOfAStokesVector) {
@@ -126,9 +126,10 @@ TEST(Polarization, BrewsterMirrorIsWhollyPolarizedAlongItsPlane) {
   for (const double roll : {0.0, 20.0, 45.0, 90.0, 150.0}) {
     const pack::Scene scene = brewsterMirror(roll);
     for (const bool reference : {true, false}) {
-      const render::View view = render::viewOf(scene);
-      const image::Image image = imageOf(scene, reference ? reference::render(scene, view, 1)
-                                                          : embree::Renderer(scene, 1).render("stokes-linear", view));
+      const render::RenderParameters parameters = render::defaultParameters(scene);
+      const image::Image image =
+          imageOf(scene, reference ? reference::render(scene, parameters, 1)
+                                   : embree::Renderer(scene, 1).render("stokes-linear", parameters));
       const image::Image dolp = render::dolpChannels(image), aolp = render::aolpChannels(image);
       EXPECT_EQ(dolp.channels, (std::vector<std::string>{"DoLP.R", "DoLP.G", "DoLP.B"}));
       EXPECT_EQ(aolp.channels, (std::vector<std::string>{"AoLP.R", "AoLP.G", "AoLP.B"}));

@@ -30,15 +30,15 @@ Powers fresnel(double cosine, double n1, double n2) {
 
 // Stokes vector of the green channel of the one pixel.
 glm::dvec4 reference(const pack::Scene& scene) {
-  const render::Picture p = reference::render(scene, render::viewOf(scene), 1);
+  const render::Picture p = reference::render(scene, render::defaultParameters(scene), 1);
   return {p.pixels[4], p.pixels[7], p.pixels[10], p.pixels[13]};
 }
 glm::dvec4 embreeStokes(const pack::Scene& scene) {
-  const render::Picture p = embree::Renderer(scene, 1).render("stokes", render::viewOf(scene));
+  const render::Picture p = embree::Renderer(scene, 1).render("stokes", render::defaultParameters(scene));
   return {p.pixels[4], p.pixels[7], p.pixels[10], p.pixels[13]};
 }
 double embreeColour(const pack::Scene& scene, const char* method) {
-  return embree::Renderer(scene, 1).render(method, render::viewOf(scene)).pixels[1];
+  return embree::Renderer(scene, 1).render(method, render::defaultParameters(scene)).pixels[1];
 }
 
 // A glass mirror in the plane y = 0 under a white sky, seen at an angle from its normal.
@@ -71,15 +71,15 @@ TEST(ClosedForms, OneGlassMirror) {
 TEST(ClosedForms, PolarizerOverAGlassMirrorAtBrewster) {
   const pack::Scene scene = glassMirror(std::atan(kN) * 180 / std::numbers::pi);
   const Powers r = fresnel(1 / std::sqrt(1 + kN * kN), 1, kN);
-  render::View view = render::viewOf(scene);
+  render::RenderParameters parameters = render::defaultParameters(scene);
   for (const double degrees : {0.0, 30.0, 90.0}) {
-    view.analyser = render::linearPolarizer(degrees);
+    parameters.analyser = render::linearPolarizer(degrees);
     const double expected = 0.5 * r.s * std::pow(std::cos(degrees * std::numbers::pi / 180), 2);
-    EXPECT_NEAR(reference::render(scene, view, 1).pixels[1], expected, 1e-6) << degrees;
-    EXPECT_NEAR(embree::Renderer(scene, 1).render("stokes", view).pixels[1], expected, 2e-6) << degrees;
-    EXPECT_NEAR(embree::Renderer(scene, 1).render("sp", view).pixels[1], expected, 2e-6) << degrees;
+    EXPECT_NEAR(reference::render(scene, parameters, 1).pixels[1], expected, 1e-6) << degrees;
+    EXPECT_NEAR(embree::Renderer(scene, 1).render("stokes", parameters).pixels[1], expected, 2e-6) << degrees;
+    EXPECT_NEAR(embree::Renderer(scene, 1).render("sp", parameters).pixels[1], expected, 2e-6) << degrees;
     // Without polarization the filter only halves.
-    EXPECT_NEAR(embree::Renderer(scene, 1).render("fresnel", view).pixels[1], 0.25 * r.s, 2e-6) << degrees;
+    EXPECT_NEAR(embree::Renderer(scene, 1).render("fresnel", parameters).pixels[1], 0.25 * r.s, 2e-6) << degrees;
   }
 }
 
@@ -209,22 +209,22 @@ pack::Scene paintGlassAndGold() {
 TEST(ClosedForms, EveryMethodTracesTheSameRays) {
   const pack::Scene scene = paintGlassAndGold();
   const embree::Renderer renderer(scene, 1);
-  const std::uint64_t rays = renderer.render("schlick", render::viewOf(scene)).cost.rays;
+  const std::uint64_t rays = renderer.render("schlick", render::defaultParameters(scene)).cost.rays;
   EXPECT_GT(rays, 24u * 24u * 3u);
   for (const std::string& method : render::methodNames())
-    EXPECT_EQ(renderer.render(method, render::viewOf(scene)).cost.rays, rays) << method;
+    EXPECT_EQ(renderer.render(method, render::defaultParameters(scene)).cost.rays, rays) << method;
 }
 
 TEST(ClosedForms, LoopsEqualTheirRecursions) {
   const pack::Scene scene = paintGlassAndGold();
   const embree::Renderer renderer(scene, 1);
-  render::View view = render::viewOf(scene);
+  render::RenderParameters parameters = render::defaultParameters(scene);
   for (const render::Analyser& analyser :
        {render::kNoFilter, render::linearPolarizer(40), render::circularAnalyser(render::Handedness::left)}) {
-    view.analyser = analyser;
+    parameters.analyser = analyser;
     for (const auto& [loop, recursive] :
-         {std::pair("schlick-loop", "schlick"), {"fresnel-loop", "fresnel"}, {"importance", "stokes"}}) {
-      const render::Picture a = renderer.render(loop, view), b = renderer.render(recursive, view);
+         {std::pair("schlick-iterative", "schlick"), {"fresnel-iterative", "fresnel"}, {"importance", "stokes"}}) {
+      const render::Picture a = renderer.render(loop, parameters), b = renderer.render(recursive, parameters);
       double sum = 0;
       for (std::size_t i = 0; i < 24u * 24u; ++i)
         for (std::size_t c = 0; c < 3; ++c) {

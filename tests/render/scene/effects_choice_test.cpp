@@ -37,7 +37,7 @@ TEST(EffectsChoice, AutoTakesTheCheapestExactMethod) {
   // One mirror bounce of unpolarized light needs no polarization.
   EXPECT_EQ(chosen("stokes", one, intensityAt(6)), "fresnel");
   EXPECT_EQ(chosen("stokes-half", one, intensityAt(6)), "fresnel");
-  EXPECT_EQ(chosen("importance", one, intensityAt(6)), "fresnel-loop");
+  EXPECT_EQ(chosen("importance", one, intensityAt(6)), "fresnel-iterative");
   EXPECT_FALSE(chooseEffects({"auto"}, "stokes", one, intensityAt(6)).why.empty());
   // Methods that are not exact are what they are, and so is everything with "all".
   for (const char* method : {"schlick", "fresnel", "sp", "sp-ratio", "sp-malus"})

@@ -34,7 +34,7 @@ class GpuModel : public testing::Test {
   static void SetUpTestSuite() {
     pack::Scene scene = test::emptyScene(kDepth);
     scene.environment.radiance = {1, 1, 1};
-    scene.environment.diffuseFill = 0.5;
+    scene.environment.ambientIrradiance = 0.5;
     scene.environment.irradiance[0] = {1, 1, 1};
     const auto paint = test::addMaterial(scene, test::dielectric(MaterialKind::paint, 1.5, 0.6));
     const auto gold = test::addMaterial(scene, test::metal({0.18, 0.54, 1.33}, {3.4, 2.2, 1.9}));
@@ -118,7 +118,7 @@ TEST_F(GpuModel, EveryMethodAndStage) {
                     stage.ldsBytes && stage.scratchBytes)
             << stage.stage;
       }
-      if (render::methods()[i].isLoop) {  // one shader with the traversal inlined
+      if (render::methods()[i].isIterative) {  // one shader with the traversal inlined
         EXPECT_EQ(names, std::vector<std::string>{"ray generation"});
         continue;
       }
@@ -136,7 +136,7 @@ TEST_F(GpuModel, StacksGrowWithPayloads) {
   for (const char* family : kFamilies) {
     std::map<std::size_t, std::set<std::uint32_t>> stacks;  // by payload
     for (const PipelineStatistics& s : all(family)) {
-      if (render::methodNamed(s.method).isLoop) continue;
+      if (render::methodNamed(s.method).isIterative) continue;
       for (const char* stage : {"ray generation", "closest hit: paint", "closest hit: metal"})
         EXPECT_GE(s.groupStackBytes.at(stage), s.payloadBytes) << family << " " << s.method << " " << stage;
       stacks[s.payloadBytes].insert(s.groupStackBytes.at("closest hit: paint"));

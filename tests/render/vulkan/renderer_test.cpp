@@ -23,7 +23,7 @@ pack::Scene everything() {
   scene.height = 32;
   scene.camera.verticalFovDegrees = 50;
   scene.environment.radiance = {0.2, 0.3, 0.5};
-  scene.environment.diffuseFill = 0.5;
+  scene.environment.ambientIrradiance = 0.5;
   scene.environment.irradiance[0] = {0.6, 0.9, 1.5};
   pack::Material paint = test::dielectric(MaterialKind::paint, 1.5, 0.6);
   paint.highlightStrength = 1;
@@ -48,12 +48,12 @@ pack::Scene everything() {
 
 TEST(VulkanRenderer, EqualsEmbreeInEveryMethod) {
   const pack::Scene scene = everything();
-  const render::View view = render::viewOf(scene);
+  const render::RenderParameters parameters = render::defaultParameters(scene);
   Renderer renderer(scene, {});
   const embree::Renderer other(scene, 0);
   std::uint64_t rays = 0;
   for (const std::string& method : render::methodNames()) {
-    const render::Picture a = renderer.render(method, view), b = other.render(method, view);
+    const render::Picture a = renderer.render(method, parameters), b = other.render(method, parameters);
     ASSERT_EQ(a.pixels.size(), b.pixels.size()) << method;
     std::size_t outliers = 0;
     double sum = 0;
@@ -68,17 +68,17 @@ TEST(VulkanRenderer, EqualsEmbreeInEveryMethod) {
     EXPECT_GT(a.cost.traceMs, 0) << method;
     rays = b.cost.rays;
   }
-  EXPECT_NEAR(static_cast<double>(renderer.countRays("fresnel", view)), static_cast<double>(rays),
+  EXPECT_NEAR(static_cast<double>(renderer.countRays("fresnel", parameters)), static_cast<double>(rays),
               0.002 * static_cast<double>(rays));
 }
 
 TEST(VulkanRenderer, RegionIsAPartOfThePicture) {
   const pack::Scene scene = everything();
   Renderer renderer(scene, {});
-  render::View view = render::viewOf(scene);
-  const render::Picture whole = renderer.render("fresnel", view);
-  view.region = {10, 7, 20, 11};
-  const render::Picture part = renderer.render("fresnel", view);
+  render::RenderParameters parameters = render::defaultParameters(scene);
+  const render::Picture whole = renderer.render("fresnel", parameters);
+  parameters.region = {10, 7, 20, 11};
+  const render::Picture part = renderer.render("fresnel", parameters);
   ASSERT_EQ(part.width, 20u);
   for (std::size_t y = 0; y < 11; ++y)
     for (std::size_t x = 0; x < 20 * 3; ++x)
@@ -88,14 +88,14 @@ TEST(VulkanRenderer, RegionIsAPartOfThePicture) {
 TEST(VulkanRenderer, DepthPastTheRecursionLimitIsRefused) {
   const pack::Scene scene = everything();
   Renderer renderer(scene, {});
-  render::View view = render::viewOf(scene);
-  view.depth = renderer.maxDepth() + 1;
-  EXPECT_THROW(renderer.render("fresnel", view), Error);
+  render::RenderParameters parameters = render::defaultParameters(scene);
+  parameters.depth = renderer.maxDepth() + 1;
+  EXPECT_THROW(renderer.render("fresnel", parameters), Error);
   // A loop does not recurse.
-  view.region = {0, 0, 2, 2};
-  EXPECT_NO_THROW(renderer.render("fresnel-loop", view));
-  view.depth = 12;
-  EXPECT_NO_THROW(renderer.render("fresnel", view));
+  parameters.region = {0, 0, 2, 2};
+  EXPECT_NO_THROW(renderer.render("fresnel-iterative", parameters));
+  parameters.depth = 12;
+  EXPECT_NO_THROW(renderer.render("fresnel", parameters));
 }
 
 TEST(VulkanRenderer, UnknownDeviceIsRefused) {

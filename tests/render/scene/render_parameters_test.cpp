@@ -1,4 +1,4 @@
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,7 @@
 namespace malus::render {
 namespace {
 
-TEST(View, LinearPolarizerIsHalfAndTurnsByTwiceItsAngle) {
+TEST(RenderParameters, LinearPolarizerIsHalfAndTurnsByTwiceItsAngle) {
   EXPECT_NEAR(linearPolarizer(0)[1], 0.5, 1e-15);
   EXPECT_NEAR(linearPolarizer(90)[1], -0.5, 1e-15);
   EXPECT_NEAR(linearPolarizer(45)[2], 0.5, 1e-15);
@@ -52,7 +52,7 @@ void expectRow(const Analyser& row, const Matrix& m) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(row[i], m[0][i], 2e-15) << "component " << i;
 }
 
-TEST(View, AnalysersAreFirstRowsOfTheirMuellerMatrices) {
+TEST(RenderParameters, AnalysersAreFirstRowsOfTheirMuellerMatrices) {
   expectRow(circularAnalyser(Handedness::right), circular(1));
   expectRow(circularAnalyser(Handedness::left), circular(-1));
   for (const double f : {0.0, 22.5, 45.0, 61.0, 90.0, 135.0, -30.0}) {
@@ -67,7 +67,7 @@ TEST(View, AnalysersAreFirstRowsOfTheirMuellerMatrices) {
   }
 }
 
-TEST(View, QuarterWaveInFrontOfALinearPolarizerPassesCircularLight) {
+TEST(RenderParameters, QuarterWaveInFrontOfALinearPolarizerPassesCircularLight) {
   const Analyser right{0.5, 0, 0, 0.5}, left{0.5, 0, 0, -0.5};
   EXPECT_EQ(behindWavePlate(linearPolarizer(45), {}), right);  // exactly: no trace of the other components
   EXPECT_EQ(behindWavePlate(linearPolarizer(-45), {}), left);
@@ -77,20 +77,20 @@ TEST(View, QuarterWaveInFrontOfALinearPolarizerPassesCircularLight) {
   EXPECT_EQ(behindWavePlate(linearPolarizer(0), {45, 180}), linearPolarizer(90));
 }
 
-TEST(View, PlateAloneChangesNothing) {
+TEST(RenderParameters, PlateAloneChangesNothing) {
   for (const double axis : {0.0, 30.0, 90.0}) EXPECT_EQ(behindWavePlate(kNoFilter, {axis, 90}), kNoFilter);
 }
 
-TEST(View, MethodsTellWhatTheyCarry) {
+TEST(RenderParameters, MethodsTellWhatTheyCarry) {
   for (const auto& [method, linear, circular] :
        {std::tuple("schlick", false, false), std::tuple("fresnel", false, false), std::tuple("sp", true, false),
         std::tuple("sp-cosine", true, false), std::tuple("sp-ratio", true, false), std::tuple("sp-malus", true, false),
-        std::tuple("schlick-loop", false, false), std::tuple("importance", true, true),
+        std::tuple("schlick-iterative", false, false), std::tuple("importance", true, true),
         std::tuple("stokes-linear", true, false), std::tuple("stokes", true, true),
         std::tuple("reference", true, true)}) {
-    const CarriedLight carried = carriedBy(method);
-    EXPECT_EQ(carried.linear, linear) << method;
-    EXPECT_EQ(carried.circular, circular) << method;
+    const CarriedLight throughput = carriedBy(method);
+    EXPECT_EQ(throughput.linear, linear) << method;
+    EXPECT_EQ(throughput.circular, circular) << method;
   }
 }
 

@@ -1,17 +1,17 @@
 // What methods with the exact unpolarized reflectance need of an interface: the mean of R_s and R_p per colour.
 
-struct Factors {
+struct FresnelTerms {
   real3 r;
 };
 
 FN real meanReflectance(Reflectance f) { return R(0.5) * (f.rs + f.rp); }
 
-FN Factors exactFactors(Reflectance red, Reflectance green, Reflectance blue) {
-  Factors f;
+FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflectance blue) {
+  FresnelTerms f;
   f.r = make3(meanReflectance(red), meanReflectance(green), meanReflectance(blue));
   return f;
 }
 
-#include "shaders/methods/exact_factors.h"
+#include "shaders/methods/exact_terms.h"
 
-FN real3 meanTransmittance(Factors f) { return splat3(R(1.0)) - f.r; }
+FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - f.r; }

@@ -2,7 +2,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "bake/image/module.h"
+#include "meshprep/base/image_module.h"
 
 namespace malus::image {
 

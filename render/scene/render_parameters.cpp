@@ -1,4 +1,4 @@
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 
 #include <cmath>
 #include <numbers>
@@ -40,12 +40,12 @@ CarriedLight probe() {
   const real3 toGlass = f32::mirrorDirection(toMetal, metalNormal, metalNormal.z);
   const real3 side = glm::normalize(real3(0, 0, 1) + glm::cross(toGlass, real3(0, 0, 1)));
   const real3 glassNormal = glm::normalize(side * 1.5f - toGlass);
-  const auto glass = M::dielectricFactors(-glm::dot(toGlass, glassNormal), 1.0f, 1.5f);
-  const auto metal = M::conductorFactors(metalNormal.z, 1.0f, real3(0.2f), real3(3.0f));
+  const auto glass = M::dielectricTerms(-glm::dot(toGlass, glassNormal), 1.0f, 1.5f);
+  const auto metal = M::conductorTerms(metalNormal.z, 1.0f, real3(0.2f), real3(3.0f));
   const real3 glassS = M::surfaceS(toGlass, glassNormal), metalS = M::surfaceS(toMetal, metalNormal);
-  const auto fromGlass = M::payloadSend(M::lightReflect(glass, M::lightUnpolarized(real3(1))), toGlass, glassS);
+  const auto fromGlass = M::payloadFromSurface(M::lightReflect(glass, M::lightUnpolarized(real3(1))), toGlass, glassS);
   const auto fromMetal =
-      M::payloadSend(M::lightReflect(metal, M::lightReceive(fromGlass, toGlass, metalS)), toMetal, metalS);
+      M::payloadFromSurface(M::lightReflect(metal, M::lightAtSurface(fromGlass, toGlass, metalS)), toMetal, metalS);
   const f32::Stokes seen = M::payloadStokes(fromMetal, toMetal);
   const auto some = [&](const real3& v) { return std::abs(v.x) > 1e-2f * seen.s0.x; };
   return {some(seen.s1) || some(seen.s2), some(seen.s3)};
@@ -63,7 +63,8 @@ Analyser circularAnalyser(Handedness handedness) { return {0.5, 0, 0, handedness
 Analyser behindWavePlate(const Analyser& analyser, const WavePlate& plate) {
   const Turn axis = turnOf(2 * std::fmod(plate.axisDegrees, 180.0)), delay = turnOf(plate.retardanceDegrees);
   const auto [w, q, u, v] = analyser;
-  // Row times R(-a): its components along and across the plate's axes; times G: the delay; times R(a): back.
+  // ImportanceVector times R(-a): its components along and across the plate's axes; times G: the delay; times R(a):
+  // back.
   const double along = q * axis.cos + u * axis.sin, across = u * axis.cos - q * axis.sin;
   const double delayed = across * delay.cos - v * delay.sin, circular = across * delay.sin + v * delay.cos;
   return {w, along * axis.cos - delayed * axis.sin, along * axis.sin + delayed * axis.cos, circular};
@@ -74,17 +75,17 @@ CarriedLight carriedBy(std::string_view method) {
   if (method == f32::M::kName) return probe<f32::M>();
   MALUS_FOR_EACH_METHOD(MALUS_PROBE)
 #undef MALUS_PROBE
-  if (method == "schlick-loop" || method == "fresnel-loop") return {false, false};
+  if (method == "schlick-iterative" || method == "fresnel-iterative") return {false, false};
   return {};
 }
 
-View viewOf(const pack::Scene& scene) {
-  View view;
-  view.width = scene.width;
-  view.height = scene.height;
-  view.region = {0, 0, scene.width, scene.height};
-  view.depth = scene.depth;
-  return view;
+RenderParameters defaultParameters(const pack::Scene& scene) {
+  RenderParameters parameters;
+  parameters.width = scene.width;
+  parameters.height = scene.height;
+  parameters.region = {0, 0, scene.width, scene.height};
+  parameters.depth = scene.depth;
+  return parameters;
 }
 
 }  // namespace malus::render

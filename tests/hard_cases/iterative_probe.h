@@ -1,7 +1,7 @@
 // A loop of perfect mirrors. Inputs too large to pass by value: GIVEN_PARAMETER and GIVEN are the index into the
 // buffer in GLSL, a reference in C++.
 
-FN LoopOut loopProbe(GIVEN_PARAMETER(LoopIn)) {
+FN IterativeOut iterativeProbe(GIVEN_PARAMETER(IterativeIn)) {
   real3 d = GIVEN.d;
   Stokes light = stokesUnpolarized(splat3(R(1.0)));
   light.s1 = splat3(GIVEN.light.x);
@@ -18,15 +18,15 @@ FN LoopOut loopProbe(GIVEN_PARAMETER(LoopIn)) {
     // The rays of malus run against the light; perpendicular to both is the same s.
     real3 s = sDirection(d, n);
     canonicalFrame(d, x, y);
-    turnTo(s, x, y, cos2, sin2);
-    light = stokesTurn(light, cos2, sin2);
+    frameRotation(s, x, y, cos2, sin2);
+    light = rotateStokes(light, cos2, sin2);
     light = stokesInterface(light, splat3(R(1.0)), splat3(R(1.0)), splat3(R(-1.0)), splat3(R(0.0)));
     d = mirrorDirection(d, n, clampUnit(R(0.0) - dot3(d, n)));
     canonicalFrame(d, x, y);
-    turnTo(s, x, y, cos2, sin2);
-    light = stokesTurn(light, cos2, R(0.0) - sin2);
+    frameRotation(s, x, y, cos2, sin2);
+    light = rotateStokes(light, cos2, R(0.0) - sin2);
   }
-  LoopOut r;
+  IterativeOut r;
   r.s0 = light.s0.x;
   r.s1 = light.s1.x;
   r.s2 = light.s2.x;

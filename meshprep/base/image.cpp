@@ -1,12 +1,12 @@
-#include "bake/image/image.h"
+#include "meshprep/base/image.h"
 
 #include <dlfcn.h>
 
 #include <span>
 
-#include "bake/image/module.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/image_module.h"
 
 namespace malus::image {
 namespace fs = std::filesystem;

@@ -1,15 +1,15 @@
 // What methods with Stokes vectors, and importance rows, need of an interface, per colour. Transmission follows from
 // reflection: T_s, T_p = 1 - R_s, 1 - R_p and, on S2 and S3, the root of their product.
 
-struct Factors {
+struct FresnelTerms {
   real3 rs;
   real3 rp;
   real3 xRe;
   real3 xIm;
 };
 
-FN Factors exactFactors(Reflectance red, Reflectance green, Reflectance blue) {
-  Factors f;
+FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflectance blue) {
+  FresnelTerms f;
   f.rs = make3(red.rs, green.rs, blue.rs);
   f.rp = make3(red.rp, green.rp, blue.rp);
   f.xRe = make3(red.xRe, green.xRe, blue.xRe);
@@ -17,6 +17,6 @@ FN Factors exactFactors(Reflectance red, Reflectance green, Reflectance blue) {
   return f;
 }
 
-#include "shaders/methods/exact_factors.h"
+#include "shaders/methods/exact_terms.h"
 
-FN real3 meanTransmittance(Factors f) { return splat3(R(1.0)) - (f.rs + f.rp) * R(0.5); }
+FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - (f.rs + f.rp) * R(0.5); }

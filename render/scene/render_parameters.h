@@ -45,7 +45,7 @@ struct CarriedLight {
 };
 CarriedLight carriedBy(std::string_view method);
 
-struct View {
+struct RenderParameters {
   std::uint32_t width = 0;  // of the whole picture
   std::uint32_t height = 0;
   Region region;
@@ -60,6 +60,6 @@ struct View {
 };
 
 // The pack's own view.
-View viewOf(const pack::Scene& scene);
+RenderParameters defaultParameters(const pack::Scene& scene);
 
 }  // namespace malus::render

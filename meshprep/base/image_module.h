@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/image/image.h"
+#include "meshprep/base/image.h"
 
 namespace malus::image {
 

@@ -1,4 +1,4 @@
-#include "bake/effects/mutual_sight.h"
+#include "bake/effects/mutual_visibility.h"
 
 #include <algorithm>
 #include <array>
@@ -52,7 +52,7 @@ double flatness(const pack::Scene& scene) {
   return 2e-6 * std::max({0.0, extent.x, extent.y, extent.z}) + 2.5e-7 * std::max({0.0, far.x, far.y, far.z});
 }
 
-bool interfacesSeeEachOther(const pack::Scene& scene) {
+bool interfacesMutuallyVisible(const pack::Scene& scene) {
   // Step 1: the faces and corners of interfaces.
   std::vector<glm::dvec3> corners;
   struct Face {

@@ -15,13 +15,13 @@ using namespace malus::gpu;
 template <bool kCheckNumerics>
 struct Tracer : MALUS_METHOD, embree::SceneAccess {
   using SceneAccess::SceneAccess;
-  static constexpr int kStackSize = pack::kMaxDepth + (MALUS_EFFECT_ROUGHNESS ? static_cast<int>(kFacets) : 0);
+  static constexpr int kPathStackSize = pack::kMaxDepth + (MALUS_EFFECT_ROUGHNESS ? static_cast<int>(kFacets) : 0);
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #include "shaders/surfaces/common.h"
 
-#include "shaders/loops/eye_path.h"
+#include "shaders/iterative/camera_path.h"
 #pragma GCC diagnostic pop
 
 #include "render/embree/find_hit.h"
@@ -31,12 +31,12 @@ template <bool kCheckNumerics>
 embree::TileOutput renderTile(const embree::TileInput& tile) {
   if (tile.stokes)
     return embree::renderPixels<Tracer<kCheckNumerics>>(tile, 15, [](auto& tracer, float* out) {
-      const Stokes s = tracer.eyePathStokes(tracer.pixelX, tracer.pixelY);
+      const Stokes s = tracer.cameraPathStokes(tracer.pixelX, tracer.pixelY);
       const real3 values[5] = {tracer.cameraColour(s), s.s0, s.s1, s.s2, s.s3};
       for (std::size_t i = 0; i < 15; ++i) out[i] = values[i / 3][static_cast<int>(i % 3)];
     });
   return embree::renderPixels<Tracer<kCheckNumerics>>(tile, 3, [](auto& tracer, float* out) {
-    const real3 colour = tracer.eyePathColour(tracer.pixelX, tracer.pixelY);
+    const real3 colour = tracer.cameraPathColour(tracer.pixelX, tracer.pixelY);
     for (int i = 0; i < 3; ++i) out[i] = colour[i];
   });
 }

@@ -1,4 +1,4 @@
-#include "render/scene/float_scene.h"
+#include "render/scene/render_scene.h"
 
 #include <cmath>
 #include <numbers>
@@ -25,12 +25,12 @@ gpu::SurfaceKind surfaceKind(pack::MaterialKind kind) {
       return gpu::kEmitter;
     case pack::MaterialKind::polarizer:
     case pack::MaterialKind::wavePlate:
-      return gpu::kSheet;
+      return gpu::kPolarizingElement;
   }
   return gpu::kLambert;
 }
 
-glm::dvec3 filmTurns(const pack::Coating& coating) { return 2 * coating.thicknessNm / pack::kWavelengthsNm; }
+glm::dvec3 roundTripPhase(const pack::Coating& coating) { return 2 * coating.thicknessNm / pack::kWavelengthsNm; }
 
 namespace {
 
@@ -38,7 +38,7 @@ f64::Reflectance reflectanceOf(const pack::Material& m, double c, int colour) {
   const bool metal = m.kind == pack::MaterialKind::metal;
   const double n3 = metal ? m.eta[colour] : m.eta.y, k3 = metal ? m.k[colour] : 0;
   if (m.coating.thicknessNm > 0)
-    return f64::filmOf(c, m.outsideEta, m.coating.eta[colour], filmTurns(m.coating)[colour], n3, k3).reflected;
+    return f64::thinFilm(c, m.outsideEta, m.coating.eta[colour], roundTripPhase(m.coating)[colour], n3, k3).reflected;
   return metal ? f64::conductorReflectance(c, m.outsideEta, n3, k3) : f64::dielectricReflectance(c, m.outsideEta, n3);
 }
 
@@ -48,14 +48,14 @@ gpu::MaterialExtra extraOf(const pack::Material& m) {
   e.outsideAbsorption = glm::vec3(m.outsideAbsorption);
   e.axis = glm::vec3(m.axis);
   e.degree = static_cast<float>(m.polarization);
-  e.along = glm::vec3(m.along);
-  e.across = glm::vec3(m.across);
+  e.transmittanceParallel = glm::vec3(m.transmittanceParallel);
+  e.transmittanceCrossed = glm::vec3(m.transmittanceCrossed);
   const glm::dvec3 retardance = m.retardanceDegrees * (std::numbers::pi / 180);
   e.retardanceCos = glm::vec3(glm::cos(retardance));
   e.retardanceSin = glm::vec3(glm::sin(retardance));
   if (m.coating.thicknessNm > 0) {
     e.filmEta = glm::vec3(m.coating.eta);
-    e.filmTurns = glm::vec3(filmTurns(m.coating));
+    e.roundTripPhase = glm::vec3(roundTripPhase(m.coating));
   }
   e.roughness = static_cast<float>(m.roughness);
   const auto map = [](std::int32_t index) { return index < 0 ? gpu::kNoTexture : static_cast<gpu::uint>(index); };
@@ -85,8 +85,8 @@ glm::dvec3 hemisphereTransmittance(const pack::Material& m) {
   return sum;
 }
 
-FloatScene floatScene(const pack::Scene& scene) {
-  FloatScene result;
+RenderScene makeRenderScene(const pack::Scene& scene) {
+  RenderScene result;
   for (const pack::Material& m : scene.materials) {
     gpu::Material g{};
     const double basic = 1 / (m.outsideEta * m.outsideEta);
@@ -94,7 +94,7 @@ FloatScene floatScene(const pack::Scene& scene) {
     g.k = glm::vec3(m.k);
     g.albedo = glm::vec3(m.albedo);
     g.radiance = glm::vec3(m.radiance * basic);
-    g.fillTransmittance = glm::vec3(hemisphereTransmittance(m));
+    g.hemisphereTransmittance = glm::vec3(hemisphereTransmittance(m));
     g.outsideEta = static_cast<float>(m.outsideEta);
     g.basicScale = static_cast<float>(basic);
     g.highlightStrength = static_cast<float>(m.highlightStrength);
@@ -136,34 +136,34 @@ glm::dvec2 facetPoint(std::size_t i) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-gpu::Frame frameOf(const pack::Scene& scene, const View& view) {
-  gpu::Frame f{};
+gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const RenderParameters& parameters) {
+  gpu::CameraParameters f{};
   const pack::Camera& camera = scene.camera;
   const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi);
-  f.eye = glm::vec3(camera.position);
+  f.position = glm::vec3(camera.position);
   f.right = glm::vec3(camera.right);
   f.up = glm::vec3(camera.up);
   f.forward = glm::vec3(camera.forward);
-  f.tanX = static_cast<float>(tanY * view.width / view.height);
+  f.tanX = static_cast<float>(tanY * parameters.width / parameters.height);
   f.tanY = static_cast<float>(tanY);
   f.basicToRadiance = static_cast<float>(camera.mediumEta * camera.mediumEta);
-  for (int i = 0; i < 4; ++i) f.analyser[i] = static_cast<float>(view.analyser[static_cast<std::size_t>(i)]);
-  f.width = view.width;
-  f.height = view.height;
-  f.regionX = view.region.x;
-  f.regionY = view.region.y;
-  f.regionWidth = view.region.width;
-  f.regionHeight = view.region.height;
-  f.samples = view.samples;
-  f.depth = static_cast<int>(view.depth);
+  for (int i = 0; i < 4; ++i) f.analyser[i] = static_cast<float>(parameters.analyser[static_cast<std::size_t>(i)]);
+  f.width = parameters.width;
+  f.height = parameters.height;
+  f.regionX = parameters.region.x;
+  f.regionY = parameters.region.y;
+  f.regionWidth = parameters.region.width;
+  f.regionHeight = parameters.region.height;
+  f.samples = parameters.samples;
+  f.depth = static_cast<int>(parameters.depth);
   f.lightCount = static_cast<int>(scene.lights.size());
   f.environmentSize = static_cast<int>(scene.environment.size);
   f.environment = glm::vec3(scene.environment.radiance);
-  f.fill = static_cast<float>(scene.environment.diffuseFill);
-  f.shadows = view.shadows ? 1 : 0;
+  f.ambientIrradiance = static_cast<float>(scene.environment.ambientIrradiance);
+  f.shadows = parameters.shadows ? 1 : 0;
   f.sun = glm::vec3(scene.environment.sun);
   f.skyDegree = static_cast<float>(scene.environment.skyDegree);
-  f.tolerance = static_cast<float>(view.tolerance);
+  f.tolerance = static_cast<float>(parameters.tolerance);
   for (std::size_t i = 0; i < gpu::kFacets; ++i) f.facets[i] = glm::vec2(facetPoint(i));
   for (int i = 0; i < 9; ++i) f.irradiance[i] = glm::vec3(scene.environment.irradiance[static_cast<std::size_t>(i)]);
   return f;

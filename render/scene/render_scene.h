@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "bake/pack/scene.h"
-#include "render/scene/view.h"
+#include "render/scene/render_parameters.h"
 #include "shaders/gpu/scene.h"
 
 namespace malus::render {
 
-struct FloatScene {
+struct RenderScene {
   std::vector<gpu::Material> materials;
   std::vector<gpu::PointLight> lights;
   std::vector<gpu::Mesh> meshes;
@@ -25,15 +25,15 @@ struct FloatScene {
   std::vector<glm::vec3> environmentTexels;  // with their border; one texel where there is no map
 };
 
-FloatScene floatScene(const pack::Scene& scene);
-gpu::Frame frameOf(const pack::Scene& scene, const View& view);
+RenderScene makeRenderScene(const pack::Scene& scene);
+gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const RenderParameters& parameters);
 
 // Mean transmittance of a dielectric interface, or 1 - R of a metal, for light from all directions of a
 // hemisphere (cosine weighted), per colour.
 glm::dvec3 hemisphereTransmittance(const pack::Material& material);
 
 // Twice the thickness over the wavelength of each colour (shaders/optics/film.h).
-glm::dvec3 filmTurns(const pack::Coating& coating);
+glm::dvec3 roundTripPhase(const pack::Coating& coating);
 
 // Point i of the unit disk that chooses facet i of a rough surface (shaders/optics/facets.h).
 glm::dvec2 facetPoint(std::size_t i);

@@ -10,6 +10,7 @@
 #include "meshprep/base/error.h"
 
 namespace malus::prep {
+using gltf::ComponentType;
 
 namespace {
 
@@ -20,54 +21,53 @@ Number numberAt(const std::byte* bytes) {
   return value;
 }
 
-// Bytes of a component; 0: a type that glTF does not have.
-std::size_t sizeOfComponent(int type) {
+// Bytes of a component.
+std::size_t sizeOfComponent(ComponentType type) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case ComponentType::int8:
+    case ComponentType::uint8:
       return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case ComponentType::int16:
+    case ComponentType::uint16:
       return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+    case ComponentType::uint32:
+    case ComponentType::float32:
       return 4;
-    default:
-      return 0;
   }
+  return 0;
 }
 
 // A component as a number. Normalized ones by section 3.6.2.2: -1 to 1 or 0 to 1.
-double component(const std::byte* bytes, int type, bool normalized) {
+double component(const std::byte* bytes, ComponentType type, bool normalized) {
   const auto whole = [normalized](auto value) {
     if (!normalized) return static_cast<double>(value);
     return std::max(static_cast<double>(value) / std::numeric_limits<decltype(value)>::max(), -1.0);
   };
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case ComponentType::int8:
       return whole(numberAt<std::int8_t>(bytes));
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case ComponentType::uint8:
       return whole(numberAt<std::uint8_t>(bytes));
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case ComponentType::int16:
       return whole(numberAt<std::int16_t>(bytes));
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case ComponentType::uint16:
       return whole(numberAt<std::uint16_t>(bytes));
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case ComponentType::uint32:
       return numberAt<std::uint32_t>(bytes);
-    default:
-      return static_cast<double>(numberAt<float>(bytes));
+    case ComponentType::float32:
+      break;
   }
+  return static_cast<double>(numberAt<float>(bytes));
 }
 
-std::uint32_t unsignedAt(const std::byte* bytes, int type) {
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return numberAt<std::uint8_t>(bytes);
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return numberAt<std::uint16_t>(bytes);
+std::uint32_t unsignedAt(const std::byte* bytes, ComponentType type) {
+  if (type == ComponentType::uint8) return numberAt<std::uint8_t>(bytes);
+  if (type == ComponentType::uint16) return numberAt<std::uint16_t>(bytes);
   return numberAt<std::uint32_t>(bytes);
 }
 
-bool isUnsigned(int type) {
-  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+bool isUnsigned(ComponentType type) {
+  return type == ComponentType::uint8 || type == ComponentType::uint16 || type == ComponentType::uint32;
 }
 
 // `count` elements from `offset` on, `stride` apart, must lie within the view.
@@ -83,44 +83,40 @@ std::span<const std::byte> elementsOf(std::span<const std::byte> view, std::size
 
 }  // namespace
 
-std::span<const std::byte> gltfViewBytes(const tinygltf::Model& model, GltfBuffers& buffers, std::size_t index,
+std::span<const std::byte> gltfViewBytes(const gltf::Document& document, GltfBuffers& buffers, std::size_t index,
                                          const std::string& where) {
   const std::string place = fmt::format("{}: bufferViews[{}]", where, index);
-  if (index >= model.bufferViews.size())
-    throw Error(place, "is not there", fmt::format("one of {} buffer views", model.bufferViews.size()));
-  const tinygltf::BufferView& view = model.bufferViews[index];
-  const std::span<const std::byte> buffer = buffers.bytes(static_cast<std::size_t>(view.buffer));
+  if (index >= document.bufferViews.size())
+    throw Error(place, "is not there", fmt::format("one of {} buffer views", document.bufferViews.size()));
+  const gltf::BufferView& view = document.bufferViews[index];
+  const std::span<const std::byte> buffer = buffers.bytes(view.buffer);
   if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
     throw Error(place, "ends behind its buffer", fmt::format("at most {} bytes", buffer.size()),
                 fmt::format("{} from byte {} on", view.byteLength, view.byteOffset));
   return buffer.subspan(view.byteOffset, view.byteLength);
 }
 
-GltfAccessor::GltfAccessor(const tinygltf::Model& model, GltfBuffers& buffers, std::size_t index,
+GltfAccessor::GltfAccessor(const gltf::Document& document, GltfBuffers& buffers, std::size_t index,
                            const std::string& where)
     : place_(fmt::format("{}: accessors[{}]", where, index)) {
-  if (index >= model.accessors.size())
-    throw Error(place_, "is not there", fmt::format("one of {} accessors", model.accessors.size()));
-  const tinygltf::Accessor& accessor = model.accessors[index];
+  if (index >= document.accessors.size())
+    throw Error(place_, "is not there", fmt::format("one of {} accessors", document.accessors.size()));
+  const gltf::Accessor& accessor = document.accessors[index];
 
   // Step 1: how large an element is.
-  const std::size_t componentBytes = sizeOfComponent(accessor.componentType);
-  if (componentBytes == 0)
-    throw Error(place_, "is of an unknown component type", "5120 to 5123, 5125 or 5126",
-                fmt::to_string(accessor.componentType));
   if (accessor.count == 0) throw Error(place_, "has no elements", "1 or more", "0");
-  components_ = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+  components_ = accessor.components;
   componentType_ = accessor.componentType;
   normalized_ = accessor.normalized;
   count_ = accessor.count;
-  elementBytes_ = componentBytes * static_cast<std::size_t>(components_);
+  elementBytes_ = sizeOfComponent(componentType_) * components_;
 
   // Step 2: the dense elements.
   stride_ = elementBytes_;
-  if (accessor.bufferView >= 0) {
-    const auto view = static_cast<std::size_t>(accessor.bufferView);
-    const std::span<const std::byte> bytes = gltfViewBytes(model, buffers, view, where);
-    if (const std::size_t stride = model.bufferViews[view].byteStride; stride != 0) {
+  if (accessor.bufferView) {
+    const std::size_t view = *accessor.bufferView;
+    const std::span<const std::byte> bytes = gltfViewBytes(document, buffers, view, where);
+    if (const std::size_t stride = document.bufferViews[view].byteStride; stride != 0) {
       if (stride < elementBytes_)
         throw Error(place_, "has elements that overlap", fmt::format("a stride of {} bytes or more", elementBytes_),
                     fmt::to_string(stride));
@@ -130,25 +126,24 @@ GltfAccessor::GltfAccessor(const tinygltf::Model& model, GltfBuffers& buffers, s
   }
 
   // Step 3: what a sparse accessor puts in their place.
-  if (!accessor.sparse.isSparse) return;
-  const auto& sparse = accessor.sparse;
-  const auto sparseCount = static_cast<std::size_t>(sparse.count);
-  if (!isUnsigned(sparse.indices.componentType))
+  if (!accessor.sparse) return;
+  const gltf::SparseElements& sparse = *accessor.sparse;
+  if (!isUnsigned(sparse.indicesType))
     throw Error(place_, "has sparse indices of an unknown type", "5121, 5123 or 5125",
-                fmt::to_string(sparse.indices.componentType));
-  if (sparseCount == 0 || sparseCount > count_)
+                fmt::to_string(static_cast<std::uint32_t>(sparse.indicesType)));
+  if (sparse.count == 0 || sparse.count > count_)
     throw Error(place_, "replaces more elements than it has, or none", fmt::format("1 to {}", count_),
-                fmt::to_string(sparseCount));
-  const std::size_t indexBytes = sizeOfComponent(sparse.indices.componentType);
-  const auto viewOf = [&](int view) { return gltfViewBytes(model, buffers, static_cast<std::size_t>(view), where); };
+                fmt::to_string(sparse.count));
+  const std::size_t indexBytes = sizeOfComponent(sparse.indicesType);
+  const auto viewBytes = [&](std::size_t view) { return gltfViewBytes(document, buffers, view, where); };
   const std::span<const std::byte> indices =
-      elementsOf(viewOf(sparse.indices.bufferView), static_cast<std::size_t>(sparse.indices.byteOffset), sparseCount,
-                 indexBytes, indexBytes, place_ + ".sparse.indices");
-  sparseData_ = elementsOf(viewOf(sparse.values.bufferView), static_cast<std::size_t>(sparse.values.byteOffset),
-                           sparseCount, elementBytes_, elementBytes_, place_ + ".sparse.values");
-  sparseIndices_.reserve(sparseCount);
-  for (std::size_t i = 0; i < sparseCount; ++i) {
-    const std::uint32_t value = unsignedAt(indices.data() + i * indexBytes, sparse.indices.componentType);
+      elementsOf(viewBytes(sparse.indicesView), sparse.indicesByteOffset, sparse.count, indexBytes, indexBytes,
+                 place_ + ".sparse.indices");
+  sparseData_ = elementsOf(viewBytes(sparse.valuesView), sparse.valuesByteOffset, sparse.count, elementBytes_,
+                           elementBytes_, place_ + ".sparse.values");
+  sparseIndices_.reserve(sparse.count);
+  for (std::size_t i = 0; i < sparse.count; ++i) {
+    const std::uint32_t value = unsignedAt(indices.data() + i * indexBytes, sparse.indicesType);
     if (value >= count_ || (i > 0 && value <= sparseIndices_.back()))
       throw Error(place_ + ".sparse.indices", fmt::format("index {} is out of order or range", i),
                   fmt::format("ascending, below {}", count_), fmt::to_string(value));
@@ -157,10 +152,10 @@ GltfAccessor::GltfAccessor(const tinygltf::Model& model, GltfBuffers& buffers, s
 }
 
 void GltfAccessor::requireVectors(bool quantized) const {
-  const bool isFloat = componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT;
+  const bool isFloat = componentType_ == ComponentType::float32;
   if (components_ != 3 || (!isFloat && !(quantized && sizeOfComponent(componentType_) <= 2)))
     throw Error(place_, "is of the wrong type", quantized ? "VEC3 of floats, shorts or bytes" : "VEC3 of floats (5126)",
-                fmt::format("{} components of type {}", components_, componentType_));
+                fmt::format("{} components of type {}", components_, static_cast<std::uint32_t>(componentType_)));
   if (!isFloat) return;
   for (std::size_t i = 0; i < count_; ++i) {
     const glm::dvec3 v = vector(i);
@@ -173,7 +168,7 @@ void GltfAccessor::requireVectors(bool quantized) const {
 void GltfAccessor::requireIndices() const {
   if (components_ != 1 || normalized_ || !isUnsigned(componentType_))
     throw Error(place_, "is of the wrong type for indices", "SCALAR of 5121, 5123 or 5125",
-                fmt::format("{} components of type {}", components_, componentType_));
+                fmt::format("{} components of type {}", components_, static_cast<std::uint32_t>(componentType_)));
 }
 
 const std::byte* GltfAccessor::element(std::size_t i) const {

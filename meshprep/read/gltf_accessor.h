@@ -12,15 +12,15 @@
 #include <glm/vec3.hpp>
 
 #include "meshprep/read/gltf_buffers.h"
-#include "meshprep/read/gltf_library.h"
+#include "meshprep/read/gltf_document.h"
 
 namespace malus::prep {
 
 class GltfAccessor {
  public:
   // Checks that every element lies within its bytes, and that what a sparse accessor replaces is there. `where` is
-  // the file. Throws Error: no such accessor, view or buffer, an unknown type, a bad stride, bytes that are missing.
-  GltfAccessor(const tinygltf::Model& model, GltfBuffers& buffers, std::size_t index, const std::string& where);
+  // the file. Throws Error: no such accessor, view or buffer, elements that overlap, bytes that are missing.
+  GltfAccessor(const gltf::Document& document, GltfBuffers& buffers, std::size_t index, const std::string& where);
 
   std::size_t count() const { return count_; }
   const std::string& place() const { return place_; }  // for messages
@@ -41,8 +41,8 @@ class GltfAccessor {
 
   std::string place_;
   std::size_t count_ = 0;
-  int componentType_ = 0;
-  int components_ = 0;
+  gltf::ComponentType componentType_{};
+  std::size_t components_ = 0;
   bool normalized_ = false;
   std::size_t elementBytes_ = 0;
   std::size_t stride_ = 0;
@@ -52,7 +52,7 @@ class GltfAccessor {
 };
 
 // The bytes of a buffer view. Throws Error: no such view or buffer, bytes that are missing.
-std::span<const std::byte> gltfViewBytes(const tinygltf::Model& model, GltfBuffers& buffers, std::size_t view,
+std::span<const std::byte> gltfViewBytes(const gltf::Document& document, GltfBuffers& buffers, std::size_t view,
                                          const std::string& where);
 
 }  // namespace malus::prep

@@ -121,23 +121,18 @@ GltfContainer::GltfContainer(const std::filesystem::path& path) : bytes_(readFil
   }
 }
 
-GltfBuffers::GltfBuffers(const nlohmann::json& document, const GltfContainer& container, std::filesystem::path file)
-    : container_(container), file_(std::move(file)) {
-  const auto list = document.find("buffers");
-  if (list == document.end()) return;
-  for (const nlohmann::json& buffer : *list)
-    buffers_.push_back({buffer.value("uri", ""), buffer.at("byteLength").get<std::uint64_t>(), nullptr});
-}
+GltfBuffers::GltfBuffers(std::vector<gltf::Buffer> buffers, const GltfContainer& container, std::filesystem::path file)
+    : container_(container), file_(std::move(file)), buffers_(std::move(buffers)), loaded_(buffers_.size()) {}
 
 std::span<const std::byte> GltfBuffers::bytes(std::size_t index) {
   const std::string place = fmt::format("{}: buffers[{}]", file_.string(), index);
   if (index >= buffers_.size()) throw Error(place, "is not there", fmt::format("one of {} buffers", buffers_.size()));
-  Buffer& buffer = buffers_[index];
+  const gltf::Buffer& buffer = buffers_[index];
 
   std::span<const std::byte> data;
   if (!buffer.uri.empty()) {
-    if (buffer.data == nullptr) buffer.data = load(buffer.uri, place + ".uri");
-    data = *buffer.data;
+    if (loaded_[index] == nullptr) loaded_[index] = load(buffer.uri, place + ".uri");
+    data = *loaded_[index];
   } else if (index == 0 && container_.hasChunk()) {
     data = container_.chunk();
   } else {
@@ -145,7 +140,7 @@ std::span<const std::byte> GltfBuffers::bytes(std::size_t index) {
   }
   if (data.size() < buffer.byteLength)
     throw Error(place, "has fewer bytes than it says", fmt::to_string(buffer.byteLength), fmt::to_string(data.size()));
-  return data.first(static_cast<std::size_t>(buffer.byteLength));
+  return data.first(buffer.byteLength);
 }
 
 std::shared_ptr<const std::vector<std::byte>> GltfBuffers::load(const std::string& uri, const std::string& place) {

@@ -1,6 +1,6 @@
-// The bytes of a glTF file: the chunks of a GLB, and the buffers, which are the GLB's own, base64 in a data URI, or a
-// file beside or below the glTF file. Nothing else is ever opened. A buffer is read when it is first asked for, so
-// that those of pictures stay where they are.
+// Bytes of a glTF file: the chunks of a GLB, and the buffers, which are the GLB's chunk, base64 in a data URI, or a
+// file in the folder of the glTF file or below it. No other file is opened. A buffer is read when it is first needed,
+// so that buffers of images alone are never read.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include "meshprep/read/gltf_document.h"
 
 namespace malus::prep {
 
-// A file told by its first bytes: GLB, or JSON.
+// The file, recognized by its first bytes: GLB, or JSON.
 class GltfContainer {
  public:
-  // Throws Error: unreadable, a GLB of another version, chunks that do not fill it.
+  // Throws Error: unreadable, a GLB of another version, chunks that do not fill the file.
   explicit GltfContainer(const std::filesystem::path& path);
 
   std::string_view json() const { return json_; }
@@ -37,35 +37,30 @@ class GltfContainer {
 
 class GltfBuffers {
  public:
-  // buffers: the document's list, checked (gltf_json.h). The container must stay.
-  GltfBuffers(const nlohmann::json& document, const GltfContainer& container, std::filesystem::path file);
+  // `buffers` as in the document; `container` must outlive this object.
+  GltfBuffers(std::vector<gltf::Buffer> buffers, const GltfContainer& container, std::filesystem::path file);
 
   std::size_t count() const { return buffers_.size(); }
 
-  // As many bytes as the buffer says that it has. Throws Error: no such buffer, a URI that is not read here, bad
+  // The first `byteLength` bytes of the buffer. Throws Error: no such buffer, a URI that is not allowed, invalid
   // base64, fewer bytes.
   std::span<const std::byte> bytes(std::size_t buffer);
 
-  std::size_t bytesRead() const { return bytesRead_; }  // of buffers outside of the container
+  std::size_t bytesRead() const { return bytesRead_; }  // of buffers outside the container
 
  private:
-  struct Buffer {
-    std::string uri;  // empty: the container's chunk
-    std::uint64_t byteLength = 0;
-    std::shared_ptr<const std::vector<std::byte>> data;
-  };
-
   std::shared_ptr<const std::vector<std::byte>> load(const std::string& uri, const std::string& place);
 
   const GltfContainer& container_;
   std::filesystem::path file_;
-  std::vector<Buffer> buffers_;
+  std::vector<gltf::Buffer> buffers_;
+  std::vector<std::shared_ptr<const std::vector<std::byte>>> loaded_;  // one per buffer; null until it is needed
   std::map<std::filesystem::path, std::shared_ptr<const std::vector<std::byte>>> files_;
   std::size_t bytesRead_ = 0;
 };
 
-// The file that a buffer's URI names, percent-decoded, in the folder of `file` or below. `place` is for messages.
-// Throws Error: another scheme than none, an absolute path, a way out of the folder.
+// Path of the file that a buffer's URI names, percent-decoded, in the folder of `file` or below it. `place` is for
+// messages. Throws Error: a URI with a scheme, an absolute path, a path that leaves the folder.
 std::filesystem::path gltfFileOf(const std::filesystem::path& file, std::string_view uri, const std::string& place);
 
 inline bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }

@@ -23,7 +23,7 @@ namespace {
 constexpr int kMaxNesting = 64;
 constexpr std::size_t kMinObjects = 200'000;  // are always allowed
 constexpr std::size_t kBytesPerObject = 50;
-constexpr std::int64_t kMaxIndex = 0x7fffffff;            // tinygltf keeps them in int
+constexpr std::int64_t kMaxIndex = 0x7fffffff;
 constexpr std::int64_t kMaxSize = std::int64_t{1} << 53;  // what every JSON reader holds
 
 // Extensions that are read, and those that touch nothing but textures, which are left out anyway.
@@ -155,14 +155,13 @@ class Builder : public json::json_sax_t {
   bool isDropped_ = false;  // the value of the last key is to be dropped
 };
 
-// Whether every kept value is what its rule says. Whole numbers that stand for real ones become real, because tinygltf
-// takes them through int in places.
+// Checks that every kept value has the type of its rule.
 class TypeCheck {
  public:
   explicit TypeCheck(const std::string& where) : where_(where) {}
 
   // path: of rules; place: for messages.
-  void object(json& value, const std::string& path, const std::string& place) const {
+  void object(const json& value, const std::string& path, const std::string& place) const {
     for (const std::string_view key : requiredKeys(path))
       if (!value.contains(key)) throw Error(fmt::format("{}: {}", where_, joined(place, key)), "is missing", "it");
     for (auto item = value.begin(); item != value.end(); ++item)
@@ -185,7 +184,7 @@ class TypeCheck {
       fail(place, fmt::format("a whole number of 0 to {}", most), value);
   }
 
-  void check(json& value, const std::string& path, const std::string& place) const {
+  void check(const json& value, const std::string& path, const std::string& place) const {
     const Rule& rule = *findRule(path);  // nothing else is kept
     switch (rule.type) {
       case Type::object:
@@ -212,14 +211,11 @@ class TypeCheck {
         break;
       case Type::number:
         if (!value.is_number()) fail(place, "a number", value);
-        value = value.get<double>();
         break;
       case Type::numbers:
         if (!value.is_array() || value.size() != rule.size) fail(place, fmt::format("{} numbers", rule.size), value);
-        for (json& item : value) {
+        for (const json& item : value)
           if (!item.is_number()) fail(place, fmt::format("{} numbers", rule.size), item);
-          item = item.get<double>();
-        }
         break;
       case Type::text:
         if (!value.is_string()) fail(place, "a string", value);

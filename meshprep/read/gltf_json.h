@@ -1,7 +1,6 @@
-// The JSON of a glTF file, as far as anybody here needs it: a whitelist of keys, each with its type. Other keys are
-// dropped while parsing; those that change the picture leave a note. What is left is small, shallow and of the right
-// types, so that tinygltf, which passes over values of a wrong type and follows nesting to any depth, reads it as it
-// is meant.
+// Parser of the JSON of a glTF file for a whitelist of keys (gltf_rules.h), each with its type. Other keys are dropped
+// while parsing; those that would change the image leave a note. The result is small, shallow and of the right types;
+// gltf_document.h makes structures of it.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,9 @@
 #include "meshprep/read/gltf_material.h"
 
+#include <array>
+#include <cstddef>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -12,11 +15,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-class Reader {
+// Bounds of the numbers of one material.
+class BoundsCheck {
  public:
-  Reader(const tinygltf::Material& material, const std::string& place) : material_(material), place_(place) {}
+  explicit BoundsCheck(const std::string& place) : place_(place) {}
 
-  double bounded(std::string_view key, double value, double low, double high) const {
+  double operator()(std::string_view key, double value, double low, double high) const {
     if (!(value >= low && value <= high))
       throw Error(fmt::format("{}.{}", place_, key), "is out of range",
                   high == kInfinity ? fmt::format("{} or more", low) : fmt::format("{} to {}", low, high),
@@ -24,66 +28,40 @@ class Reader {
     return value;
   }
 
-  glm::dvec3 colour(std::string_view key, const std::vector<double>& values, double high) const {
-    glm::dvec3 colour{};
-    for (int i = 0; i < 3; ++i) colour[i] = bounded(key, values[static_cast<std::size_t>(i)], 0, high);
-    return colour;
-  }
-
-  // An extension of the material; nullptr where it has none.
-  const tinygltf::Value* extension(const char* name) const {
-    const auto found = material_.extensions.find(name);
-    return found == material_.extensions.end() ? nullptr : &found->second;
-  }
-
-  static double number(const tinygltf::Value& object, const char* key, double fallback) {
-    return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
+  // Red, green and blue from 0 to 1.
+  template <std::size_t n>
+  glm::dvec3 operator()(std::string_view key, const std::array<double, n>& color) const {
+    return {(*this)(key, color[0], 0, 1), (*this)(key, color[1], 0, 1), (*this)(key, color[2], 0, 1)};
   }
 
  private:
-  const tinygltf::Material& material_;
   const std::string& place_;
 };
 
 }  // namespace
 
-SourceMaterial gltfMaterial(const tinygltf::Material& material, const std::string& place,
-                            std::vector<std::string>& notes) {
-  const Reader reader(material, place);
+SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& place, std::vector<std::string>& notes) {
+  const BoundsCheck checked(place);
   SourceMaterial result;
   result.name = material.name;
 
-  // Step 1: metallic-roughness and emission. tinygltf gives the defaults.
-  const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
-  result.baseColour = reader.colour("pbrMetallicRoughness.baseColorFactor", pbr.baseColorFactor, 1);
-  result.metallic = reader.bounded("pbrMetallicRoughness.metallicFactor", pbr.metallicFactor, 0, 1);
-  result.roughness = reader.bounded("pbrMetallicRoughness.roughnessFactor", pbr.roughnessFactor, 0, 1);
-  result.emissive = reader.colour("emissiveFactor", material.emissiveFactor, 1);
-  if (!material.alphaMode.empty() && material.alphaMode != "OPAQUE") addNote(notes, "coverage by alpha");
+  // Metallic-roughness and emission.
+  result.baseColour = checked("pbrMetallicRoughness.baseColorFactor", material.baseColorFactor);
+  result.metallic = checked("pbrMetallicRoughness.metallicFactor", material.metallicFactor, 0, 1);
+  result.roughness = checked("pbrMetallicRoughness.roughnessFactor", material.roughnessFactor, 0, 1);
+  result.emissive = checked("emissiveFactor", material.emissiveFactor);
+  result.emissive *= checked("emissiveStrength", material.emissiveStrength, 0, 1e12);
+  if (material.alphaMode != "OPAQUE") addNote(notes, "coverage by alpha");
 
-  // Step 2: extensions.
-  if (const auto* strength = reader.extension("KHR_materials_emissive_strength"); strength != nullptr)
-    result.emissive *= reader.bounded("emissiveStrength", Reader::number(*strength, "emissiveStrength", 1), 0, 1e12);
-  if (const auto* ior = reader.extension("KHR_materials_ior"); ior != nullptr) {
-    const double value = Reader::number(*ior, "ior", 1.5);
-    result.ior = value == 0 ? 1.5 : reader.bounded("ior", value, 1, kInfinity);
-  }
-  if (const auto* transmission = reader.extension("KHR_materials_transmission"); transmission != nullptr)
-    result.transmission =
-        reader.bounded("transmissionFactor", Reader::number(*transmission, "transmissionFactor", 0), 0, 1);
-  if (const auto* volume = reader.extension("KHR_materials_volume"); volume != nullptr) {
-    result.hasVolume = Reader::number(*volume, "thicknessFactor", 0) > 0;
-    if (volume->Has("attenuationColor")) {
-      std::vector<double> colour(3);
-      for (int i = 0; i < 3; ++i)
-        colour[static_cast<std::size_t>(i)] = volume->Get("attenuationColor").Get(i).GetNumberAsDouble();
-      result.attenuationColour = reader.colour("attenuationColor", colour, 1);
-    }
-    result.attenuationDistance = Reader::number(*volume, "attenuationDistance", kInfinity);
-    if (!(result.attenuationDistance > 0))
-      throw Error(place + ".attenuationDistance", "is out of range", "more than 0 metres",
-                  fmt::to_string(result.attenuationDistance));
-  }
+  // Transmission and volume. KHR_materials_ior reserves 0 for older shading models.
+  result.ior = material.ior == 0 ? 1.5 : checked("ior", material.ior, 1, kInfinity);
+  result.transmission = checked("transmissionFactor", material.transmissionFactor, 0, 1);
+  result.hasVolume = material.volumeThicknessFactor > 0;
+  result.attenuationColour = checked("attenuationColor", material.attenuationColor);
+  result.attenuationDistance = material.attenuationDistance;
+  if (!(result.attenuationDistance > 0))
+    throw Error(place + ".attenuationDistance", "is out of range", "more than 0 metres",
+                fmt::to_string(result.attenuationDistance));
   if (result.transmission > 0 && !result.hasVolume) addNote(notes, "that walls without a volume are thin");
   return result;
 }

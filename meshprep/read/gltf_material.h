@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "meshprep/read/gltf_library.h"
+#include "meshprep/read/gltf_document.h"
 #include "meshprep/read/source_scene.h"
 
 namespace malus::prep {
 
 // place: "file: materials[0]". Throws Error: a number out of the bounds that glTF and its extensions give.
-SourceMaterial gltfMaterial(const tinygltf::Material& material, const std::string& place,
-                            std::vector<std::string>& notes);
+SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& place, std::vector<std::string>& notes);
 
 }  // namespace malus::prep

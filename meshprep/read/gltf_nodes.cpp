@@ -1,5 +1,6 @@
 #include "meshprep/read/gltf_nodes.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,28 +19,27 @@ std::string placeOf(const std::string& where, std::size_t node) { return fmt::fo
 
 // parent = translation * rotation * scale, or the matrix, whose columns follow each other.
 // Source: glTF 2.0 Specification, section 3.5.3, "Transformations".
-glm::dmat4 localTransform(const tinygltf::Node& node, const std::string& place) {
+glm::dmat4 localTransform(const gltf::Node& node, const std::string& place) {
   glm::dmat4 m(1.0);
-  if (!node.matrix.empty()) {
-    for (std::size_t i = 0; i < 16; ++i) m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
+  if (node.matrix) {
+    for (std::size_t i = 0; i < 16; ++i) m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = (*node.matrix)[i];
     if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
       throw Error(place + ".matrix", "is not affine", "a last row of 0, 0, 0, 1",
                   fmt::format("{}, {}, {}, {}", m[0][3], m[1][3], m[2][3], m[3][3]));
     return m;
   }
-  if (!node.rotation.empty()) {
-    const double length =
-        std::hypot(std::hypot(node.rotation[0], node.rotation[1]), std::hypot(node.rotation[2], node.rotation[3]));
+  if (node.rotation) {
+    const std::array<double, 4>& q = *node.rotation;
+    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     if (!(length > 0) || !std::isfinite(length)) throw Error(place + ".rotation", "has no length", "a quaternion");
-    const double x = node.rotation[0] / length, y = node.rotation[1] / length, z = node.rotation[2] / length,
-                 w = node.rotation[3] / length;
+    const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
     m[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0};
     m[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0};
     m[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0};
   }
-  if (!node.scale.empty())
-    for (int i = 0; i < 3; ++i) m[i] *= node.scale[static_cast<std::size_t>(i)];
-  if (!node.translation.empty()) m[3] = {node.translation[0], node.translation[1], node.translation[2], 1};
+  if (node.scale)
+    for (int i = 0; i < 3; ++i) m[i] *= (*node.scale)[static_cast<std::size_t>(i)];
+  if (node.translation) m[3] = {(*node.translation)[0], (*node.translation)[1], (*node.translation)[2], 1};
   return m;
 }
 
@@ -59,14 +59,13 @@ void requireRegular(const glm::dmat4& m, const std::string& place) {
 }
 
 // Parents of every node, 0 or 1 each.
-std::vector<bool> findParents(const tinygltf::Model& model, const std::string& where) {
-  std::vector<bool> hasParent(model.nodes.size(), false);
-  for (std::size_t i = 0; i < model.nodes.size(); ++i)
-    for (const int child : model.nodes[i].children) {
-      const auto c = static_cast<std::size_t>(child);
-      if (c >= model.nodes.size())
+std::vector<bool> findParents(const gltf::Document& document, const std::string& where) {
+  std::vector<bool> hasParent(document.nodes.size(), false);
+  for (std::size_t i = 0; i < document.nodes.size(); ++i)
+    for (const std::size_t c : document.nodes[i].children) {
+      if (c >= document.nodes.size())
         throw Error(placeOf(where, i) + ".children", "names a node that is not there",
-                    fmt::format("below {}", model.nodes.size()), fmt::to_string(child));
+                    fmt::format("below {}", document.nodes.size()), fmt::to_string(c));
       if (hasParent[c]) throw Error(placeOf(where, c), "has two parents", "one at most", placeOf("the second", i));
       hasParent[c] = true;
     }
@@ -74,29 +73,28 @@ std::vector<bool> findParents(const tinygltf::Model& model, const std::string& w
 }
 
 // The nodes that the traversal starts from.
-std::vector<std::size_t> rootsOf(const tinygltf::Model& model, const std::vector<bool>& hasParent,
+std::vector<std::size_t> rootsOf(const gltf::Document& document, const std::vector<bool>& hasParent,
                                  const std::string& where, std::vector<std::string>& notes) {
   std::vector<std::size_t> roots;
-  if (model.scenes.empty()) {
-    for (std::size_t i = 0; i < model.nodes.size(); ++i)
+  if (document.sceneNodes.empty()) {
+    for (std::size_t i = 0; i < document.nodes.size(); ++i)
       if (!hasParent[i]) roots.push_back(i);
     return roots;
   }
-  const std::size_t index = model.defaultScene < 0 ? 0 : static_cast<std::size_t>(model.defaultScene);
-  if (index >= model.scenes.size())
-    throw Error(where + ": scene", "names a scene that is not there", fmt::format("below {}", model.scenes.size()),
-                fmt::to_string(index));
-  if (model.scenes.size() > 1)
-    addNote(notes, fmt::format("scenes other than number {} of {}", index, model.scenes.size()));
-  std::vector<bool> named(model.nodes.size(), false);
-  for (const int node : model.scenes[index].nodes) {
-    const auto n = static_cast<std::size_t>(node);
+  const std::size_t index = document.defaultScene.value_or(0);
+  if (index >= document.sceneNodes.size())
+    throw Error(where + ": scene", "names a scene that is not there",
+                fmt::format("below {}", document.sceneNodes.size()), fmt::to_string(index));
+  if (document.sceneNodes.size() > 1)
+    addNote(notes, fmt::format("scenes other than number {} of {}", index, document.sceneNodes.size()));
+  std::vector<bool> named(document.nodes.size(), false);
+  for (const std::size_t n : document.sceneNodes[index]) {
     const std::string place = fmt::format("{}: scenes[{}].nodes", where, index);
-    if (n >= model.nodes.size())
-      throw Error(place, "names a node that is not there", fmt::format("below {}", model.nodes.size()),
-                  fmt::to_string(node));
+    if (n >= document.nodes.size())
+      throw Error(place, "names a node that is not there", fmt::format("below {}", document.nodes.size()),
+                  fmt::to_string(n));
     if (hasParent[n] || named[n])
-      throw Error(place, fmt::format("names node {}, which has a parent or is there twice", node), "roots, once each");
+      throw Error(place, fmt::format("names node {}, which has a parent or is there twice", n), "roots, once each");
     named[n] = true;
     roots.push_back(n);
   }
@@ -104,16 +102,16 @@ std::vector<std::size_t> rootsOf(const tinygltf::Model& model, const std::vector
 }
 
 // Every node has at most one parent: only a ring of nodes has no root above it.
-void requireNoCycle(const tinygltf::Model& model, const std::vector<bool>& hasParent, const std::string& where) {
-  std::vector<bool> reached(model.nodes.size(), false);
+void requireNoCycle(const gltf::Document& document, const std::vector<bool>& hasParent, const std::string& where) {
+  std::vector<bool> reached(document.nodes.size(), false);
   std::vector<std::size_t> stack;
-  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+  for (std::size_t i = 0; i < document.nodes.size(); ++i)
     if (!hasParent[i]) stack.push_back(i);
   while (!stack.empty()) {
     const std::size_t node = stack.back();
     stack.pop_back();
     reached[node] = true;
-    for (const int child : model.nodes[node].children) stack.push_back(static_cast<std::size_t>(child));
+    stack.insert(stack.end(), document.nodes[node].children.begin(), document.nodes[node].children.end());
   }
   for (std::size_t i = 0; i < reached.size(); ++i)
     if (!reached[i]) throw Error(placeOf(where, i), "is below itself", "a graph without cycles");
@@ -121,12 +119,12 @@ void requireNoCycle(const tinygltf::Model& model, const std::vector<bool>& hasPa
 
 }  // namespace
 
-std::vector<GltfPlacement> gltfPlacements(const tinygltf::Model& model, std::size_t most, const std::string& where,
+std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
                                           std::vector<std::string>& notes) {
   // Step 1: a forest.
-  const std::vector<bool> hasParent = findParents(model, where);
-  requireNoCycle(model, hasParent, where);
-  const std::vector<std::size_t> roots = rootsOf(model, hasParent, where, notes);
+  const std::vector<bool> hasParent = findParents(document, where);
+  requireNoCycle(document, hasParent, where);
+  const std::vector<std::size_t> roots = rootsOf(document, hasParent, where, notes);
 
   // Step 2: depth first, without recursion; children in their order.
   std::vector<GltfPlacement> placements;
@@ -135,19 +133,18 @@ std::vector<GltfPlacement> gltfPlacements(const tinygltf::Model& model, std::siz
   while (!stack.empty()) {
     const auto [index, worldFromParent] = stack.back();
     stack.pop_back();
-    const tinygltf::Node& node = model.nodes[index];
+    const gltf::Node& node = document.nodes[index];
     const glm::dmat4 worldFromObject = worldFromParent * localTransform(node, placeOf(where, index));
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-      stack.emplace_back(static_cast<std::size_t>(*child), worldFromObject);
-    if (node.mesh < 0) continue;
-    if (static_cast<std::size_t>(node.mesh) >= model.meshes.size())
+      stack.emplace_back(*child, worldFromObject);
+    if (!node.mesh) continue;
+    if (*node.mesh >= document.meshes.size())
       throw Error(placeOf(where, index) + ".mesh", "names a mesh that is not there",
-                  fmt::format("below {}", model.meshes.size()), fmt::to_string(node.mesh));
+                  fmt::format("below {}", document.meshes.size()), fmt::to_string(*node.mesh));
     requireRegular(worldFromObject, placeOf(where, index));
     if (placements.size() == most)
       throw Error(where, "has too many nodes with meshes", fmt::format("at most {}", most));
-    placements.push_back({static_cast<std::size_t>(node.mesh),
-                          node.name.empty() ? fmt::format("node {}", index) : node.name, worldFromObject});
+    placements.push_back({*node.mesh, node.name.empty() ? fmt::format("node {}", index) : node.name, worldFromObject});
   }
   return placements;
 }

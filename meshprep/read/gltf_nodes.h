@@ -7,7 +7,7 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "meshprep/read/gltf_library.h"
+#include "meshprep/read/gltf_document.h"
 
 namespace malus::prep {
 
@@ -21,7 +21,7 @@ struct GltfPlacement {
 // is not there, a node with two parents or below itself, a scene that names a node twice or one with a parent, a
 // matrix whose last row is not (0, 0, 0, 1), a rotation without length, a transform of a mesh that flattens it or is
 // not finite, more than `most` placements.
-std::vector<GltfPlacement> gltfPlacements(const tinygltf::Model& model, std::size_t most, const std::string& where,
+std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
                                           std::vector<std::string>& notes);
 
 }  // namespace malus::prep

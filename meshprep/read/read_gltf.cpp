@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -14,13 +13,13 @@
 #include "meshprep/base/error.h"
 #include "meshprep/read/gltf_accessor.h"
 #include "meshprep/read/gltf_buffers.h"
+#include "meshprep/read/gltf_document.h"
 #include "meshprep/read/gltf_draco.h"
 #include "meshprep/read/gltf_json.h"
 #include "meshprep/read/gltf_material.h"
 #include "meshprep/read/gltf_nodes.h"
 
 namespace malus::prep {
-using nlohmann::json;
 
 namespace {
 
@@ -31,93 +30,36 @@ constexpr std::size_t kMaxInstances = 65536;
 constexpr std::size_t kMinInstancedTriangles = 4'000'000;
 constexpr std::size_t kMaxCopies = 16;
 
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
-
-// tinygltf's model of a checked document. Buffers are left out of what it reads; so are the indices of primitives,
-// because it refuses indices without a buffer view, which Draco's and sparse ones have: they go in as an attribute.
-tinygltf::Model modelOf(json document, const std::string& where) {
-  document.erase("buffers");
-  std::map<std::string, std::size_t> counts;
-  for (const char* key : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "materials"})
-    if (const auto list = document.find(key); list != document.end()) counts[key] = list->size();
-  std::size_t primitives = 0;
-  if (const auto meshes = document.find("meshes"); meshes != document.end())
-    for (json& mesh : *meshes)
-      for (json& primitive : mesh.at("primitives")) {
-        ++primitives;
-        if (const auto indices = primitive.find("indices"); indices != primitive.end()) {
-          primitive["attributes"]["indices"] = *indices;
-          primitive.erase("indices");
-        }
-      }
-  const std::string text = document.dump();
-  document = nullptr;
-
-  tinygltf::Model model;
-  std::string errors, warnings;
-  bool read = false;
-  try {
-    tinygltf::TinyGLTF loader;
-    read = loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "");
-  } catch (const std::exception& failure) {
-    throw Error(where, "tinygltf cannot read it", "", failure.what());
-  }
-  std::replace(errors.begin(), errors.end(), '\n', ' ');
-  if (!read) throw Error(where, "tinygltf cannot read it", "glTF 2.0", errors);
-
-  const auto require = [&](const char* what, std::size_t expected, std::size_t found) {
-    if (expected != found)
-      throw Error(where, fmt::format("tinygltf reads other {} than the file has", what), fmt::to_string(expected),
-                  fmt::to_string(found));
-  };
-  require("scenes", counts["scenes"], model.scenes.size());
-  require("nodes", counts["nodes"], model.nodes.size());
-  require("meshes", counts["meshes"], model.meshes.size());
-  require("accessors", counts["accessors"], model.accessors.size());
-  require("bufferViews", counts["bufferViews"], model.bufferViews.size());
-  require("materials", counts["materials"], model.materials.size());
-  std::size_t primitivesRead = 0;
-  for (const tinygltf::Mesh& mesh : model.meshes) primitivesRead += mesh.primitives.size();
-  require("primitives", primitives, primitivesRead);
-  return model;
-}
-
-// The index that an attribute or the indices of a primitive have; none where it has none.
-std::optional<std::size_t> attributeOf(const tinygltf::Primitive& primitive, const char* name) {
-  const auto found = primitive.attributes.find(name);
-  if (found == primitive.attributes.end()) return std::nullopt;
-  return static_cast<std::size_t>(found->second);
-}
+constexpr auto kTriangles = static_cast<std::uint32_t>(gltf::PrimitiveMode::triangles);
+constexpr auto kTriangleStrip = static_cast<std::uint32_t>(gltf::PrimitiveMode::triangleStrip);
+constexpr auto kTriangleFan = static_cast<std::uint32_t>(gltf::PrimitiveMode::triangleFan);
 
 // Makes parts of primitives and keeps account of what has been read.
 class PartReader {
  public:
-  PartReader(const tinygltf::Model& model, GltfBuffers& buffers, std::size_t fileBytes, bool quantized,
-             std::string where)
-      : model_(model), buffers_(buffers), fileBytes_(fileBytes), quantized_(quantized), where_(std::move(where)) {
-    for (const tinygltf::Mesh& mesh : model.meshes)
-      for (const tinygltf::Primitive& primitive : mesh.primitives)
-        if (const auto position = attributeOf(primitive, "POSITION")) ++users_[*position];
+  PartReader(const gltf::Document& document, GltfBuffers& buffers, std::size_t fileBytes, std::string where)
+      : document_(document), buffers_(buffers), fileBytes_(fileBytes), where_(std::move(where)) {
+    for (const gltf::Mesh& mesh : document.meshes)
+      for (const gltf::Primitive& primitive : mesh.primitives)
+        if (primitive.position) ++users_[*primitive.position];
   }
 
   // Empty where the primitive has no faces: points and lines.
-  Polygons read(const tinygltf::Primitive& primitive, const std::string& place, std::vector<std::string>& notes) {
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+  Polygons read(const gltf::Primitive& primitive, const std::string& place, std::vector<std::string>& notes) {
+    if (primitive.mode < kTriangles) {
       addNote(notes, "points and lines");
       return {};
     }
-    if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+    if (primitive.mode > kTriangleFan)
       throw Error(place + ".mode", "is unknown", "0 to 6", fmt::to_string(primitive.mode));
-    const auto position = attributeOf(primitive, "POSITION");
-    if (!position) throw Error(place, "has no positions", "an attribute POSITION");
-    const auto draco = primitive.extensions.find(kDraco);
-    if (draco != primitive.extensions.end()) return readDraco(primitive, draco->second, *position, place, notes);
+    if (!primitive.position) throw Error(place, "has no positions", "an attribute POSITION");
+    if (primitive.draco) return readDraco(primitive, place, notes);
 
     // Step 1: the accessors.
-    const GltfAccessor& positions = vectors(*position);
+    const GltfAccessor& positions = vectors(*primitive.position);
     const GltfAccessor* normals = nullptr;
-    if (const auto normal = attributeOf(primitive, "NORMAL")) {
-      normals = &vectors(*normal);
+    if (primitive.normal) {
+      normals = &vectors(*primitive.normal);
       if (normals->count() != positions.count())
         throw Error(place, "has another number of normals than of positions", fmt::to_string(positions.count()),
                     fmt::to_string(normals->count()));
@@ -130,7 +72,7 @@ class PartReader {
 
     // Step 3: the vertices; those of its faces alone where primitives share them.
     std::vector<std::uint32_t> kept;
-    if (users_.at(*position) > 1) {
+    if (users_.at(*primitive.position) > 1) {
       kept = polygons.corners;
       std::sort(kept.begin(), kept.end());
       kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
@@ -171,30 +113,30 @@ class PartReader {
   // What an accessor claims, before its bytes are looked at.
   std::size_t claimOf(std::size_t index) const {
     const std::string place = fmt::format("{}: accessors[{}]", where_, index);
-    if (index >= model_.accessors.size())
-      throw Error(place, "is not there", fmt::format("one of {} accessors", model_.accessors.size()));
-    return model_.accessors[index].count;
+    if (index >= document_.accessors.size())
+      throw Error(place, "is not there", fmt::format("one of {} accessors", document_.accessors.size()));
+    return document_.accessors[index].count;
   }
 
   // Checked once, however many primitives use it.
   const GltfAccessor& vectors(std::size_t index) {
     const auto found = vectors_.find(index);
     if (found != vectors_.end()) return found->second;
-    GltfAccessor accessor(model_, buffers_, index, where_);  // reads its buffer, whose size bounds what may be claimed
+    GltfAccessor accessor(document_, buffers_, index,
+                          where_);  // reads its buffer, whose size bounds what may be claimed
     addVertices(accessor.count(), accessor.place());
-    accessor.requireVectors(quantized_);
+    accessor.requireVectors(document_.quantized);
     return vectors_.emplace(index, std::move(accessor)).first->second;
   }
 
   // Three corners for every triangle of a list, strip or fan.
-  std::vector<std::uint32_t> triangles(const tinygltf::Primitive& primitive, std::size_t vertices,
+  std::vector<std::uint32_t> triangles(const gltf::Primitive& primitive, std::size_t vertices,
                                        const std::string& place) {
     // Step 1: how many corners there are, and so how many triangles.
-    const auto indices = attributeOf(primitive, "indices");
     std::optional<GltfAccessor> accessor;
-    if (indices) accessor.emplace(model_, buffers_, *indices, where_);
+    if (primitive.indices) accessor.emplace(document_, buffers_, *primitive.indices, where_);
     const std::size_t count = accessor ? accessor->count() : vertices;
-    const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    const bool list = primitive.mode == kTriangles;
     if (count < 3 || (list && count % 3 != 0))
       throw Error(place, "is no whole number of triangles", list ? "3 corners for each" : "3 corners or more",
                   fmt::format("{} corners", count));
@@ -223,7 +165,7 @@ class PartReader {
     std::vector<std::uint32_t> result;
     result.reserve(3 * triangleCount);
     for (std::size_t i = 0; i < triangleCount; ++i) {
-      const bool strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
+      const bool strip = primitive.mode == kTriangleStrip;
       const std::size_t odd = i % 2;
       const std::array<std::size_t, 3> at =
           strip ? std::array{i, i + 1 + odd, i + 2 - odd} : std::array{i + 1, i + 2, std::size_t{0}};
@@ -232,33 +174,26 @@ class PartReader {
     return result;
   }
 
-  Polygons readDraco(const tinygltf::Primitive& primitive, const tinygltf::Value& extension, std::size_t position,
-                     const std::string& place, std::vector<std::string>& notes) {
+  Polygons readDraco(const gltf::Primitive& primitive, const std::string& place, std::vector<std::string>& notes) {
     // Step 1: what the accessors say. They have no bytes of their own, or other ones for readers without Draco.
-    const auto indices = attributeOf(primitive, "indices");
-    if (!indices) throw Error(place, "has Draco data and no indices", "an accessor of indices");
-    const std::size_t corners = claimOf(*indices);
+    if (!primitive.indices) throw Error(place, "has Draco data and no indices", "an accessor of indices");
+    const std::size_t corners = claimOf(*primitive.indices);
     GltfDracoClaims claims;
-    claims.vertices = claimOf(position);
+    claims.vertices = claimOf(*primitive.position);
     claims.triangles = corners / 3;
     if (corners % 3 != 0 || corners == 0)
       throw Error(place, "is no whole number of triangles", "3 corners for each", fmt::format("{} corners", corners));
-    const auto view = static_cast<std::size_t>(extension.Get("bufferView").GetNumberAsInt());
-    const std::span<const std::byte> data = gltfViewBytes(model_, buffers_, view, where_);
+    const gltf::DracoExtension& draco = *primitive.draco;
+    const std::span<const std::byte> data = gltfViewBytes(document_, buffers_, draco.bufferView, where_);
     addTriangles(claims.triangles, bytes() / 2 + kDracoTrianglesPerByte * data.size(), place);
     addVertices(claims.vertices, place);
 
     // Step 2: which attributes of the data they are.
-    const tinygltf::Value& attributes = extension.Get("attributes");
-    const auto idOf = [&](const char* name) {
-      return static_cast<std::uint32_t>(attributes.Get(name).GetNumberAsInt());
-    };
-    if (!attributes.Has("POSITION"))
-      throw Error(fmt::format("{}.extensions.{}", place, kDraco), "has no positions", "an attribute POSITION");
-    claims.positionId = idOf("POSITION");
-    const auto normal = attributeOf(primitive, "NORMAL");
-    if (normal && attributes.Has("NORMAL")) claims.normalId = idOf("NORMAL");
-    if (normal && !attributes.Has("NORMAL")) addNote(notes, "normals beside Draco data");
+    if (!draco.position)
+      throw Error(place + ".extensions.KHR_draco_mesh_compression", "has no positions", "an attribute POSITION");
+    claims.positionId = *draco.position;
+    if (primitive.normal) claims.normalId = draco.normal;
+    if (primitive.normal && !draco.normal) addNote(notes, "normals beside Draco data");
 
     // Step 3: decode.
     GltfDracoMesh mesh = decodeGltfDraco(data, claims, place);
@@ -270,17 +205,16 @@ class PartReader {
     return polygons;
   }
 
-  const tinygltf::Model& model_;
+  const gltf::Document& document_;
   GltfBuffers& buffers_;
   std::size_t fileBytes_;
-  bool quantized_;
   std::string where_;
   std::map<std::size_t, std::size_t> users_;     // of an accessor as positions
   std::map<std::size_t, GltfAccessor> vectors_;  // checked
   std::size_t triangles_ = 0, vertices_ = 0;     // so far
 };
 
-std::string nameOf(const tinygltf::Mesh& mesh, std::size_t index) {
+std::string nameOf(const gltf::Mesh& mesh, std::size_t index) {
   return mesh.name.empty() ? fmt::format("mesh {}", index) : mesh.name;
 }
 
@@ -290,43 +224,41 @@ SourceScene readGltf(const std::filesystem::path& path) {
   const std::string where = path.string();
   SourceScene scene;
 
-  // Step 1: the document, checked, then tinygltf's model of it.
+  // Step 1: the document.
   const GltfContainer container(path);
   GltfJson checked = parseGltfJson(container.json(), where);
   scene.notes = std::move(checked.notes);
-  GltfBuffers buffers(checked.document, container, path);
-  const tinygltf::Model model = modelOf(std::move(checked.document), where);
-  const bool quantized = std::find(model.extensionsUsed.begin(), model.extensionsUsed.end(), "KHR_mesh_quantization") !=
-                         model.extensionsUsed.end();
+  gltf::Document document = gltf::toDocument(std::move(checked.document), where);
+  GltfBuffers buffers(std::move(document.buffers), container, path);
 
   // Step 2: materials.
-  for (std::size_t i = 0; i < model.materials.size(); ++i)
+  for (std::size_t i = 0; i < document.materials.size(); ++i)
     scene.materials.push_back(
-        gltfMaterial(model.materials[i], fmt::format("{}: materials[{}]", where, i), scene.notes));
+        gltfMaterial(document.materials[i], fmt::format("{}: materials[{}]", where, i), scene.notes));
 
   // Step 3: where meshes stand. What stands nowhere is not read.
-  const std::vector<GltfPlacement> placements = gltfPlacements(model, kMaxInstances, where, scene.notes);
+  const std::vector<GltfPlacement> placements = gltfPlacements(document, kMaxInstances, where, scene.notes);
   if (placements.empty()) throw Error(where, "has no node with a mesh in its scene");
-  std::vector<bool> placed(model.meshes.size(), false);
+  std::vector<bool> placed(document.meshes.size(), false);
   for (const GltfPlacement& placement : placements) placed[placement.mesh] = true;
   if (std::find(placed.begin(), placed.end(), false) != placed.end()) addNote(scene.notes, "meshes of no node");
 
   // Step 4: parts.
-  PartReader reader(model, buffers, container.size(), quantized, where);
-  std::vector<std::vector<std::size_t>> partsOfMesh(model.meshes.size());
-  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+  PartReader reader(document, buffers, container.size(), where);
+  std::vector<std::vector<std::size_t>> partsOfMesh(document.meshes.size());
+  for (std::size_t m = 0; m < document.meshes.size(); ++m) {
     if (!placed[m]) continue;
-    const tinygltf::Mesh& mesh = model.meshes[m];
+    const gltf::Mesh& mesh = document.meshes[m];
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-      const tinygltf::Primitive& primitive = mesh.primitives[p];
+      const gltf::Primitive& primitive = mesh.primitives[p];
       const std::string place = fmt::format("{}: meshes[{}].primitives[{}]", where, m, p);
       SourcePart part;
       part.name = mesh.primitives.size() == 1 ? nameOf(mesh, m) : fmt::format("{}.{}", nameOf(mesh, m), p + 1);
-      if (primitive.material >= 0) {
-        part.material = static_cast<std::size_t>(primitive.material);
+      if (primitive.material) {
+        part.material = primitive.material;
         if (*part.material >= scene.materials.size())
           throw Error(place + ".material", "names a material that is not there",
-                      fmt::format("below {}", scene.materials.size()), fmt::to_string(primitive.material));
+                      fmt::format("below {}", scene.materials.size()), fmt::to_string(*primitive.material));
       }
       part.polygons = reader.read(primitive, place, scene.notes);
       if (part.polygons.faceCount() == 0) continue;
@@ -360,12 +292,10 @@ SourceScene readGltf(const std::filesystem::path& path) {
 std::vector<std::filesystem::path> gltfBufferFiles(const std::filesystem::path& path) {
   const std::string where = path.string();
   const GltfContainer container(path);
-  const GltfJson checked = parseGltfJson(container.json(), where);
+  const gltf::Document document = gltf::toDocument(parseGltfJson(container.json(), where).document, where);
   std::set<std::filesystem::path> files;
-  const auto list = checked.document.find("buffers");
-  if (list == checked.document.end()) return {};
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    const std::string uri = (*list)[i].value("uri", "");
+  for (std::size_t i = 0; i < document.buffers.size(); ++i) {
+    const std::string& uri = document.buffers[i].uri;
     if (uri.empty() || isDataUri(uri)) continue;
     files.insert(gltfFileOf(path, uri, fmt::format("{}: buffers[{}].uri", where, i)));
   }

@@ -1,16 +1,16 @@
 // glTF 2.0, as JSON (.gltf) or binary (.glb), with KHR_draco_mesh_compression, KHR_mesh_quantization and
 // KHR_materials_ior, _transmission, _volume and _emissive_strength.
 //
-// The JSON is filtered and checked first (gltf_json.h), then read by tinygltf; both must agree on every count.
-// Buffers are read here, relative to the file: data URIs, files beside or below it, the chunk of a GLB. tinygltf
-// opens nothing. Every accessor is checked against its bytes before anything is allocated by it.
+// The JSON is parsed through a whitelist of keys and types (gltf_json.h) into structures (gltf_document.h). Buffers are
+// data URIs, files in the folder of the glTF file or below it, or the chunk of a GLB; no other file is opened. Every
+// accessor is checked against its bytes before memory is allocated for it.
 //
-// A primitive is a part, a node with a mesh an instance of each of its primitives. The file's default scene is taken,
-// or its first; without scenes, the nodes that have no parent. Skins, morph targets and animations stay in the pose
-// of the file. What is left out leaves a note.
+// Each primitive is a part; each node with a mesh makes one instance of every primitive of the mesh. The default scene
+// is read, or the first scene; without scenes, all nodes without a parent. Skins, morph targets and animations are left
+// out: the pose of the file is used. Whatever is left out is listed in the notes.
 //
-// Bounds, so that a few bytes cannot ask for gigabytes: B is the size of the file and its buffers.
-//   triangles of all primitives   max(2 million, B / 2), and twice the bytes of a primitive's Draco data
+// Limits, so that a small file cannot claim gigabytes; B is the size of the file and its buffers in bytes.
+//   triangles of all primitives   max(2 million, B / 2), plus twice the bytes of a primitive's Draco data
 //   vertices of all accessors     max(6 million, B)
 //   instances                     65536
 //   triangles of all instances    max(4 million, 16 times those of the primitives), and three times as many vertices
@@ -25,13 +25,13 @@
 
 namespace malus::prep {
 
-// Throws Error that names the file and the place in it ("meshes[0].primitives[1]", or a byte): no glTF 2.0, a
-// required extension that is not known, a value of the wrong type, an index of something that is not there, bytes
-// that are missing, a number that is not finite, a primitive without positions, a node that is its own ancestor or
-// has two parents, a transform that flattens, more than the bounds.
+// Throws Error that names the file and the location in it ("meshes[0].primitives[1]", or a byte): not glTF 2.0, an
+// unknown required extension, a value of the wrong type, an index out of range, missing bytes, a number that is not
+// finite, a primitive without positions, a node that is its own ancestor or has two parents, a singular transform, a
+// limit exceeded.
 SourceScene readGltf(const std::filesystem::path& path);
 
-// The files that its buffers are in.
+// Files that contain the buffers.
 std::vector<std::filesystem::path> gltfBufferFiles(const std::filesystem::path& path);
 
 }  // namespace malus::prep

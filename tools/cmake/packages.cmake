@@ -21,9 +21,6 @@ if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)
 endif()
 
-# The header alone: meshprep/read/gltf_library.h says why.
-find_path(TINYGLTF_INCLUDE tiny_gltf.h REQUIRED)
-
 # OpenImageIO names an opencv4 include folder that may not be there.
 add_library(malus_openimageio INTERFACE)
 add_library(malus::openimageio ALIAS malus_openimageio)

@@ -1,0 +1,183 @@
+#include "meshprep/read/gltf_document.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+
+namespace malus::prep::gltf {
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMaxStride = 252;
+
+// Fills `value` if the object has the key.
+template <class Value>
+void get(const json& object, const char* key, Value& value) {
+  if (const auto found = object.find(key); found != object.end()) found->get_to(value);
+}
+
+template <class Value>
+void get(const json& object, const char* key, std::optional<Value>& value) {
+  if (const auto found = object.find(key); found != object.end()) value = found->get<Value>();
+}
+
+// The object at a key; an empty object if there is none.
+const json& child(const json& object, const char* key) {
+  static const json kEmpty = json::object();
+  const auto found = object.find(key);
+  return found == object.end() ? kEmpty : *found;
+}
+
+ComponentType componentType(const json& object, const std::string& place) {
+  const auto type = object.at("componentType").get<std::uint32_t>();
+  switch (static_cast<ComponentType>(type)) {
+    case ComponentType::int8:
+    case ComponentType::uint8:
+    case ComponentType::int16:
+    case ComponentType::uint16:
+    case ComponentType::uint32:
+    case ComponentType::float32:
+      return static_cast<ComponentType>(type);
+  }
+  throw Error(place + ".componentType", "unknown component type", "5120 to 5123, 5125 or 5126", fmt::to_string(type));
+}
+
+std::size_t componentCount(const json& accessor, const std::string& place) {
+  constexpr std::array<std::pair<std::string_view, std::size_t>, 7> kTypes = {
+      {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
+  const auto& type = accessor.at("type").get_ref<const std::string&>();
+  const auto* const found = std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& t) { return t.first == type; });
+  if (found == kTypes.end())
+    throw Error(place + ".type", "unknown element type", "SCALAR, VEC2 to VEC4 or MAT2 to MAT4",
+                "'" + type.substr(0, 40) + "'");
+  return found->second;
+}
+
+Accessor toAccessor(const json& object, const std::string& place) {
+  Accessor accessor;
+  get(object, "bufferView", accessor.bufferView);
+  get(object, "byteOffset", accessor.byteOffset);
+  accessor.componentType = componentType(object, place);
+  get(object, "normalized", accessor.normalized);
+  accessor.count = object.at("count").get<std::size_t>();
+  accessor.components = componentCount(object, place);
+  if (const auto sparse = object.find("sparse"); sparse != object.end()) {
+    const json &indices = sparse->at("indices"), &values = sparse->at("values");
+    SparseElements elements;
+    elements.count = sparse->at("count").get<std::size_t>();
+    elements.indicesView = indices.at("bufferView").get<std::size_t>();
+    get(indices, "byteOffset", elements.indicesByteOffset);
+    elements.indicesType = componentType(indices, place + ".sparse.indices");
+    elements.valuesView = values.at("bufferView").get<std::size_t>();
+    get(values, "byteOffset", elements.valuesByteOffset);
+    accessor.sparse = elements;
+  }
+  return accessor;
+}
+
+BufferView toBufferView(const json& object, const std::string& place) {
+  BufferView view;
+  view.buffer = object.at("buffer").get<std::size_t>();
+  get(object, "byteOffset", view.byteOffset);
+  view.byteLength = object.at("byteLength").get<std::size_t>();
+  get(object, "byteStride", view.byteStride);
+  if (view.byteStride > kMaxStride || view.byteStride % 4 != 0)
+    throw Error(place + ".byteStride", "invalid stride", fmt::format("a multiple of 4 up to {}", kMaxStride),
+                fmt::to_string(view.byteStride));
+  return view;
+}
+
+Primitive toPrimitive(const json& object) {
+  Primitive primitive;
+  get(object, "mode", primitive.mode);
+  get(object, "indices", primitive.indices);
+  get(object, "material", primitive.material);
+  get(object.at("attributes"), "POSITION", primitive.position);
+  get(object.at("attributes"), "NORMAL", primitive.normal);
+  const json& extensions = child(object, "extensions");
+  if (const auto found = extensions.find("KHR_draco_mesh_compression"); found != extensions.end()) {
+    DracoExtension draco;
+    draco.bufferView = found->at("bufferView").get<std::size_t>();
+    get(found->at("attributes"), "POSITION", draco.position);
+    get(found->at("attributes"), "NORMAL", draco.normal);
+    primitive.draco = draco;
+  }
+  return primitive;
+}
+
+Mesh toMesh(const json& object) {
+  Mesh mesh;
+  get(object, "name", mesh.name);
+  const json& primitives = object.at("primitives");
+  mesh.primitives.reserve(primitives.size());
+  for (const json& primitive : primitives) mesh.primitives.push_back(toPrimitive(primitive));
+  return mesh;
+}
+
+Node toNode(const json& object) {
+  Node node;
+  get(object, "name", node.name);
+  get(object, "mesh", node.mesh);
+  get(object, "children", node.children);
+  get(object, "matrix", node.matrix);
+  get(object, "translation", node.translation);
+  get(object, "rotation", node.rotation);
+  get(object, "scale", node.scale);
+  return node;
+}
+
+Material toMaterial(const json& object) {
+  Material material;
+  get(object, "name", material.name);
+  get(object, "emissiveFactor", material.emissiveFactor);
+  get(object, "alphaMode", material.alphaMode);
+  const json& pbr = child(object, "pbrMetallicRoughness");
+  get(pbr, "baseColorFactor", material.baseColorFactor);
+  get(pbr, "metallicFactor", material.metallicFactor);
+  get(pbr, "roughnessFactor", material.roughnessFactor);
+  const json& extensions = child(object, "extensions");
+  get(child(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", material.emissiveStrength);
+  get(child(extensions, "KHR_materials_ior"), "ior", material.ior);
+  get(child(extensions, "KHR_materials_transmission"), "transmissionFactor", material.transmissionFactor);
+  const json& volume = child(extensions, "KHR_materials_volume");
+  get(volume, "thicknessFactor", material.volumeThicknessFactor);
+  get(volume, "attenuationColor", material.attenuationColor);
+  get(volume, "attenuationDistance", material.attenuationDistance);
+  return material;
+}
+
+// Takes the list at a key out of the document, so that it is freed before the next one is converted.
+json takeList(json& document, const char* key) {
+  const auto found = document.find(key);
+  return found == document.end() ? json::array() : std::move(*found);
+}
+
+}  // namespace
+
+Document toDocument(json document, const std::string& where) {
+  Document result;
+  const auto place = [&](const char* list, std::size_t i) { return fmt::format("{}: {}[{}]", where, list, i); };
+  get(document, "scene", result.defaultScene);
+  for (const json& name : takeList(document, "extensionsUsed"))
+    result.quantized = result.quantized || name == "KHR_mesh_quantization";
+  for (const json& scene : takeList(document, "scenes")) get(scene, "nodes", result.sceneNodes.emplace_back());
+  for (const json& node : takeList(document, "nodes")) result.nodes.push_back(toNode(node));
+  for (const json& mesh : takeList(document, "meshes")) result.meshes.push_back(toMesh(mesh));
+  for (const json& accessor : takeList(document, "accessors"))
+    result.accessors.push_back(toAccessor(accessor, place("accessors", result.accessors.size())));
+  for (const json& view : takeList(document, "bufferViews"))
+    result.bufferViews.push_back(toBufferView(view, place("bufferViews", result.bufferViews.size())));
+  for (json& buffer : takeList(document, "buffers")) {
+    std::string uri;
+    if (const auto found = buffer.find("uri"); found != buffer.end()) uri = std::move(found->get_ref<std::string&>());
+    result.buffers.push_back({std::move(uri), buffer.at("byteLength").get<std::size_t>()});
+  }
+  for (const json& material : takeList(document, "materials")) result.materials.push_back(toMaterial(material));
+  return result;
+}
+
+}  // namespace malus::prep::gltf

@@ -1,0 +1,116 @@
+// The content of a glTF 2.0 document that malus reads, as plain structures with the defaults of the specification.
+// Source: glTF 2.0 Specification, appendix A, "JSON Schema Reference", and the schemas of the extensions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace malus::prep::gltf {
+
+enum class ComponentType : std::uint32_t {
+  int8 = 5120,
+  uint8 = 5121,
+  int16 = 5122,
+  uint16 = 5123,
+  uint32 = 5125,
+  float32 = 5126,
+};
+
+enum class PrimitiveMode : std::uint32_t { triangles = 4, triangleStrip = 5, triangleFan = 6 };  // below 4: no faces
+
+struct Buffer {
+  std::string uri;  // empty: the binary chunk of a GLB
+  std::size_t byteLength = 0;
+};
+
+struct BufferView {
+  std::size_t buffer = 0;
+  std::size_t byteOffset = 0;
+  std::size_t byteLength = 0;
+  std::size_t byteStride = 0;  // 0: tightly packed; else a multiple of 4 up to 252
+};
+
+struct SparseElements {
+  std::size_t count = 0;
+  std::size_t indicesView = 0, indicesByteOffset = 0;
+  ComponentType indicesType{};
+  std::size_t valuesView = 0, valuesByteOffset = 0;
+};
+
+struct Accessor {
+  std::optional<std::size_t> bufferView;  // none: all elements are zero
+  std::size_t byteOffset = 0;
+  ComponentType componentType{};
+  bool normalized = false;
+  std::size_t count = 0;
+  std::size_t components = 0;  // of an element: 1 (SCALAR) to 16 (MAT4)
+  std::optional<SparseElements> sparse;
+};
+
+// KHR_draco_mesh_compression. Attributes are ids in the Draco data.
+struct DracoExtension {
+  std::size_t bufferView = 0;
+  std::optional<std::uint32_t> position, normal;
+};
+
+// Attributes and indices are indices into Document::accessors.
+struct Primitive {
+  std::uint32_t mode = static_cast<std::uint32_t>(PrimitiveMode::triangles);
+  std::optional<std::size_t> position, normal, indices, material;
+  std::optional<DracoExtension> draco;
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+};
+
+struct Node {
+  std::string name;
+  std::optional<std::size_t> mesh;
+  std::vector<std::size_t> children;
+  std::optional<std::array<double, 16>> matrix;  // column-major; replaces the other three
+  std::optional<std::array<double, 3>> translation, scale;
+  std::optional<std::array<double, 4>> rotation;  // quaternion (x, y, z, w)
+};
+
+struct Material {
+  std::string name;
+  std::array<double, 4> baseColorFactor{1, 1, 1, 1};
+  double metallicFactor = 1;
+  double roughnessFactor = 1;
+  std::array<double, 3> emissiveFactor{0, 0, 0};
+  std::string alphaMode = "OPAQUE";
+  double emissiveStrength = 1;       // KHR_materials_emissive_strength
+  double ior = 1.5;                  // KHR_materials_ior
+  double transmissionFactor = 0;     // KHR_materials_transmission
+  double volumeThicknessFactor = 0;  // KHR_materials_volume
+  std::array<double, 3> attenuationColor{1, 1, 1};
+  double attenuationDistance = std::numeric_limits<double>::infinity();  // metres
+};
+
+struct Document {
+  bool quantized = false;  // KHR_mesh_quantization is used
+  std::optional<std::size_t> defaultScene;
+  std::vector<std::vector<std::size_t>> sceneNodes;  // root nodes of each scene
+  std::vector<Node> nodes;
+  std::vector<Mesh> meshes;
+  std::vector<Accessor> accessors;
+  std::vector<BufferView> bufferViews;
+  std::vector<Buffer> buffers;
+  std::vector<Material> materials;
+};
+
+// `document` must come from parseGltfJson(), which checks types and required keys; its strings are moved out. `where`
+// is the file for messages. Throws Error: an unknown component type or element type, a stride that glTF forbids.
+// Indices into other lists are checked where they are used.
+Document toDocument(nlohmann::json document, const std::string& where);
+
+}  // namespace malus::prep::gltf

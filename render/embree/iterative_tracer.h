@@ -30,12 +30,12 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 template <bool kCheckNumerics>
 embree::TileOutput renderTile(const embree::TileInput& tile) {
   if (tile.stokes)
-    return embree::renderPixels<Tracer<kCheckNumerics>>(tile, 15, [](auto& tracer, float* out) {
+    return embree::renderPixels<Tracer<kCheckNumerics>>(tile, kStokesChannels, [](auto& tracer, float* out) {
       const Stokes s = tracer.cameraPathStokes(tracer.pixelX, tracer.pixelY);
       const real3 values[5] = {tracer.cameraColour(s), s.s0, s.s1, s.s2, s.s3};
-      for (std::size_t i = 0; i < 15; ++i) out[i] = values[i / 3][static_cast<int>(i % 3)];
+      for (std::size_t i = 0; i < kStokesChannels; ++i) out[i] = values[i / 3][static_cast<int>(i % 3)];
     });
-  return embree::renderPixels<Tracer<kCheckNumerics>>(tile, 3, [](auto& tracer, float* out) {
+  return embree::renderPixels<Tracer<kCheckNumerics>>(tile, kColourChannels, [](auto& tracer, float* out) {
     const real3 colour = tracer.cameraPathColour(tracer.pixelX, tracer.pixelY);
     for (int i = 0; i < 3; ++i) out[i] = colour[i];
   });

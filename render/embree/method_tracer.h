@@ -51,7 +51,7 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 
 template <bool kCheckNumerics>
 embree::TileOutput renderTile(const embree::TileInput& tile) {
-  constexpr std::size_t kChannels = MALUS_METHOD::kHasStokes != 0 ? 15 : 3;
+  constexpr std::size_t kChannels = MALUS_METHOD::kHasStokes != 0 ? kStokesChannels : kColourChannels;
   return embree::renderPixels<Tracer<kCheckNumerics>>(tile, kChannels, [](auto& tracer, float* out) {
     const Stokes s = tracer.cameraPixel(tracer.pixelX, tracer.pixelY);
     const real3 values[5] = {tracer.cameraColour(s), s.s0, s.s1, s.s2, s.s3};

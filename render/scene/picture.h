@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "render/scene/fault.h"
+#include "shaders/gpu/constants.h"
 
 namespace malus::render {
 
-// Per pixel 3 floats (the colour behind the filter), or 15: the colour, then S0, S1, S2, S3, each r g b, of
-// the light before the filter, in the camera's frame of the pixel's ray.
-inline constexpr std::size_t kColourChannels = 3;
-inline constexpr std::size_t kStokesChannels = 15;
+// Floats per pixel, in the order that shaders/gpu/constants.h states. The Stokes vector is that of the light before the
+// filter, in the camera frame of the pixel's ray.
+inline constexpr std::size_t kColourChannels = gpu::kColourChannels;
+inline constexpr std::size_t kStokesChannels = gpu::kStokesChannels;
 
 struct Cost {
   double buildMs = 0;      // acceleration structure

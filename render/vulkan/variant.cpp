@@ -65,8 +65,9 @@ std::string_view includedSource(const Variant& variant, std::string_view path) {
 
 std::string stageText(const StageSource& source) {
   std::string text = "#version 460\n";
-  for (const char* file : {"shaders/gpu/language.glsl", "shaders/optics/math.h", "shaders/optics/all.h",
-                           "shaders/gpu/scene.h", "shaders/gpu/fault.h", "shaders/methods/selected.h"})
+  for (const char* file :
+       {"shaders/gpu/language.glsl", "shaders/optics/math.h", "shaders/optics/all.h", "shaders/gpu/constants.h",
+        "shaders/gpu/scene.h", "shaders/gpu/fault.h", "shaders/methods/selected.h"})
     text += fmt::format("#include \"{}\"\n", file);
   return text + fmt::format("#include \"{}\"\n", source.path);
 }

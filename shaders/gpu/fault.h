@@ -8,18 +8,18 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "shaders/gpu/constants.h"
+
 namespace malus::gpu {
 using uint = std::uint32_t;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 enum FaultKind : uint { kNoFault, kNotFinite, kNegative, kOverPolarized };
-inline constexpr uint kEnvironment = 0xffffffffu;  // in place of a material
 #else
 const uint kNoFault = 0u;
 const uint kNotFinite = 1u;      // NaN or infinity
 const uint kNegative = 2u;       // S0 below 0 by more than rounding explains
 const uint kOverPolarized = 3u;  // |(S1, S2, S3)| above S0 by more than rounding explains
-const uint kEnvironment = 0xffffffffu;
 #endif
 
 struct Fault {

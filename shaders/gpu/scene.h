@@ -9,6 +9,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "shaders/gpu/constants.h"
+
 namespace malus::gpu {
 using uint = std::uint32_t;
 using vec2 = glm::vec2;
@@ -22,7 +24,6 @@ using vec4 = glm::vec4;
 // Kinds of surface, each with a hit group of its own.
 #ifdef __cplusplus
 enum SurfaceKind : uint { kLambert, kPaint, kMetal, kGlass, kEmitter, kPolarizingElement, kSurfaceKinds };
-inline constexpr uint kFacets = 16;  // that stand for a rough surface
 #else
 const uint kLambert = 0u;
 const uint kPaint = 1u;
@@ -30,7 +31,6 @@ const uint kMetal = 2u;
 const uint kGlass = 3u;
 const uint kEmitter = 4u;
 const uint kPolarizingElement = 5u;  // polarizer or wave plate
-const uint kFacets = 16u;
 #endif
 
 struct Material {
@@ -68,12 +68,6 @@ struct MaterialExtra {
   vec3 mapV;
 };
 MALUS_SIZE(MaterialExtra, 164);
-
-#ifdef __cplusplus
-inline constexpr uint kNoTexture = 0xffffffffu;
-#else
-const uint kNoTexture = 0xffffffffu;
-#endif
 
 struct Texture {
   uint first;  // of its texels, row by row from the top
@@ -121,7 +115,7 @@ struct CameraParameters {
   uint shadows;             // 0: nothing blocks a point light
   vec3 sun;                 // unit, toward it
   float skyDegree;          // largest degree of polarization of the sky
-  vec2 facets[16];          // points of the unit disk (optics/facets.h)
+  vec2 facets[kFacets];     // points of the unit disk (optics/facets.h)
   float tolerance;          // loops: share of a source's radiance that may be lost along a path
 };
 MALUS_SIZE(CameraParameters, 392);

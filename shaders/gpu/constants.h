@@ -1,0 +1,23 @@
+// Constants that C++ and GLSL share.
+#ifdef __cplusplus
+#pragma once
+
+#include <cstdint>
+
+namespace malus::gpu {
+using uint = std::uint32_t;
+#define MALUS_CONSTANT inline constexpr
+#else
+#define MALUS_CONSTANT const
+#endif
+
+MALUS_CONSTANT uint kFacets = 16u;               // microfacets that represent a rough surface (optics/facets.h)
+MALUS_CONSTANT uint kNoTexture = 0xffffffffu;    // in place of the index of a texture
+MALUS_CONSTANT uint kEnvironment = 0xffffffffu;  // in place of the index of a material
+MALUS_CONSTANT uint kColourChannels = 3u;        // floats per pixel: the colour behind the filter
+MALUS_CONSTANT uint kStokesChannels = 15u;       // floats per pixel: the colour, then S0, S1, S2 and S3, each r g b
+
+#undef MALUS_CONSTANT
+#ifdef __cplusplus
+}  // namespace malus::gpu
+#endif

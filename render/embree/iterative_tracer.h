@@ -19,8 +19,6 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-#include "shaders/surfaces/common.h"
-
 #include "shaders/iterative/camera_path.h"
 #pragma GCC diagnostic pop
 

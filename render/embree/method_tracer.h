@@ -17,7 +17,7 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-#include "shaders/surfaces/all.h"
+#include "shaders/surfaces/recursive.h"
 #pragma GCC diagnostic pop
 
 #include "render/embree/find_hit.h"

@@ -1,9 +1,9 @@
 // The methods that follow the eye's path in a loop: what a surface does is applied to what the path carries on its way
-// out, so nothing comes back along rays. Glass is followed along the mirror direction first; the refracted way waits
-// on a stack, on which at most one waits for every interaction of a path, and the facets of one rough surface. Included
-// after a file of shaders/iterative and the surfaces; beside what they call the renderer supplies `materials[]`,
-// kPathStackSize (the view's depth at least, 1 without glass, and kFacets more with rough surfaces) and findHit(origin,
-// direction, depth, hit).
+// out, so nothing comes back along rays. Glass is followed along the mirror direction first; the refracted ray is
+// pushed on a stack, which holds at most one ray per interaction of a path and the facets of one rough surface.
+// Included after a file of shaders/iterative. The renderer defines kPathStackSize: at least the depth (1 without glass),
+// and kFacets more with rough surfaces.
+#include "shaders/surfaces/steps.h"
 
 struct CameraPath {
   real3 origin;

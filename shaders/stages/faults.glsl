@@ -1,11 +1,5 @@
 // What surfaces/check.h reports to. The count and the first pixel come from the whole picture; the fault itself from
 // a second picture of that one pixel, in which values arise one after the other.
-#ifdef MALUS_CHECK_NUMERICS
-const bool kCheckNumerics = true;
-#else
-const bool kCheckNumerics = false;
-#endif
-
 void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack) {
 #ifdef MALUS_CHECK_NUMERICS
   uvec2 pixel = gl_LaunchIDEXT.xy + uvec2(camera.regionX, camera.regionY);

@@ -1,5 +1,4 @@
 #include "shaders/stages/hit.glsl"
-#include "shaders/surfaces/glass.h"
 
 void main() {
   Hit h = loadHit();

@@ -1,5 +1,4 @@
 #include "shaders/stages/hit.glsl"
-#include "shaders/surfaces/lambert.h"
 
 void main() {
   Hit h = loadHit();

@@ -1,6 +1,4 @@
 #include "shaders/stages/hit.glsl"
-#include "shaders/surfaces/opaque.h"
-#include "shaders/surfaces/metal.h"
 
 void main() {
   Hit h = loadHit();

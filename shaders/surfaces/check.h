@@ -1,6 +1,5 @@
 // The debug check of what surfaces send toward the eye (--check-numerics): finite, not negative, at most fully
-// polarized. Where kCheckNumerics is false none of it is compiled. The renderer supplies
-// noteFault(hit, stokes, kind, colour, slack).
+// polarized. Where kCheckNumerics is false none of it is called.
 
 // A device's own isnan may be optimized away.
 FN bool isFinite(real x) {

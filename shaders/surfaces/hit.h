@@ -1,7 +1,4 @@
-// Where a ray met a surface. The files of this folder are shared by both renderers; beside the optics and
-// one method they call what the renderer supplies: `frame`, `lights[]`, `environmentTexels[]`, `extras[]`,
-// `textures[]`, `textureTexels[]`,
-// traceRay(origin, direction, depth), visible(origin, direction, distance), kCheckNumerics and noteFault (check.h).
+// Point where a ray meets a surface.
 
 struct Hit {
   real3 d;         // unit direction of the ray, away from the eye

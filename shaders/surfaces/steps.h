@@ -1,6 +1,9 @@
-// What recursive methods and loops share of the surfaces, in the order of their dependence.
+// Parts of the surfaces that recursive and iterative methods share, in the order of their dependence. Include this, or
+// recursive.h or iterative/camera_path.h, which include it, and no single file of this folder. C++ includes it inside
+// a tracer; GLSL after the scene's buffers.
 // clang-format off
 #include "shaders/surfaces/hit.h"
+#include "shaders/surfaces/hooks.h"
 #include "shaders/surfaces/check.h"
 #include "shaders/surfaces/textures.h"
 #include "shaders/surfaces/medium.h"

@@ -1,6 +1,6 @@
-// The surfaces in the order of their dependence; included after a method.
+// The surfaces of a recursive method, in the order of their dependence; included after the method.
 // clang-format off
-#include "shaders/surfaces/common.h"
+#include "shaders/surfaces/steps.h"
 #include "shaders/surfaces/check_sent.h"
 #include "shaders/surfaces/send.h"
 #include "shaders/surfaces/opaque.h"

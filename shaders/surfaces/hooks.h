@@ -1,0 +1,38 @@
+// Functions and data that a renderer supplies to the surfaces. C++ tracers declare them as members, GLSL stages as
+// buffers (shaders/stages/bindings.glsl) and functions that may be defined after the surfaces.
+//
+// Data, as described in shaders/gpu/scene.h:
+//   camera               camera, analyser, lights and environment of the image
+//   materials[]          by Hit.material
+//   lights[]             camera.lightCount point lights
+//   environmentTexels[]  octahedral map with a border of one texel
+//   extras[]             by Hit.material; only if an effect needs them
+//   textures[], textureTexels[]  only with MALUS_EFFECT_TEXTURES
+//   kCheckNumerics       compile-time constant: whether to check every value (check.h)
+//
+// Functions:
+//   Payload traceRay(origin, direction, depth)
+//     Traces one ray and shades what it meets, with `depth` specular interactions left. Recursive methods only.
+//   bool findHit(origin, direction, depth, out hit)
+//     Returns whether the ray meets a surface, and the nearest hit. Iterative methods only.
+//   bool visible(origin, direction, distance)
+//     Returns whether no surface lies on the ray within the distance.
+//   void noteFault(hit, stokes, kind, colour, slack)
+//     Records an unphysical value: its kind (shaders/gpu/fault.h), the colour's index, the rounding error allowed.
+//     Called only if kCheckNumerics.
+
+#ifndef __cplusplus
+#ifdef MALUS_CHECK_NUMERICS
+const bool kCheckNumerics = true;
+#else
+const bool kCheckNumerics = false;
+#endif
+
+#ifdef MALUS_PATH_STACK_SIZE
+bool findHit(real3 origin, real3 direction, real depth, OUT(Hit) hit);
+#else
+Payload traceRay(real3 origin, real3 direction, real depth);
+#endif
+bool visible(real3 origin, real3 direction, real distanceToLight);
+void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack);
+#endif

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include <tbb/parallel_for.h>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry.hpp>  // the index alone lacks the strategies that it uses in Boost 1.83
 #include <boost/geometry/index/rtree.hpp>
 
 namespace malus::prep {

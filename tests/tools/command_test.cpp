@@ -1,4 +1,4 @@
-// The command line of `malus`: exit codes, messages, what it leaves behind.
+// The command line of `malus`: exit codes, messages, and the files that remain.
 #include <csignal>
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-// The commands that `malus --help` lists.
+// Returns the commands that `malus --help` lists.
 std::vector<std::string> listedCommands(const std::string& help) {
   std::vector<std::string> commands;
   std::istringstream lines(help);
@@ -61,8 +61,8 @@ TEST(Usage, Lists) {
     EXPECT_TRUE(contains(materials.out, name)) << name;
 }
 
-TEST(Usage, MistakesEndWithTwo) {
-  const std::vector<std::vector<std::string>> kMistakes = {
+TEST(Usage, WrongArgumentsExitWithTwo) {
+  const std::vector<std::vector<std::string>> kWrong = {
       {},
       {"--no-such-option"},
       {"no-such-command"},
@@ -88,7 +88,7 @@ TEST(Usage, MistakesEndWithTwo) {
       {"compare-images", "a.exr", "b.exr", "--threshold", "nan"},
       {"compare-images", "a.exr", "b.exr", "--fail-over", "-1"},
   };
-  for (const std::vector<std::string>& arguments : kMistakes) {
+  for (const std::vector<std::string>& arguments : kWrong) {
     const Finished finished = malus(arguments);
     std::string text;
     for (const std::string& argument : arguments) text += argument + " ";
@@ -98,22 +98,22 @@ TEST(Usage, MistakesEndWithTwo) {
   }
 }
 
-TEST(Usage, StartingDoesNotLoadThePictureLibrary) {
-  // The dynamic loader tells what it loads.
+TEST(Usage, HelpDoesNotLoadOpenImageIO) {
+  // The dynamic loader prints the libraries that it loads.
   const Finished finished = malus({"--help"}, {.environment = {{"LD_TRACE_LOADED_OBJECTS", "1"}}});
   EXPECT_TRUE(contains(finished.out, "libc.so")) << finished.out;
   EXPECT_FALSE(contains(finished.out, "OpenImageIO")) << finished.out;
   EXPECT_FALSE(contains(finished.out, "libIlm")) << finished.out;
 }
 
-TEST(Usage, AFullStandardOutputIsAnError) {
+TEST(Usage, FullStandardOutputIsAnError) {
   for (const char* option : {"--list-materials", "--help", "--version"}) {
     const Finished finished = malus({option}, {.standardOutput = "/dev/full"});
     expectRefusal(finished, "standard output");
   }
 }
 
-// A tiny scene and its pack, made once.
+// A tiny scene, baked once for all tests.
 class Command : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -136,34 +136,35 @@ class Command : public testing::Test {
 };
 Folder* Command::input_ = nullptr;
 
-TEST_F(Command, BakeTellsItsCounts) {
+TEST_F(Command, BakeReportsCounts) {
   const Finished text = malus({"bake", input() / "scene.json", "-o", output_ / "a.pack"});
   EXPECT_EQ(text.exitCode, 0) << text.err;
   EXPECT_EQ(text.err, "");  // silent in a pipe
-  EXPECT_TRUE(contains(text.out, "tiny: 2 meshes, 28 vertices, 14 triangles")) << text.out;
+  for (const char* count : {"tiny", "2 meshes", "28 vertices", "14 triangles"})
+    EXPECT_TRUE(contains(text.out, count)) << text.out;
   const Finished result = malus({"bake", input() / "scene.json", "-o", output_ / "b.pack", "--json"});
   const json j = json::parse(result.out);
   EXPECT_EQ(j.at("vertices"), 28);
   EXPECT_EQ(j.at("triangles"), 14);
   EXPECT_EQ(j.at("preparation").size(), 2u);
-  EXPECT_EQ(textOf(output_ / "a.pack"), textOf(output_ / "b.pack"));
+  EXPECT_EQ(readText(output_ / "a.pack"), readText(output_ / "b.pack"));
   EXPECT_EQ(output_.names(), (std::vector<std::string>{"a.pack", "b.pack"}));
 }
 
 TEST_F(Command, VerboseAndQuiet) {
   const Finished verbose = malus({"-v", "bake", input() / "scene.json", "-o", output_ / "a.pack"});
-  EXPECT_TRUE(contains(verbose.err, "preparing cube")) << verbose.err;
+  EXPECT_TRUE(contains(verbose.err, "cube")) << verbose.err;
   const Finished after = malus({"bake", "-v", input() / "scene.json", "-o", output_ / "b.pack"});
-  EXPECT_TRUE(contains(after.err, "preparing cube")) << after.err;
+  EXPECT_TRUE(contains(after.err, "cube")) << after.err;
   const Finished quiet = malus({"-q", "bake", input() / "scene.json", "-o", output_ / "c.pack"});
   EXPECT_EQ(quiet.err, "");
 }
 
-TEST_F(Command, InfoTellsAndVerifies) {
+TEST_F(Command, InfoReportsAndVerifies) {
   const Finished text = malus({"info", pack(), "--verify"});
   EXPECT_EQ(text.exitCode, 0) << text.err;
-  EXPECT_TRUE(contains(text.out, "28 vertices, 14 triangles")) << text.out;
-  EXPECT_TRUE(contains(text.out, "verified: 10 sections")) << text.out;
+  for (const char* part : {"28 vertices", "14 triangles", "verified", "10 sections"})
+    EXPECT_TRUE(contains(text.out, part)) << text.out;
   const json j = json::parse(malus({"info", pack(), "--json"}).out);
   for (const char* key :
        {"formatVersion", "name", "vertices", "triangles", "meshes", "materials", "effects", "sections", "provenance"})
@@ -175,7 +176,7 @@ TEST_F(Command, PrepWritesAMeshAndAReport) {
       malus({"prep", input() / "cube.obj", "-o", output_ / "cube.mesh.drc", "--report", output_ / "report.json"});
   EXPECT_EQ(finished.exitCode, 0) << finished.err;
   EXPECT_EQ(output_.names(), (std::vector<std::string>{"cube.mesh.drc", "report.json"}));
-  const json report = json::parse(textOf(output_ / "report.json"));
+  const json report = json::parse(readText(output_ / "report.json"));
   EXPECT_EQ(report.at("input").at("vertices"), 8);
   EXPECT_EQ(report.at("output").at("triangles"), 12);
 }
@@ -186,16 +187,17 @@ TEST_F(Command, RenderWritesTheSameFileTwice) {
                                      output_ / (std::string(name) + ".png"), "--method", "stokes"});
     ASSERT_EQ(finished.exitCode, 0) << finished.err;
     EXPECT_EQ(finished.err, "");
-    EXPECT_TRUE(contains(finished.out, "tiny: embree stokes, 64 x 48, depth 4")) << finished.out;
+    for (const char* part : {"tiny", "embree", "stokes", "64 x 48", "depth 4"})
+      EXPECT_TRUE(contains(finished.out, part)) << finished.out;
   }
-  EXPECT_EQ(textOf(output_ / "a.exr"), textOf(output_ / "b.exr"));
-  EXPECT_EQ(textOf(output_ / "a.png"), textOf(output_ / "b.png"));
-  EXPECT_TRUE(textOf(output_ / "a.exr").starts_with("v/1\x01"));
-  EXPECT_TRUE(textOf(output_ / "a.png").starts_with("\x89PNG"));
+  EXPECT_EQ(readText(output_ / "a.exr"), readText(output_ / "b.exr"));
+  EXPECT_EQ(readText(output_ / "a.png"), readText(output_ / "b.png"));
+  EXPECT_TRUE(readText(output_ / "a.exr").starts_with("v/1\x01"));
+  EXPECT_TRUE(readText(output_ / "a.png").starts_with("\x89PNG"));
   EXPECT_EQ(output_.names(), (std::vector<std::string>{"a.exr", "a.png", "b.exr", "b.png"}));
 }
 
-TEST_F(Command, RenderTellsJson) {
+TEST_F(Command, RenderReportsJson) {
   const Finished finished = malus(
       {"render", pack(), "-o", output_ / "a.exr", "--json", "--backend", "reference", "--width", "32", "--depth", "2"});
   ASSERT_EQ(finished.exitCode, 0) << finished.err;
@@ -224,9 +226,9 @@ TEST_F(Command, CompareImages) {
   for (const char* key : {"mean", "rms", "max", "p999", "outliers"}) EXPECT_EQ(zero.at(key), 0) << key;
   EXPECT_EQ(zero.at("pixels"), 64 * 48);
 
-  const Finished told = malus({"compare-images", a, b});
-  EXPECT_EQ(told.exitCode, 0);  // without --fail-over a difference is a result
-  EXPECT_TRUE(contains(told.out, "of 3072 pixels")) << told.out;
+  const Finished text = malus({"compare-images", a, b});
+  EXPECT_EQ(text.exitCode, 0);  // without --fail-over a difference is a result
+  EXPECT_TRUE(contains(text.out, "3072")) << text.out;
   const Finished differ =
       malus({"compare-images", a, b, "--fail-over", "1e-6", "--json", "--difference", output_ / "difference.png"});
   EXPECT_EQ(differ.exitCode, 3);
@@ -235,66 +237,69 @@ TEST_F(Command, CompareImages) {
   EXPECT_TRUE(std::filesystem::exists(output_ / "difference.png"));
   EXPECT_EQ(malus({"compare-images", a, b, "--fail-over", "1e6"}).exitCode, 0);
 
-  expectRefusal(malus({"compare-images", a, output_ / "small.exr"}), "pictures differ in size");
-  expectRefusal(malus({"compare-images", a, b, "--channels", "S1.R"}), "no channel S1.R");
+  expectRefusal(malus({"compare-images", a, output_ / "small.exr"}), "size");
+  expectRefusal(malus({"compare-images", a, b, "--channels", "S1.R"}), "S1.R");
   expectRefusal(malus({"compare-images", a, output_ / "missing.exr"}), "missing.exr");
   expectRefusal(malus({"compare-images", a, pack()}), "tiny.pack");
-  writeText(output_ / "cut.exr", textOf(a).substr(0, textOf(a).size() / 2));
+  writeText(output_ / "cut.exr", readText(a).substr(0, readText(a).size() / 2));
   expectRefusal(malus({"compare-images", a, output_ / "cut.exr"}), "cut.exr");
 }
 
-// Everything that is wrong with an input or an output: code 1, one line, nothing left behind.
+// Wrong inputs and outputs: exit code 1, one line, no file left behind.
 class BadInput : public Command {
  protected:
-  // The scene with one text of it replaced, in a folder with its meshes.
+  // Writes the tiny scene with one text replaced, beside its meshes. Returns the path of scene.json.
   std::string sceneWith(std::string_view from, std::string_view to) {
     writeTinyScene(changed_.path());
-    std::string text = textOf(changed_ / "scene.json");
+    std::string text = readText(changed_ / "scene.json");
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     writeText(changed_ / "scene.json", text.replace(at, from.size(), to));
     return changed_ / "scene.json";
   }
   void expectNothingLeft() { EXPECT_EQ(output_.names(), std::vector<std::string>{}); }
-  void refuseBake(const std::string& scene, std::string_view about) {
-    expectRefusal(malus({"bake", scene, "-o", output_ / "a.pack"}), about);
+  template <class... Keyword>
+  void refuseBake(const std::string& scene, const Keyword&... keywords) {
+    expectRefusal(malus({"bake", scene, "-o", output_ / "a.pack"}), keywords...);
     expectNothingLeft();
   }
-  void refusePack(const std::string& file, std::string_view about) {
-    expectRefusal(malus({"info", file}), about);
-    expectRefusal(malus({"render", file, "-o", output_ / "a.exr"}), about);
+  template <class... Keyword>
+  void refusePack(const std::string& file, const Keyword&... keywords) {
+    expectRefusal(malus({"info", file}), keywords...);
+    expectRefusal(malus({"render", file, "-o", output_ / "a.exr"}), keywords...);
     expectNothingLeft();
   }
   Folder changed_;
 };
 
 TEST_F(BadInput, MissingFiles) {
-  refuseBake("/nowhere/scene.json", "/nowhere/scene.json: cannot open");
-  refusePack("/nowhere/a.pack", "/nowhere/a.pack: cannot open");
+  refuseBake("/nowhere/scene.json", "/nowhere/scene.json", "open");
+  refusePack("/nowhere/a.pack", "/nowhere/a.pack", "open");
   expectRefusal(malus({"prep", "/nowhere/a.obj", "-o", output_ / "a.drc"}), "/nowhere/a.obj");
   refuseBake(sceneWith("cube.obj", "none.obj"), "none.obj");
   expectNothingLeft();
 }
 
 TEST_F(BadInput, FoldersInsteadOfFiles) {
-  refuseBake(changed_.path(), "is not a regular file");
-  refusePack(changed_.path(), "is not a regular file");
+  const std::string folder = changed_.path();
+  refuseBake(folder, folder, "file");
+  refusePack(folder, folder, "file");
 }
 
 TEST_F(BadInput, WrongFormats) {
-  ASSERT_EQ(malus({"render", pack(), "-o", changed_ / "picture.png"}).exitCode, 0);
-  refusePack(changed_ / "picture.png", "picture.png: is not a scene pack; expected a file that starts with MALUSPAK");
-  refuseBake(changed_ / "picture.png", "picture.png:1: is not JSON");
-  refuseBake(pack(), "tiny.pack:1: is not JSON");
-  std::filesystem::copy_file(changed_ / "picture.png", changed_ / "picture.obj");
-  expectRefusal(malus({"prep", changed_ / "picture.obj", "-o", output_ / "a.drc"}), "picture.obj");
-  expectRefusal(malus({"prep", changed_ / "picture.png", "-o", output_ / "a.drc"}), "picture.png");
+  ASSERT_EQ(malus({"render", pack(), "-o", changed_ / "image.png"}).exitCode, 0);
+  refusePack(changed_ / "image.png", "image.png", "MALUSPAK");
+  refuseBake(changed_ / "image.png", "image.png:1:", "JSON");
+  refuseBake(pack(), "tiny.pack:1:", "JSON");
+  std::filesystem::copy_file(changed_ / "image.png", changed_ / "image.obj");
+  expectRefusal(malus({"prep", changed_ / "image.obj", "-o", output_ / "a.drc"}), "image.obj");
+  expectRefusal(malus({"prep", changed_ / "image.png", "-o", output_ / "a.drc"}), "image.png");
   writeText(changed_ / "empty.pack", "");
-  refusePack(changed_ / "empty.pack", "empty.pack: is not a scene pack");
+  refusePack(changed_ / "empty.pack", "empty.pack", "pack");
 }
 
 TEST_F(BadInput, DamagedPacks) {
-  const std::string good = textOf(pack());
+  const std::string good = readText(pack());
   for (const std::size_t size : {std::size_t{20}, std::size_t{100}, good.size() / 2, good.size() - 1}) {
     writeText(changed_ / "cut.pack", good.substr(0, size));
     refusePack(changed_ / "cut.pack", "cut.pack");
@@ -326,27 +331,26 @@ TEST_F(BadInput, BadMeshes) {
 }
 
 TEST_F(BadInput, BadScenes) {
-  refuseBake(sceneWith("\"preset\": \"gold\"", "\"preset\": \"golt\""),
-             "scene.json: materials.gold.preset: unknown material 'golt'; expected 'gold'");
-  refuseBake(sceneWith("\"material\": \"gold\"", "\"material\": \"gild\""),
-             "meshes[0].material: unknown material 'gild'");
-  refuseBake(sceneWith("\"depth\"", "\"dept\""), "scene.json: depth: is missing");
-  refuseBake(sceneWith("\"metal\"", "\"glas\""), "materials.gold.type: unknown type");
+  refuseBake(sceneWith("\"preset\": \"gold\"", "\"preset\": \"golt\""), "scene.json", "materials.gold.preset", "'golt'",
+             "'gold'");
+  refuseBake(sceneWith("\"material\": \"gold\"", "\"material\": \"gild\""), "meshes[0].material", "'gild'");
+  refuseBake(sceneWith("\"depth\"", "\"dept\""), "scene.json", "depth", "missing");
+  refuseBake(sceneWith("\"metal\"", "\"glas\""), "materials.gold.type");
   refuseBake(sceneWith("[64, 48]", "[64, 0]"), "resolution");
   refuseBake(sceneWith("\"radiance\": [0.4, 0.5, 0.6]", "\"image\": \"none.hdr\""), "none.hdr");
 }
 
 TEST_F(BadInput, UnwritableOutputs) {
-  expectRefusal(malus({"bake", input() / "scene.json", "-o", output_ / "no/such/a.pack"}), "a.pack: cannot write");
-  expectRefusal(malus({"render", pack(), "-o", output_ / "no/such/a.exr"}), "a.exr: cannot write");
-  expectRefusal(malus({"render", pack(), "-o", output_ / "no/such/a.png"}), "a.png: cannot write");
-  expectRefusal(malus({"prep", input() / "cube.obj", "-o", output_ / "no/such/a.drc"}), "a.drc: cannot write");
-  const std::string under = pack() + "/a.pack";  // a file is no folder
-  expectRefusal(malus({"bake", input() / "scene.json", "-o", under}), "a.pack: cannot write");
-  expectRefusal(malus({"render", pack(), "-o", pack() + "/a.exr"}), "a.exr: cannot write");
-  expectRefusal(malus({"bake", input() / "scene.json", "-o", output_.path()}), "cannot write");
-  expectRefusal(malus({"render", pack(), "-o", output_ / "a.jpeg"}), "a.jpeg: unknown kind of picture");
-  expectRefusal(malus({"render", pack(), "-o", output_ / "picture"}), "unknown kind of picture");
+  expectRefusal(malus({"bake", input() / "scene.json", "-o", output_ / "no/such/a.pack"}), "a.pack", "write");
+  expectRefusal(malus({"render", pack(), "-o", output_ / "no/such/a.exr"}), "a.exr", "write");
+  expectRefusal(malus({"render", pack(), "-o", output_ / "no/such/a.png"}), "a.png", "write");
+  expectRefusal(malus({"prep", input() / "cube.obj", "-o", output_ / "no/such/a.drc"}), "a.drc", "write");
+  const std::string under = pack() + "/a.pack";  // a file in place of a folder
+  expectRefusal(malus({"bake", input() / "scene.json", "-o", under}), "a.pack", "write");
+  expectRefusal(malus({"render", pack(), "-o", pack() + "/a.exr"}), "a.exr", "write");
+  expectRefusal(malus({"bake", input() / "scene.json", "-o", output_.path()}), "write");
+  expectRefusal(malus({"render", pack(), "-o", output_ / "a.jpeg"}), "a.jpeg");
+  expectRefusal(malus({"render", pack(), "-o", output_ / "image"}), output_ / "image");
   expectNothingLeft();
 }
 
@@ -355,21 +359,18 @@ TEST_F(BadInput, RegionsAndSizesOutOfBounds) {
   expectRefusal(malus({"render", pack(), "-o", output_ / "a.exr", "--region", "0", "0", "0", "1"}), "--region");
   const std::string scene = sceneWith("[64, 48]", "[1, 16384]");
   ASSERT_EQ(malus({"bake", scene, "-o", changed_ / "tall.pack"}).exitCode, 0);
-  expectRefusal(malus({"render", changed_ / "tall.pack", "-o", output_ / "a.exr", "--width", "64"}),
-                "make a picture that is too large");
+  expectRefusal(malus({"render", changed_ / "tall.pack", "-o", output_ / "a.exr", "--width", "64"}), "--width",
+                "too large");
   expectNothingLeft();
 }
 
-TEST_F(BadInput, AFullDisk) {
-  // No file may grow beyond so many kilobytes; works for every user and on every file system.
+TEST_F(BadInput, FullDisk) {
   writeText(changed_ / "old.exr", "what was there");
-  expectRefusal(malusWithRoomFor(1, {"bake", input() / "scene.json", "-o", output_ / "a.pack"}),
-                "a.pack: cannot write");
-  expectRefusal(malusWithRoomFor(4, {"render", pack(), "-o", output_ / "a.exr"}), "a.exr: cannot write");
-  expectRefusal(malusWithRoomFor(4, {"render", pack(), "-o", changed_ / "old.exr"}), "old.exr: cannot write");
-  EXPECT_EQ(textOf(changed_ / "old.exr"), "what was there");
-  expectRefusal(malusWithRoomFor(4, {"render", pack(), "-o", output_ / "a.png", "--width", "256"}),
-                "a.png: cannot write");
+  expectRefusal(malusWithFileLimit(1, {"bake", input() / "scene.json", "-o", output_ / "a.pack"}), "a.pack", "write");
+  expectRefusal(malusWithFileLimit(4, {"render", pack(), "-o", output_ / "a.exr"}), "a.exr", "write");
+  expectRefusal(malusWithFileLimit(4, {"render", pack(), "-o", changed_ / "old.exr"}), "old.exr", "write");
+  EXPECT_EQ(readText(changed_ / "old.exr"), "what was there");
+  expectRefusal(malusWithFileLimit(4, {"render", pack(), "-o", output_ / "a.png", "--width", "256"}), "a.png", "write");
   std::string mesh;
   for (int i = 0; i < 3000; ++i) {
     const std::string x = std::to_string(i % 50), y = std::to_string(i * i % 97), z = std::to_string(i * i * 7 % 1009);
@@ -377,7 +378,7 @@ TEST_F(BadInput, AFullDisk) {
     if (i >= 2) mesh += "f " + std::to_string(i - 1) + " " + std::to_string(i) + " " + std::to_string(i + 1) + "\n";
   }
   writeText(changed_ / "large.obj", mesh);
-  expectRefusal(malusWithRoomFor(4, {"prep", changed_ / "large.obj", "-o", output_ / "a.drc"}), "a.drc: cannot write");
+  expectRefusal(malusWithFileLimit(4, {"prep", changed_ / "large.obj", "-o", output_ / "a.drc"}), "a.drc", "write");
   expectNothingLeft();
 }
 
@@ -399,7 +400,7 @@ TEST_F(BadInput, UnknownVulkanDevice) {
   expectNothingLeft();
 }
 
-TEST_F(Command, InterruptedRendersLeaveNothing) {
+TEST_F(Command, InterruptedRendersLeaveNoFile) {
   for (const int signal : {SIGINT, SIGTERM}) {
     Start start;
     start.sendSignal = signal;
@@ -414,14 +415,12 @@ TEST_F(Command, InterruptedRendersLeaveNothing) {
 }
 
 TEST_F(Command, WorksFromAnyFolder) {
-  // Relative paths, through a scene in the working folder.
+  // Relative paths in a scene in the working folder.
   const Start start{.workingFolder = input().path()};
   const Finished finished = malus({"bake", "scene.json", "-o", output_ / "relative.pack"}, start);
   EXPECT_EQ(finished.exitCode, 0) << finished.err;
-  EXPECT_EQ(textOf(output_ / "relative.pack"), textOf(pack()));
+  EXPECT_EQ(readText(output_ / "relative.pack"), readText(pack()));
 }
 
-// The schema's bounds keep every value that a pack can make within a float; what the check finds where they are broken
-// is tested on the renderers (tests/hard_cases/check_numerics_test.cpp).
 }  // namespace
 }  // namespace malus::test

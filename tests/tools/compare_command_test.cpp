@@ -1,4 +1,4 @@
-// `malus compare` and `malus render --max-error`: results, refusals, rows that fail, interruption.
+// `malus compare` and `malus render --max-error`: results, wrong arguments, failing rows, interruption.
 #include <csignal>
 #include <map>
 #include <set>
@@ -28,7 +28,7 @@ class Compare : public testing::Test {
     start.timeoutSeconds = 1500;
     return malus(arguments, start);
   }
-  json results() const { return json::parse(textOf(report() + "/results.json")); }
+  json results() const { return json::parse(readText(report() + "/results.json")); }
 
   Folder folder_;
 };
@@ -60,7 +60,7 @@ TEST_F(Compare, EveryMethodOnBothRenderers) {
   // Fairness: every method sends the same rays.
   for (const auto& [renderer, counts] : rays) EXPECT_EQ(counts.size(), 1u) << renderer;
   EXPECT_TRUE(contains(finished.out, "ratio to schlick"));
-  EXPECT_TRUE(contains(textOf(report() + "/results.csv"), "tiny,embree,stokes-half,auto,32,24,4,24,"));
+  EXPECT_TRUE(contains(readText(report() + "/results.csv"), "tiny,embree,stokes-half,auto,32,24,4,24,"));
 }
 
 TEST_F(Compare, SizesAndDepths) {
@@ -78,7 +78,7 @@ TEST_F(Compare, SizesAndDepths) {
                 "--height");
 }
 
-TEST_F(Compare, RowsThatFailKeepTheirReasonAndTheOthersGoOn) {
+TEST_F(Compare, FailedRowsKeepTheirReasonAndOthersContinue) {
   const Finished finished = compare({"--rounds", "1", "--methods", "fresnel", "--depth", "40"});
   ASSERT_EQ(finished.exitCode, 0) << finished.err;
   std::size_t failed = 0;
@@ -89,11 +89,11 @@ TEST_F(Compare, RowsThatFailKeepTheirReasonAndTheOthersGoOn) {
       continue;
     }
     ++failed;
-    EXPECT_TRUE(contains(row.at("status").get<std::string>(), "cannot recurse that deep")) << row.at("status");
+    EXPECT_TRUE(contains(row.at("status").get<std::string>(), "--depth")) << row.at("status");
     EXPECT_TRUE(row.at("medianMs").is_null());
   }
   EXPECT_EQ(failed, 2u);
-  EXPECT_TRUE(contains(finished.out, "failed: ")) << finished.out;
+  EXPECT_TRUE(contains(finished.out, "failed")) << finished.out;
 }
 
 TEST_F(Compare, Refusals) {
@@ -101,7 +101,7 @@ TEST_F(Compare, Refusals) {
   EXPECT_EQ(compare({"--backends", "magic"}).exitCode, 2);
   EXPECT_EQ(malus({"compare", "-o", report()}).exitCode, 2);
   expectRefusal(compare({"--rounds", "0"}), "--rounds");
-  expectRefusal(malus({"compare", pack(), pack(), "-o", report()}), "second pack");
+  expectRefusal(malus({"compare", pack(), pack(), "-o", report()}), "'tiny'");
   expectRefusal(malus({"compare", folder_ / "no.pack", "-o", report()}), "no.pack");
   writeText(folder_ / "taken", "");
   expectRefusal(malus({"compare", pack(), "-o", folder_ / "taken/report"}), "taken");
@@ -111,8 +111,8 @@ TEST_F(Compare, Refusals) {
 
 TEST_F(Compare, InterruptingKeepsTheFinishedRounds) {
   Start start;
-  // Progress is shown on a terminal alone, -v shows it in a pipe too.
-  start.sendSignalWhen = [](std::string_view said) { return contains(said, "round 3 of "); };
+  // Progress is printed on a terminal; -v prints it to a pipe as well.
+  start.sendSignalWhen = [](std::string_view err) { return contains(err, "round 3"); };
   start.sendSignal = SIGINT;
   const Finished finished = malus({"-v", "compare", pack(), "-o", report(), "--backends", "embree", "--width", "200",
                                    "--rounds", "100000", "--no-report"},
@@ -125,10 +125,10 @@ TEST_F(Compare, InterruptingKeepsTheFinishedRounds) {
   EXPECT_EQ(document.at("settings").at("interrupted"), true);
   ASSERT_EQ(document.at("rows").size(), 12u);
   for (const json& row : document.at("rows")) EXPECT_EQ(row.at("samplesMs").size(), rounds);
-  EXPECT_TRUE(contains(finished.err, "interrupted: ")) << finished.err;
+  EXPECT_TRUE(contains(finished.err, "interrupted")) << finished.err;
 }
 
-TEST_F(Compare, MaxErrorTakesAMethodThatIsGoodEnoughAndRemembersIt) {
+TEST_F(Compare, MaxErrorChoosesAMethodAndCachesItsMeasurements) {
   Start start;
   start.environment = {{"XDG_CACHE_HOME", folder_ / "cache"}};
   const auto render = [&](const char* bound) {
@@ -139,8 +139,8 @@ TEST_F(Compare, MaxErrorTakesAMethodThatIsGoodEnoughAndRemembersIt) {
   ASSERT_EQ(exact.exitCode, 0) << exact.err;
   const json chosen = json::parse(exact.out).at("method");
   for (const char* wrong : {"schlick", "fresnel", "sp", "sp-cosine", "sp-ratio"}) EXPECT_NE(chosen, wrong);
-  EXPECT_TRUE(contains(exact.err, "relative RMS error")) << exact.err;
-  // What was measured is kept by the pack's hash.
+  EXPECT_TRUE(contains(exact.err, "RMS")) << exact.err;
+  // The measurements are cached by the hash of the pack.
   const auto cached = [&] {
     std::vector<std::filesystem::path> files;
     for (const auto& e : std::filesystem::directory_iterator(folder_.path() / "cache/malus/errors"))
@@ -153,13 +153,13 @@ TEST_F(Compare, MaxErrorTakesAMethodThatIsGoodEnoughAndRemembersIt) {
   ASSERT_EQ(coarse.exitCode, 0) << coarse.err;
   ASSERT_EQ(cached().size(), 1u);
   EXPECT_EQ(std::filesystem::last_write_time(cached()[0]), written);
-  // The fastest of all, by the times that were kept.
-  const json estimates = json::parse(textOf(cached()[0])).at("estimates");
+  // The fastest of all methods, by the cached times.
+  const json estimates = json::parse(readText(cached()[0])).at("estimates");
   const auto fastest = std::min_element(estimates.begin(), estimates.end(), [](const json& a, const json& b) {
     return a.at("medianMs") < b.at("medianMs");
   });
   EXPECT_EQ(json::parse(coarse.out).at("method"), fastest->at("method"));
-  expectRefusal(render("0"), "no method is within 0");
+  expectRefusal(render("0"), "no method");
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""What an effect costs where it is off: nothing. Counts the instructions of Embree's renderer with valgrind's callgrind,
-which counts the same whatever else the machine does. Environment: MALUS the command,
-MALUS_PROBE the program instructions_probe, MALUS_SCENES the folder of scenes,
-MALUS_MOST_BYTES the bound on the command's size (absent: a build that is not meant to be small)."""
+"""Effects that are off cost no instructions. Counts the instructions of Embree's renderer with valgrind's callgrind,
+whose counts do not depend on the load of the machine. Environment: MALUS the command, MALUS_PROBE the program
+instructions_probe, MALUS_SCENES the folder of scenes, MALUS_MOST_BYTES the largest size of the command (absent: not
+checked)."""
 import json
 import os
 import pathlib
@@ -15,7 +15,7 @@ import unittest
 kMalus = os.environ["MALUS"]
 kProbe = os.environ["MALUS_PROBE"]
 kScenes = pathlib.Path(os.environ["MALUS_SCENES"])
-kSame = 1e-3  # how much two counts of the same work differ: the scheduler's share
+kTolerance = 1e-3  # relative difference between two counts of the same work, by the scheduler
 
 
 def run(*arguments) -> str:
@@ -26,12 +26,12 @@ def run(*arguments) -> str:
 
 
 def plain_material(m: dict) -> dict:
-    """The same without what few materials have."""
+    """Returns the material without the keys of optional effects."""
     if "albedoMap" in m:
         m.setdefault("albedo", 1)
-    gone = ("absorption", "outsideAbsorption", "coating", "roughness", "polarization", "albedoMap", "etaMap", "kMap",
-            "projection")
-    return {key: value for key, value in m.items() if key not in gone}
+    optional = ("absorption", "outsideAbsorption", "coating", "roughness", "polarization", "albedoMap", "etaMap", "kMap",
+                "projection")
+    return {key: value for key, value in m.items() if key not in optional}
 
 
 class Instructions(unittest.TestCase):
@@ -61,15 +61,15 @@ class Instructions(unittest.TestCase):
             run(kMalus, "bake", source / "scene.json", "-o", self.packs[name])
         return self.packs[name]
 
-    def counts(self, pictures: list) -> list:
-        """Instructions of each picture (pack, method, effect left out, effects)."""
+    def counts(self, images: list) -> list:
+        """Returns the instructions of each image (pack, method, removed effect, effects)."""
         out = self.folder / "callgrind"
         for old in self.folder.glob("callgrind*"):
             old.unlink()
         run("valgrind", "--tool=callgrind", f"--callgrind-out-file={out}",
-            "--toggle-collect=malus::embree::Renderer::render*", kProbe, *(a for p in pictures for a in p))
+            "--toggle-collect=malus::embree::Renderer::render*", kProbe, *(a for p in images for a in p))
         found = []
-        for i in range(1, len(pictures) + 1):
+        for i in range(1, len(images) + 1):
             text = (self.folder / f"callgrind.{i}").read_text(errors="replace")
             found.append(int(re.search(r"^(?:summary|totals): (\d+)", text, re.MULTILINE).group(1)))
             self.assertGreater(found[-1], 100000)  # something was counted
@@ -79,17 +79,17 @@ class Instructions(unittest.TestCase):
         scenes = {"textures": "textures", "absorption": "absorption", "polarized-sky": "polarized-sky",
                   "display": "polarized-emitters", "coating": "coatings", "rough-reflection": "rough-reflection"}
         cases = [(scene, effect, method) for scene, effect in scenes.items() for method in ("importance", "stokes")]
-        pictures = []
+        images = []
         for scene, effect, method in cases:
             pack, plain = self.pack(f"effects/{scene}"), self.pack(f"effects/{scene}", plain=True)
-            pictures += [(plain, method, "-", "auto"), (pack, method, effect, "auto"), (pack, method, "-", "auto")]
-        counts = self.counts(pictures)
+            images += [(plain, method, "-", "auto"), (pack, method, effect, "auto"), (pack, method, "-", "auto")]
+        counts = self.counts(images)
         for i, (scene, _, method) in enumerate(cases):
-            never, off, on = counts[3 * i:3 * i + 3]
-            print(f"{scene} {method}: never had {never}, off {off}, on {on}")
+            without, off, on = counts[3 * i:3 * i + 3]
+            print(f"{scene} {method}: without {without}, off {off}, on {on}")
             with self.subTest(scene=scene, method=method):
-                self.assertLess(abs(off - never), kSame * never)
-                self.assertGreater(on, never)
+                self.assertLess(abs(off - without), kTolerance * without)
+                self.assertGreater(on, without)
 
     def test_auto_does_less_than_all(self):
         cases = [(scene, method) for scene in ("hard/mirror-loop", "hard/glass-slab")
@@ -102,20 +102,20 @@ class Instructions(unittest.TestCase):
             with self.subTest(scene=scene, method=method):
                 self.assertLess(some, 0.99 * everything)
 
-    def test_polarization_that_cannot_show_costs_nothing(self):
-        # One interaction: no path has two diattenuators, and the command takes fresnel, whose count is given here.
+    def test_polarization_without_effect_costs_nothing(self):
+        # With one interaction no path has two diattenuators, and the command uses fresnel, which is counted here.
         pack = self.pack("hard/glass-slab")
-        said = run(kMalus, "render", pack, "--backend", "embree", "--method", "stokes", "--depth", "1", "--intensity",
-                   "--width", "24", "-o", self.folder / "picture.png")
-        self.assertIn("fresnel (in place of stokes: polarized light cannot show in this picture)", said)
+        output = run(kMalus, "render", pack, "--backend", "embree", "--method", "stokes", "--depth", "1", "--intensity",
+                   "--width", "24", "-o", self.folder / "image.png")
+        self.assertRegex(output, r"\bfresnel\b.*\bstokes\b")
         fresnel, stokes = self.counts([(pack, method, "-", "DEPTH=1") for method in ("fresnel", "stokes")])
         print(f"depth 1: fresnel {fresnel}, stokes {stokes}")
         self.assertLess(fresnel, 0.95 * stokes)
 
     def test_the_builds_stay_small(self):
         most = os.environ.get("MALUS_MOST_BYTES")
-        if not most:  # of another build type there is nothing to hold
-            return
+        if not most:
+            self.skipTest("MALUS_MOST_BYTES is not set")
         self.assertLess(os.path.getsize(kMalus), int(most))
 
 

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <stdexcept>
 
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to the program
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX: declared by the program
 
 namespace malus::test {
 
@@ -33,7 +33,7 @@ struct Pipe {
   }
 };
 
-std::vector<std::string> environmentOf(const Start& start) {
+std::vector<std::string> makeEnvironment(const Start& start) {
   std::vector<std::string> list;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
@@ -59,7 +59,7 @@ Finished run(const std::vector<std::string>& command, const Start& start) {
   Finished finished;
   Pipe out, err;
 
-  // Step 1: start it, in its folder, with its streams.
+  // Start the program with its streams and working folder.
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
@@ -69,7 +69,7 @@ Finished run(const std::vector<std::string>& command, const Start& start) {
     posix_spawn_file_actions_addopen(&actions, 1, start.standardOutput.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   posix_spawn_file_actions_adddup2(&actions, err.ends[1], 2);
   if (!start.workingFolder.empty()) posix_spawn_file_actions_addchdir_np(&actions, start.workingFolder.c_str());
-  std::vector<std::string> arguments = command, environment = environmentOf(start);
+  std::vector<std::string> arguments = command, environment = makeEnvironment(start);
   const auto begin = Clock::now();
   pid_t child = -1;
   const int failed = ::posix_spawnp(&child, arguments[0].c_str(), &actions, nullptr, pointers(arguments).data(),
@@ -78,7 +78,7 @@ Finished run(const std::vector<std::string>& command, const Start& start) {
   if (failed != 0) throw std::runtime_error("cannot start " + command[0] + ": " + std::strerror(failed));
   out.closeEnd(1), err.closeEnd(1);
 
-  // Step 2: read both streams until both end.
+  // Read both streams until both end.
   std::array<pollfd, 2> streams{{{out.ends[0], POLLIN, 0}, {err.ends[0], POLLIN, 0}}};
   bool signalled = false, killed = false;
   while (streams[0].fd >= 0 || streams[1].fd >= 0) {
@@ -102,7 +102,7 @@ Finished run(const std::vector<std::string>& command, const Start& start) {
     }
   }
 
-  // Step 3: how it ended.
+  // Wait for the exit status.
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -1,4 +1,4 @@
-// Starts a program and waits for it: what it prints and how it ends.
+// Starts a program, waits for it and returns its output and its exit status.
 #pragma once
 
 #include <filesystem>
@@ -18,16 +18,16 @@ struct Finished {
 };
 
 struct Start {
-  std::vector<std::pair<std::string, std::string>> environment{};  // set on top of this process's own
-  std::filesystem::path standardOutput{};                          // a file instead of Finished::out
-  std::filesystem::path workingFolder{};                           // empty: this process's own
-  // Called with everything that stderr has said so far, whenever it says more: true sends sendSignal, once.
+  std::vector<std::pair<std::string, std::string>> environment{};  // added to the environment of this process
+  std::filesystem::path standardOutput{};                          // a file in place of Finished::out
+  std::filesystem::path workingFolder{};                           // empty: that of this process
+  // Called with all of stderr so far whenever it grows; sendSignal is sent once, when it first returns true.
   std::function<bool(std::string_view)> sendSignalWhen{};
   int sendSignal = 0;
-  double timeoutSeconds = 60;  // then it is killed
+  double timeoutSeconds = 60;  // after which the program is killed
 };
 
-// command[0] is a path, or a name to be found on PATH. Throws std::runtime_error where it cannot be started.
+// command[0] is a path or a name to be found on PATH. Throws std::runtime_error if the program cannot be started.
 Finished run(const std::vector<std::string>& command, const Start& start = {});
 
 }  // namespace malus::test

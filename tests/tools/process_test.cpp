@@ -1,4 +1,4 @@
-// The tests' own way to start programs.
+// The function by which the tests start programs.
 #include <csignal>
 
 #include "tests/tools/command.h"
@@ -6,7 +6,7 @@
 namespace malus::test {
 namespace {
 
-TEST(Process, TellsOutputAndExitCode) {
+TEST(Process, ReturnsOutputAndExitCode) {
   const Finished finished = run({"sh", "-c", "echo out; echo err >&2; exit 7"});
   EXPECT_EQ(finished.exitCode, 7);
   EXPECT_EQ(finished.signal, 0);
@@ -14,7 +14,7 @@ TEST(Process, TellsOutputAndExitCode) {
   EXPECT_EQ(finished.err, "err\n");
 }
 
-TEST(Process, TellsSignals) {
+TEST(Process, ReturnsSignals) {
   const Finished finished = run({"sh", "-c", "kill -SEGV $$"});
   EXPECT_EQ(finished.exitCode, -1);
   EXPECT_EQ(finished.signal, SIGSEGV);
@@ -26,7 +26,7 @@ TEST(Process, ReadsBothStreamsAtOnce) {
   EXPECT_EQ(finished.err.size(), 300000u);
 }
 
-TEST(Process, KillsWhatDoesNotEnd) {
+TEST(Process, KillsAfterTheTimeout) {
   const Finished finished = run({"sleep", "60"}, {.timeoutSeconds = 0.2});
   EXPECT_EQ(finished.signal, SIGKILL);
   EXPECT_LT(finished.seconds, 30);
@@ -38,7 +38,7 @@ TEST(Process, EnvironmentAndFolder) {
   EXPECT_EQ(finished.out, "value\n/\n");
 }
 
-TEST(Process, WhatCannotBeStarted) { EXPECT_THROW(run({"/nowhere/program"}), std::runtime_error); }
+TEST(Process, MissingProgramThrows) { EXPECT_THROW(run({"/nowhere/program"}), std::runtime_error); }
 
 }  // namespace
 }  // namespace malus::test

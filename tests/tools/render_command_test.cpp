@@ -1,4 +1,4 @@
-// `malus render` and `malus sweep`: what a picture is asked for, and what it says of it.
+// `malus render` and `malus sweep`: numeric checks, choice of the method, effects.
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/command.h"
@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST(Render, ChecksItsNumbers) {
+TEST(Render, CheckNumerics) {
   const Folder folder;
   writeTinyScene(folder.path());
   ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
@@ -16,11 +16,11 @@ TEST(Render, ChecksItsNumbers) {
     const Finished checked = malus({"render", folder / "tiny.pack", "-o", folder / "a.exr", "--backend", backend,
                                     "--method", "stokes", "--check-numerics"});
     EXPECT_EQ(checked.exitCode, 0) << checked.err;
-    EXPECT_TRUE(contains(checked.out, "every value is finite and physical")) << checked.out;
+    EXPECT_TRUE(contains(checked.out, "finite")) << checked.out;
   }
 }
 
-TEST(Render, SweepByFourAnalysers) {
+TEST(Render, SweepsAgreeBetweenMethods) {
   const Folder folder;
   writeTinyScene(folder.path());
   ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
@@ -34,7 +34,7 @@ TEST(Render, SweepByFourAnalysers) {
   EXPECT_EQ(compared.exitCode, 0) << compared.out;
 }
 
-TEST(Render, MaxErrorKeepsWhatIsAskedOfThePicture) {
+TEST(Render, MaxErrorKeepsStokesOutput) {
   const Folder folder;
   writeTinyScene(folder.path());
   ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
@@ -57,13 +57,13 @@ TEST(Render, Effects) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return malus(arguments);
   };
-  // At depth 0 nothing is reflected: the intensity of stokes is that of fresnel, and it is said.
+  // At depth 0 nothing is reflected: fresnel gives the intensity of stokes, and its use is reported.
   const Finished cheaper = render({"-o", folder / "a.png", "--method", "stokes", "--depth", "0"});
   ASSERT_EQ(cheaper.exitCode, 0) << cheaper.err;
   const json document = json::parse(cheaper.out);
   EXPECT_EQ(document.at("method"), "fresnel");
-  EXPECT_TRUE(contains(document.at("inPlaceOf").get<std::string>(), "in place of stokes: ")) << cheaper.out;
-  // A file of Stokes vectors keeps them, --intensity does without.
+  EXPECT_TRUE(contains(document.at("inPlaceOf").get<std::string>(), "stokes")) << cheaper.out;
+  // An EXR file contains Stokes vectors unless --intensity is given.
   EXPECT_EQ(json::parse(render({"-o", folder / "a.exr", "--method", "stokes", "--depth", "0"}).out).at("method"),
             "stokes-linear");
   EXPECT_EQ(json::parse(render({"-o", folder / "b.exr", "--method", "stokes", "--depth", "0", "--intensity"}).out)
@@ -72,12 +72,12 @@ TEST(Render, Effects) {
   EXPECT_TRUE(json::parse(render({"-o", folder / "a.png", "--method", "stokes", "--effects", "all"}).out)
                   .at("inPlaceOf")
                   .is_null());
-  // Forced off: rendered as asked, with a warning.
+  // Effects that are removed although the scene has them: rendered with a warning.
   const Finished less =
       render({"-o", folder / "a.png", "--method", "stokes", "--effects", "diffuse,dielectric,conductor"});
   ASSERT_EQ(less.exitCode, 0) << less.err;
-  EXPECT_TRUE(contains(less.err, "leaves out linear-polarization, which this scene needs")) << less.err;
-  EXPECT_TRUE(contains(less.err, "leaves out point-lights")) << less.err;
+  EXPECT_TRUE(contains(less.err, "linear-polarization")) << less.err;
+  EXPECT_TRUE(contains(less.err, "point-lights")) << less.err;
   expectRefusal(render({"-o", folder / "c.png", "--effects", "magic"}), "linear-polarization");
   EXPECT_EQ(
       render({"-o", folder / "c.exr", "--method", "stokes", "--intensity", "--output-dolp", folder / "d.png"}).exitCode,

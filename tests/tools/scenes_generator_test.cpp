@@ -1,4 +1,4 @@
-// The generator of the scenes writes exactly the files that are committed.
+// tools/scenes/generate writes exactly the committed files.
 #include <set>
 
 #include "tests/tools/command.h"
@@ -7,7 +7,7 @@ namespace malus::test {
 namespace {
 namespace fs = std::filesystem;
 
-// Paths below a folder, without the scene's pictures for people.
+// Returns the paths of all files below a folder, relative to it.
 std::set<std::string> filesBelow(const fs::path& folder) {
   std::set<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -15,7 +15,7 @@ std::set<std::string> filesBelow(const fs::path& folder) {
   return files;
 }
 
-TEST(ScenesGenerator, WritesWhatIsCommitted) {
+TEST(ScenesGenerator, WritesTheCommittedFiles) {
   const fs::path source = MALUS_SOURCE_DIR;
   const Folder output;
   const Finished finished =
@@ -28,7 +28,7 @@ TEST(ScenesGenerator, WritesWhatIsCommitted) {
       ADD_FAILURE() << "scenes/" << file << " is generated and not committed";
       continue;
     }
-    const std::string found = textOf(output / file), expected = textOf(source / "scenes" / file);
+    const std::string found = readText(output / file), expected = readText(source / "scenes" / file);
     const auto at = std::mismatch(found.begin(), found.end(), expected.begin(), expected.end()).first - found.begin();
     EXPECT_TRUE(found == expected) << "scenes/" << file << " differs from byte " << at << " on (" << found.size()
                                    << " bytes generated, " << expected.size() << " committed)";

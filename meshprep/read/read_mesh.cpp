@@ -11,7 +11,6 @@
 #include "meshprep/base/error.h"
 #include "meshprep/read/read_gltf.h"
 #include "meshprep/read/scan.h"
-#include "meshprep/read/second_opinion.h"
 #include "meshprep/read/source_scene.h"
 
 namespace malus::prep {
@@ -51,12 +50,6 @@ Scan scanFile(Format format, std::string& bytes, const std::string& where) {
   return scanOff(bytes, where);
 }
 
-bool hasLargeFace(const Polygons& polygons) {
-  for (std::size_t i = 0; i < polygons.faceCount(); ++i)
-    if (polygons.face(i).size() > kMaxOpenMeshCorners) return true;
-  return false;
-}
-
 }  // namespace
 
 Polygons readMesh(const std::filesystem::path& path) {
@@ -65,7 +58,7 @@ Polygons readMesh(const std::filesystem::path& path) {
   std::string extension;
   const Format format = formatOf(path, extension);
 
-  // Step 1: scan. A byte order mark hides a text file's first word from every reader.
+  // Remove a byte order mark, which hides the first word of a text file.
   std::string bytes = readTextFile(path);
   if (bytes.empty()) throw Error(where, "is empty", "a mesh");
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
@@ -80,9 +73,6 @@ Polygons readMesh(const std::filesystem::path& path) {
     throw Error(where, "the faces name their vertices too often",
                 fmt::format("at most {} corners for {} vertices", mostCorners, polygons.positions.size()),
                 fmt::to_string(polygons.corners.size()));
-
-  // Step 2: OpenMesh, from the very bytes that were scanned, where it is able to read them.
-  if (scan.openMeshReads && !hasLargeFace(polygons)) requireSecondOpinion(std::move(bytes), extension, scan, where);
   return std::move(scan.polygons);
 }
 

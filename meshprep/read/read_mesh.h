@@ -1,17 +1,11 @@
-// A mesh file (OBJ, PLY, STL, OFF, told by its extension) as polygons. Of glTF (.gltf, .glb; read_gltf.h) every
-// instance is there, in world space.
+// Reads a mesh file (OBJ, PLY, STL, OFF, by extension) as polygons. For glTF (.gltf, .glb; read_gltf.h) the result
+// contains every instance in world space.
 //
-// The file is scanned (scan.h), then OpenMesh reads the same bytes, in which the scan has blanked what OpenMesh gets
-// wrong. Vertices, faces and every corner must then be those of the scan, or the file is an error; coordinates
-// are those of the scan, in double, since OpenMesh's go through float (second_opinion.h).
+// Coordinates are kept in double precision. The tests compare the scans with OpenMesh's readers
+// (tests/meshprep/read/crosscheck.h).
 //
-// Read by the scan alone, its own counts checked against those of the file, because OpenMesh reads them wrong or not at
-// all: PLY with triangle strips, with lists beside the corners or before them, with lengths of lists other than uchar,
-// uint8 and int, with whole numbers for coordinates, with faces before vertices, with other elements that have data;
-// ASCII STL with empty lines between the corners of a face; any file with a face of more than 256 corners.
-//
-// Materials are names alone here. A `mtllib` of OBJ may name one file with blanks in it or several files: read_mtl.h
-// finds out.
+// Materials are names only. A `mtllib` statement of OBJ may name one file with blanks in its name, or several files:
+// read_mtl.h decides.
 #pragma once
 
 #include <filesystem>
@@ -20,9 +14,9 @@
 
 namespace malus::prep {
 
-// STL shares no vertices: three positions a face. Throws Error that names a line or a byte: unreadable file, unknown
-// extension, no vertices or faces, whatever readGltf() refuses, more than 65536 + 64 corners a vertex, whatever the
-// scan refuses, OpenMesh reading something else than the scan. 10 MB of any bytes take less than 2 s and 512 MB.
+// STL shares no vertices: three positions per face. Throws Error that names a line or a byte: unreadable file, unknown
+// extension, no vertices or faces, more than 65536 + 64 corners per vertex, and every error of readGltf() and of the
+// scans. Any 10 MB of bytes take less than 2 s and 512 MB.
 Polygons readMesh(const std::filesystem::path& path);
 
 }  // namespace malus::prep

@@ -1,10 +1,8 @@
-// A strict look at a mesh file before OpenMesh sees it: every number finite, every index in range, every
-// count backed by bytes.
+// Strict parsing of a mesh file: every number must be finite, every index in range, every count backed by bytes.
 //
-// Each scan returns what the file says. It also changes the bytes, in place, to what OpenMesh reads right: what it
-// has no need for and what could confuse it (materials, texture coordinates, names, colours) becomes blanks, and the
-// lines of a continued statement become one. Where a file is of a variant that OpenMesh cannot read whatever is
-// blanked, the scan says so.
+// Each scan returns the content of the file. It also reduces the bytes, in place, to the positions and faces:
+// materials, texture coordinates, names and colours become blanks, and continued statements become one line. The tests
+// read the reduced bytes with OpenMesh and compare; variants that OpenMesh cannot read even then are marked.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +16,8 @@ namespace malus::prep {
 
 struct Scan {
   Polygons polygons;
-  bool openMeshReads = true;  // the bytes, as they are now
-  bool isBinary = false;      // told for STL alone
+  bool openMeshReads = true;  // OpenMesh can read the reduced bytes
+  bool isBinary = false;      // STL only
 };
 
 // `where` is the path for messages. All throw Error that names where:line or a byte.

@@ -103,7 +103,7 @@ TEST(ReadLimits, TheLimitItselfWorks) {
   // A file that claims to be a tenth of its size gets a tenth of the memory, less than it needs.
   const std::string text = fill("v 0 0 0\n") + kFace;
   const test::TemporaryFile file(".obj", times(8, text));
-  EXPECT_NE(outcome(file.path(), 0), 0);  // out of memory here, or in OpenMesh, which is an error
+  EXPECT_NE(outcome(file.path(), 0), 0);  // out of memory, or an error
 }
 
 TEST(ReadLimits, ObjOfTheSmallestStatements) {

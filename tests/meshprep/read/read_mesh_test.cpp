@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/meshprep/read/binary_files.h"
+#include "tests/meshprep/read/crosscheck.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -37,7 +38,7 @@ TEST(ReadMesh, ExtensionsInUpperCase) {
 }
 
 TEST(ReadMesh, OneFormatAfterAnother) {
-  // OpenMesh's readers keep what they found in the last file.
+  // OpenMesh's readers keep state of the previous file.
   const TemporaryFile binary(".ply", test::binaryPly());
   const TemporaryFile text(
       ".ply",
@@ -45,9 +46,9 @@ TEST(ReadMesh, OneFormatAfterAnother) {
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   const TemporaryFile off(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   for (int i = 0; i < 2; ++i) {
-    EXPECT_EQ(readMesh(binary.path()).faceCount(), 4u);
-    EXPECT_EQ(readMesh(off.path()).faceCount(), 1u);
-    EXPECT_EQ(readMesh(text.path()).faceCount(), 1u);
+    EXPECT_EQ(test::readCrosschecked(binary.path()).faceCount(), 4u);
+    EXPECT_EQ(test::readCrosschecked(off.path()).faceCount(), 1u);
+    EXPECT_EQ(test::readCrosschecked(text.path()).faceCount(), 1u);
   }
 }
 
@@ -56,7 +57,7 @@ TEST(ReadMesh, NumbersOfEverySizeAgreeWithOpenMesh) {
   for (int exponent = -45; exponent <= 38; ++exponent)
     text += fmt::format("v 1.23456789e{} -3.4e{} {}\n", exponent, exponent, exponent / 7.0);
   const TemporaryFile file(".obj", text + "f 1 2 3\n");
-  EXPECT_EQ(readMesh(file.path()).positions.size(), 84u);
+  EXPECT_EQ(test::readCrosschecked(file.path()).positions.size(), 84u);
 }
 
 TEST(ReadMesh, APipeIsNoFile) {

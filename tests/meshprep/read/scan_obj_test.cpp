@@ -4,6 +4,7 @@
 
 #include "meshprep/read/read_mesh.h"
 #include "meshprep/read/scan.h"
+#include "tests/meshprep/read/crosscheck.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -13,7 +14,7 @@ using test::contains;
 using test::errorOf;
 using test::TemporaryFile;
 
-Polygons read(const std::string& text) { return readMesh(TemporaryFile(".obj", text).path()); }
+Polygons read(const std::string& text) { return test::readCrosschecked(".obj", text); }
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 

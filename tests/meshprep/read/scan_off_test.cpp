@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "meshprep/read/read_mesh.h"
+#include "tests/meshprep/read/crosscheck.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -10,7 +11,7 @@ using test::contains;
 using test::errorOf;
 using test::TemporaryFile;
 
-Polygons read(const std::string& text) { return readMesh(TemporaryFile(".off", text).path()); }
+Polygons read(const std::string& text) { return test::readCrosschecked(".off", text); }
 
 void expectRefused(const std::string& text, const std::string& place, const std::string& part) {
   const std::string error = errorOf([&] { read(text); });

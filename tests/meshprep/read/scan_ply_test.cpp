@@ -4,6 +4,7 @@
 
 #include "meshprep/read/read_mesh.h"
 #include "tests/meshprep/read/binary_files.h"
+#include "tests/meshprep/read/crosscheck.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -15,7 +16,7 @@ using test::errorOf;
 using test::PlyOptions;
 using test::TemporaryFile;
 
-Polygons read(const std::string& text) { return readMesh(TemporaryFile(".ply", text).path()); }
+Polygons read(const std::string& text) { return test::readCrosschecked(".ply", text); }
 
 void expectRefused(const std::string& text, const std::string& place, const std::string& part) {
   const std::string error = errorOf([&] { read(text); });

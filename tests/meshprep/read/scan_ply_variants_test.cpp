@@ -9,6 +9,7 @@
 
 #include "meshprep/read/read_mesh.h"
 #include "tests/meshprep/read/binary_files.h"
+#include "tests/meshprep/read/crosscheck.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -23,7 +24,7 @@ using test::TemporaryFile;
 using Corners = std::vector<std::uint32_t>;
 using Notes = std::vector<std::string>;
 
-Polygons read(const std::string& text) { return readMesh(TemporaryFile(".ply", text).path()); }
+Polygons read(const std::string& text) { return test::readCrosschecked(".ply", text); }
 
 std::string refusal(const std::string& text) {
   return errorOf([&] { read(text); });

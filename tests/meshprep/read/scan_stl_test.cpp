@@ -4,6 +4,7 @@
 
 #include "meshprep/read/read_mesh.h"
 #include "tests/meshprep/read/binary_files.h"
+#include "tests/meshprep/read/crosscheck.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -14,7 +15,7 @@ using test::contains;
 using test::errorOf;
 using test::TemporaryFile;
 
-Polygons read(const std::string& text) { return readMesh(TemporaryFile(".stl", text).path()); }
+Polygons read(const std::string& text) { return test::readCrosschecked(".stl", text); }
 
 void expectRefused(const std::string& text, const std::string& place, const std::string& part) {
   const std::string error = errorOf([&] { read(text); });

@@ -1,4 +1,4 @@
-#include "meshprep/read/second_opinion.h"
+#include "tests/meshprep/read/crosscheck.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,18 +15,24 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <glm/common.hpp>
 
+#include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/read/read_mesh.h"
+#include "tests/meshprep/shapes.h"
 
-namespace malus::prep {
+namespace malus::prep::test {
 
 namespace {
+
+constexpr std::size_t kMaxOpenMeshCorners = 256;
+constexpr std::string_view kWhere = "crosscheck";
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
 };
 using PolyMesh = OpenMesh::PolyMesh_ArrayKernelT<Traits>;
 
-// Takes faces as OpenMesh's readers find them. Returns no handle: the readers then attach nothing to them.
+// Collects the faces that OpenMesh's readers find. Returns no handles, so that the readers attach nothing to them.
 class Collector : public OpenMesh::IO::ImporterT<PolyMesh> {
  public:
   explicit Collector(PolyMesh& mesh) : ImporterT(mesh) {}
@@ -48,7 +54,7 @@ class Collector : public OpenMesh::IO::ImporterT<PolyMesh> {
   std::vector<std::size_t> firstCorner_ = {0};
 };
 
-// OpenMesh's readers are global objects and report to global streams: one at a time, and silently.
+// Silences OpenMesh, whose readers are global objects that report to global streams, for one reading at a time.
 class Quiet {
  public:
   Quiet() : lock_(mutex()), error_(omerr().is_enabled()), log_(omlog().is_enabled()), out_(omout().is_enabled()) {
@@ -73,7 +79,7 @@ class Quiet {
   bool error_, log_, out_;
 };
 
-// Both are the same decimal or binary number, one of them through float (which may round twice).
+// True if both come from the same number, one of them through float, which may round twice.
 bool sameThroughFloat(double exact, double throughFloat) {
   const double tolerance = std::abs(exact) * 2 * static_cast<double>(std::numeric_limits<float>::epsilon()) +
                            static_cast<double>(std::numeric_limits<float>::min());
@@ -84,14 +90,14 @@ bool samePosition(const glm::dvec3& exact, const OpenMesh::Vec3d& read) {
   return sameThroughFloat(exact.x, read[0]) && sameThroughFloat(exact.y, read[1]) && sameThroughFloat(exact.z, read[2]);
 }
 
-// OpenMesh's STL reader takes corners for one where no coordinate differs by more than FLT_MIN.
+// OpenMesh's STL reader merges corners if no coordinate differs by more than FLT_MIN.
 bool mergedByStl(const glm::dvec3& a, const glm::dvec3& b) {
   constexpr auto kEpsilon = static_cast<double>(std::numeric_limits<float>::min());
   const glm::dvec3 off = glm::abs(glm::dvec3(glm::vec3(a)) - glm::dvec3(glm::vec3(b)));
   return off.x <= kEpsilon && off.y <= kEpsilon && off.z <= kEpsilon;
 }
 
-// Whether a corner that OpenMesh read is the one that the scan read.
+// Comparison of a corner that OpenMesh read with a corner of the scan.
 class CornerCheck {
  public:
   CornerCheck(const Polygons& scan, const PolyMesh& mesh, bool byPosition)
@@ -107,7 +113,7 @@ class CornerCheck {
                       [this](std::uint32_t a, int b) { return same(a, b); });
   }
 
-  // The corners without those that repeat an earlier one, as OpenMesh's OBJ reader keeps them.
+  // The corners without repetitions, as OpenMesh's OBJ reader keeps them.
   std::vector<std::uint32_t> withoutRepeats(std::span<const std::uint32_t> face) const {
     std::vector<std::uint32_t> kept;
     for (const std::uint32_t corner : face) {
@@ -125,22 +131,21 @@ class CornerCheck {
   bool byPosition_;
 };
 
-// OpenMesh drops faces of fewer than three different corners and shortens others; cleaning shall count
-// those, so the scan's are kept. Everything else must be equal.
-void requireSame(const Polygons& scan, const PolyMesh& mesh, const Collector& read, bool byPosition,
-                 std::string_view where) {
+// OpenMesh drops faces with fewer than three different corners and removes repeated corners from others; the scan keeps
+// them, because cleaning counts them. Everything else must be equal.
+void requireSame(const Polygons& scan, const PolyMesh& mesh, const Collector& read, bool byPosition) {
   const auto fail = [&](std::string_view what, std::string_view expected, std::string_view found) {
-    throw Error(where, fmt::format("OpenMesh reads {} differently than the file has them", what), expected, found);
+    throw Error(kWhere, fmt::format("OpenMesh reads other {}", what), expected, found);
   };
 
   // Step 1: vertices. STL's are merged by OpenMesh, so their corners are compared by position below.
   if (!byPosition) {
     if (mesh.n_vertices() != scan.positions.size())
-      fail("the vertices", fmt::to_string(scan.positions.size()), fmt::to_string(mesh.n_vertices()));
+      fail("vertices", fmt::to_string(scan.positions.size()), fmt::to_string(mesh.n_vertices()));
     for (std::size_t i = 0; i < scan.positions.size(); ++i) {
       const OpenMesh::Vec3d p = mesh.point(OpenMesh::VertexHandle(static_cast<int>(i)));
       if (!samePosition(scan.positions[i], p))
-        fail(fmt::format("the coordinates of vertex {}", i),
+        fail(fmt::format("coordinates of vertex {}", i),
              fmt::format("({}, {}, {})", scan.positions[i].x, scan.positions[i].y, scan.positions[i].z),
              fmt::format("({}, {}, {})", p[0], p[1], p[2]));
     }
@@ -158,16 +163,16 @@ void requireSame(const Polygons& scan, const PolyMesh& mesh, const Collector& re
     const std::vector<std::uint32_t> kept = check.withoutRepeats(scan.face(f));
     if (kept.size() < 3) continue;
     if (!more || !check.same(kept, read.face(next)))
-      fail("the faces", fmt::format("face {} with {} corners", f, scan.face(f).size()),
+      fail("faces", fmt::format("face {} with {} corners", f, scan.face(f).size()),
            more ? fmt::format("{} other corners", read.face(next).size()) : "no more faces");
     ++next;
   }
-  if (next != read.n_faces()) fail("the faces", fmt::to_string(next), fmt::to_string(read.n_faces()));
+  if (next != read.n_faces()) fail("faces", fmt::to_string(next), fmt::to_string(read.n_faces()));
 }
 
 }  // namespace
 
-void requireSecondOpinion(std::string bytes, const std::string& extension, const Scan& scan, std::string_view where) {
+void requireSameAsOpenMesh(std::string bytes, std::string_view extension, const Scan& scan) {
   PolyMesh mesh;
   Collector collector(mesh);
   {
@@ -177,13 +182,33 @@ void requireSecondOpinion(std::string bytes, const std::string& extension, const
     std::istringstream stream(std::move(bytes));
     bool read = false;
     try {
-      read = OpenMesh::IO::IOManager().read(stream, extension, collector, options);
+      read = OpenMesh::IO::IOManager().read(stream, std::string(extension), collector, options);
     } catch (const std::exception& failure) {
-      throw Error(where, "OpenMesh cannot read it", "", failure.what());
+      throw Error(kWhere, "OpenMesh cannot read the file", "", failure.what());
     }
-    if (!read) throw Error(where, "OpenMesh cannot read it");
+    if (!read) throw Error(kWhere, "OpenMesh cannot read the file");
   }
-  requireSame(scan.polygons, mesh, collector, extension == ".stl", where);
+  requireSame(scan.polygons, mesh, collector, extension == ".stl");
 }
 
-}  // namespace malus::prep
+Polygons readCrosschecked(const std::filesystem::path& path) {
+  Polygons polygons = readMesh(path);
+  const std::string extension = path.extension().string(), where = path.string();
+  std::string bytes = readTextFile(path);
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);
+  const Scan scan = extension == ".obj"   ? scanObj(bytes, where)
+                    : extension == ".ply" ? scanPly(bytes, where)
+                    : extension == ".stl" ? scanStl(bytes, where)
+                                          : scanOff(bytes, where);
+  bool hasLargeFace = false;
+  for (std::size_t i = 0; i < polygons.faceCount(); ++i)
+    hasLargeFace = hasLargeFace || polygons.face(i).size() > kMaxOpenMeshCorners;
+  if (scan.openMeshReads && !hasLargeFace) requireSameAsOpenMesh(std::move(bytes), extension, scan);
+  return polygons;
+}
+
+Polygons readCrosschecked(std::string_view extension, const std::string& text) {
+  return readCrosschecked(TemporaryFile(extension, text).path());
+}
+
+}  // namespace malus::prep::test

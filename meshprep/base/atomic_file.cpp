@@ -18,7 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string systemMessage(int code) { return std::strerror(code); }
+// Error of the last system call on path: "PATH: ACTION: REASON; expected EXPECTED".
+Error systemError(const fs::path& path, std::string_view action, std::string_view expected = {}) {
+  return Error(path.string(), fmt::format("{}: {}", action, std::strerror(errno)), expected);
+}
 
 // Closes on scope exit.
 struct Descriptor {
@@ -32,17 +35,17 @@ void writeAll(int fd, std::span<const std::byte> bytes, const fs::path& path) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(fd, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(path.string(), "cannot write", "room on the disk", systemMessage(errno));
+    if (n < 0) throw systemError(path, "cannot write", "free space on the disk");
     bytes = bytes.subspan(static_cast<std::size_t>(n));
   }
 }
 
 void flushToDisk(const fs::path& path) {
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (file.fd < 0 || ::fsync(file.fd) != 0) throw Error(path.string(), "cannot write", "", systemMessage(errno));
+  if (file.fd < 0 || ::fsync(file.fd) != 0) throw systemError(path, "cannot write");
 }
 
-// Path of the temporary that is being written, for the signal handler. One writer at a time registers.
+// Path of the temporary file being written, for the signal handler. The latest writer is registered.
 char gUnfinished[4096];
 std::atomic<bool> gHasUnfinished{false};
 
@@ -53,22 +56,23 @@ void removeUnfinished() noexcept {
 }
 
 std::vector<std::byte> readFile(const fs::path& path, std::size_t maxBytes) {
-  // O_NONBLOCK: a pipe that nobody writes to would not open for ever.
+  // O_NONBLOCK: opening a pipe without a writer would block for ever.
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
-  if (file.fd < 0) throw Error(path.string(), "cannot open", "a readable file", systemMessage(errno));
+  if (file.fd < 0) throw systemError(path, "cannot open", "a readable file");
   struct stat info {};
-  if (::fstat(file.fd, &info) != 0) throw Error(path.string(), "cannot read", "", systemMessage(errno));
+  if (::fstat(file.fd, &info) != 0) throw systemError(path, "cannot read");
   if (!S_ISREG(info.st_mode)) throw Error(path.string(), "is not a regular file");
   const auto size = static_cast<std::size_t>(info.st_size);
   if (size > maxBytes)
-    throw Error(path.string(), "is too large", fmt::format("at most {} bytes", maxBytes), fmt::format("{}", size));
+    throw Error(path.string(), "file is too large", fmt::format("at most {} bytes", maxBytes),
+                fmt::format("{} bytes", size));
   std::vector<std::byte> bytes(size);
   std::size_t done = 0;
   while (done < size) {
     const ssize_t n = ::read(file.fd, bytes.data() + done, size - done);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(path.string(), "cannot read", "", systemMessage(errno));
-    if (n == 0) break;  // shrank while it was read
+    if (n < 0) throw systemError(path, "cannot read");
+    if (n == 0) break;  // the file shrank while it was read
     done += static_cast<std::size_t>(n);
   }
   bytes.resize(done);
@@ -84,8 +88,8 @@ void writeBeside(const fs::path& path, const std::function<void(const fs::path&)
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
-    throw Error(path.string(), "cannot write", "an existing folder", folder.string());
-  if (fs::is_directory(path, ignored)) throw Error(path.string(), "cannot write", "a file name", "a folder");
+    throw Error(path.string(), "cannot write: the folder does not exist", "an existing folder", folder.string());
+  if (fs::is_directory(path, ignored)) throw Error(path.string(), "cannot write: is a folder", "the name of a file");
   removeAbandoned(path);
   const UnfinishedFile unfinished(path);
   const fs::path& temporary = unfinished.path();
@@ -101,13 +105,13 @@ void writeBeside(const fs::path& path, const std::function<void(const fs::path&)
   flushToDisk(temporary);
   std::error_code failed;
   fs::rename(temporary, path, failed);
-  if (failed) throw Error(path.string(), "cannot write", "", failed.message());
+  if (failed) throw Error(path.string(), fmt::format("cannot write: {}", failed.message()));
 }
 
 void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
   writeBeside(path, [&](const fs::path& temporary) {
     const Descriptor file{::open(temporary.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC)};
-    if (file.fd < 0) throw Error(path.string(), "cannot write", "a writable folder", systemMessage(errno));
+    if (file.fd < 0) throw systemError(path, "cannot write", "a writable folder");
     writeAll(file.fd, bytes, path);
   });
 }

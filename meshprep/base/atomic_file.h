@@ -1,7 +1,7 @@
-// Whole files, read and written in one go. A file is written beside its final name, flushed to disk and
-// renamed: a reader sees the old file or the new one, never half of one.
+// Reading and writing of whole files. A file is written beside its final name, flushed to disk and renamed: a reader
+// sees the old file or the new one, never a part of one.
 //
-// What a writer that was killed left behind is removed by the next one of the same file (unfinished_files.h).
+// Files that a killed writer left behind are removed by the next writer of the same name (unfinished_files.h).
 #pragma once
 
 #include <cstddef>
@@ -14,21 +14,26 @@
 
 namespace malus {
 
-// Bytes of a regular file. Throws Error: missing, not a regular file, unreadable, larger than maxBytes.
+// Returns the bytes of a regular file. Throws Error if the file is missing, not a regular file, unreadable or larger
+// than maxBytes. A file that shrinks while it is read gives the bytes up to its new end.
 std::vector<std::byte> readFile(const std::filesystem::path& path, std::size_t maxBytes = std::size_t{1} << 33);
 std::string readTextFile(const std::filesystem::path& path, std::size_t maxBytes = std::size_t{1} << 33);
 
-// Replaces path by these bytes. Throws Error (unwritable, disk full) and then leaves path as it was.
+// Replaces the contents of path. Throws Error (no write permission, disk full, missing folder) and then leaves path
+// unchanged.
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFile(const std::filesystem::path& path, std::string_view text);
 
-// For writers that need a path of their own: calls write(temporary), then renames temporary to path.
-// The temporary is there, empty and locked, and has the extension of path: write opens and fills it, and neither
-// removes nor replaces it. On any exception the temporary is removed and path is as it was.
+// Calls write(temporary) and renames temporary to path, for writers that need a path instead of bytes.
+// The temporary exists, is empty and locked, is in the folder of path and has its extension. write must open and fill
+// it, and must neither remove nor replace it. If write or the renaming throws, the temporary is removed and path is
+// unchanged. Throws Error as writeFile, and everything that write throws. One call at a time per process is removed
+// when the process is interrupted (removeUnfinished); concurrent calls are otherwise safe.
 void writeBeside(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path& temporary)>& write);
 
-// Removes what writeBeside has not finished. Safe in a signal handler that ends the process.
+// Removes the temporary file of the running writeBeside, if any. Async-signal-safe; call it only if the process ends
+// afterwards.
 void removeUnfinished() noexcept;
 
 }  // namespace malus

@@ -11,16 +11,16 @@ namespace malus::console {
 
 namespace {
 Verbosity gVerbosity = Verbosity::normal;
-bool gLineOpen = false;
+bool gProgressShown = false;
 std::mutex gMutex;
 
 bool onTerminal() {
   static const bool kTerminal = ::isatty(STDERR_FILENO) == 1;
   return kTerminal;
 }
-void closeLine() {
-  if (gLineOpen) fmt::print(stderr, "\r\033[K");
-  gLineOpen = false;
+void eraseProgress() {
+  if (gProgressShown) fmt::print(stderr, "\r\033[K");
+  gProgressShown = false;
 }
 }  // namespace
 
@@ -31,29 +31,29 @@ void progress(std::string_view text) {
   if (gVerbosity == Verbosity::verbose) {
     fmt::print(stderr, "{}\n", text);
   } else if (gVerbosity == Verbosity::normal && onTerminal()) {
-    closeLine();
+    eraseProgress();
     fmt::print(stderr, "{}", text);
     std::fflush(stderr);
-    gLineOpen = true;
+    gProgressShown = true;
   }
 }
 
 void progressDone() {
   const std::lock_guard lock(gMutex);
-  closeLine();
+  eraseProgress();
 }
 
 void note(std::string_view text) {
   if (gVerbosity != Verbosity::verbose) return;
   const std::lock_guard lock(gMutex);
-  closeLine();
+  eraseProgress();
   fmt::print(stderr, "{}\n", text);
 }
 
 void warn(std::string_view text) {
   if (gVerbosity == Verbosity::quiet) return;
   const std::lock_guard lock(gMutex);
-  closeLine();
+  eraseProgress();
   fmt::print(stderr, "malus: warning: {}\n", text);
 }
 

@@ -1,20 +1,25 @@
-// What commands tell a person beside their results: on stderr, never in the way of a pipe.
+// Messages of the commands beside their results. All of them go to stderr, so that stdout can be piped.
+// Thread-safe, except setVerbosity. Texts have no trailing newline.
 #pragma once
 
 #include <string_view>
 
 namespace malus::console {
 
+// quiet: -q, errors only. normal: warnings, and progress on a terminal. verbose: -v, everything, one line each.
 enum class Verbosity { quiet, normal, verbose };
+
+// Sets the verbosity of all later messages. Call it before any thread prints.
 void setVerbosity(Verbosity verbosity);
 
-// What is being done: one line that is replaced on a terminal; with -v a line of its own; silent in a pipe.
+// Reports the current step. Normal: one line that the next message replaces, and only if stderr is a terminal.
+// Verbose: a line per call.
 void progress(std::string_view text);
-// Ends the progress line.
+// Erases the progress line.
 void progressDone();
-// Details, with -v only.
+// Prints a detail. Verbose only.
 void note(std::string_view text);
-// Something the person should know; not with -q.
+// Prints "malus: warning: TEXT". Not printed if quiet.
 void warn(std::string_view text);
 
 }  // namespace malus::console

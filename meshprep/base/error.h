@@ -1,6 +1,5 @@
-// The one exception of malus: an input or an output that is not what it should be. Its text is one line
-// for a person: where (a file, with line or byte), what is wrong, what was expected, what was found.
-// Commands print it and end with exit code 1. Broken invariants are assertions, not errors.
+// The exception for invalid inputs, options and outputs. Commands print its text, one line, and exit with code 1.
+// Violated invariants of the program are assertions, not errors.
 #pragma once
 
 #include <stdexcept>
@@ -11,8 +10,14 @@ namespace malus {
 
 class Error : public std::runtime_error {
  public:
-  // where: path, "path:line" or "path, byte N". problem: what is wrong. expected, found: may be empty.
-  Error(std::string_view where, std::string_view problem, std::string_view expected = {}, std::string_view found = {});
+  // what() is "LOCATION: PROBLEM; expected EXPECTED, found FOUND"; an empty argument is left out with its separator
+  // ("LOCATION: PROBLEM; found FOUND"). Control characters become spaces, so the text is always one line.
+  //
+  // location: "FILE", "FILE:LINE", "FILE, byte N", a key of a document, or the option ("--depth").
+  // problem: clause without a full stop ("is not a regular file", "unknown key 'colour'").
+  // expected: valid values, or the option or key that fixes the problem. found: the offending value.
+  Error(std::string_view location, std::string_view problem, std::string_view expected = {},
+        std::string_view found = {});
 };
 
 }  // namespace malus

@@ -1,5 +1,7 @@
-// Pictures in memory and in files. Reading and writing go through OpenImageIO, which sits in a module of
-// its own that is loaded at the first picture: it brings 260 libraries along, and `malus --help` needs none.
+// Images in memory and in files. OpenImageIO reads and writes the files. It is linked by a module that is loaded with
+// the first image (image_module.h), because it depends on about 260 shared libraries that most commands do not need.
+//
+// All functions throw Error if the module or the file cannot be read or written.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +14,37 @@
 
 namespace malus::image {
 
-// Float picture, top row first, channels interleaved in the order of their names ("R", "S1.G").
+// Image of 32-bit floats.
 struct Image {
   int width = 0;
   int height = 0;
+  // Names as in the file, for instance "R" or "S1.G".
   std::vector<std::string> channels;
+  // width * height * channels.size() values: rows from the top, pixels from the left, channels interleaved.
   std::vector<float> pixels;
-  // Metadata: names as in the file ("malus:method"), values text, number or numbers.
+  // Metadata by name as in the file ("malus:method"): text, a number or a list of numbers. read() returns text and
+  // single numbers only.
   using Value = std::variant<std::string, double, std::vector<float>>;
   std::vector<std::pair<std::string, Value>> attributes;
 
-  int channel(std::string_view name) const;  // index, or -1
+  // Returns the index of a channel, or -1.
+  int channel(std::string_view name) const;
 };
 
-// Reads EXR, HDR, PNG, ... (whatever OpenImageIO reads); integers become 0 to 1. Throws Error.
+// Reads an image of any format that OpenImageIO supports (EXR, HDR, PNG, ...). Integers are scaled to [0, 1], without
+// conversion of the transfer function. Limits: 65536 pixels per side, 64 channels, 2^30 values.
 Image read(const std::filesystem::path& path);
 
-// Float EXR, ZIP compressed; equal pictures give equal files. Throws Error and leaves no part behind.
+// Writes a ZIP-compressed EXR of 32-bit floats with all attributes. Equal images give identical files. The file is
+// replaced atomically (atomic_file.h), as by the functions below.
 void writeExr(const std::filesystem::path& path, const Image& image);
 
-// 8-bit RGB or grey PNG from width * height * channels bytes, sRGB encoded already.
+// Writes an 8-bit PNG. pixels: width * height * channels sRGB-encoded bytes, channels 1 (grey) or 3 (RGB).
 void writePng(const std::filesystem::path& path, int width, int height, int channels,
               const std::vector<std::uint8_t>& pixels);
 
-// Linear grey PNG or TIFF (uncompressed), by the extension: width * height values, top row first, in one
-// sample of 8 bits (values up to 255) or 16 bits each, stored as they are. The description goes into the file.
+// Writes a linear grey PNG or uncompressed TIFF, by the extension of path. values: width * height samples, rows from
+// the top, stored unscaled; with bits8 each must be at most 255. description: the file's ImageDescription.
 enum class GreyDepth { bits8, bits16 };
 void writeGrey(const std::filesystem::path& path, int width, int height, GreyDepth depth,
                const std::vector<std::uint16_t>& values, const std::string& description);

@@ -1,5 +1,5 @@
-// What the OpenImageIO module offers to its loader (image.cpp). Exceptions do not cross: each function
-// returns an empty text, or what went wrong.
+// Interface between the OpenImageIO module (oiio_module.cpp) and its loader (image.cpp). Exceptions must not cross it:
+// each function returns an empty string, or the reason of its failure. Parameters as in image.h.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,14 @@ namespace malus::image {
 struct Module {
   std::string (*read)(const std::string& path, Image& image);
   std::string (*writeExr)(const std::string& path, const Image& image);
-  // To memory: OpenImageIO's PNG files are cut short in silence where the disk is full.
+  // Encodes to memory: OpenImageIO does not report a full disk when it writes PNG files.
   std::string (*encodePng)(int width, int height, int channels, const std::uint8_t* pixels,
                            std::vector<unsigned char>& bytes);
   std::string (*writeGrey)(const std::string& path, int width, int height, GreyDepth depth, const std::uint16_t* values,
                            const std::string& description);
 };
 
-inline constexpr const char* kModuleEntry = "malusImageModule";  // const Module* malusImageModule()
+// Name of the module's only symbol: extern "C" const Module* malusImageModule(). Never null, valid until exit.
+inline constexpr const char* kModuleEntry = "malusImageModule";
 
 }  // namespace malus::image

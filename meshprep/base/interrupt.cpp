@@ -10,7 +10,7 @@ namespace malus {
 
 namespace {
 
-volatile std::sig_atomic_t gDeferred = 0;  // an InterruptScope is open
+volatile std::sig_atomic_t gDeferred = 0;  // an InterruptScope exists
 volatile std::sig_atomic_t gInterrupted = 0;
 
 void onSignal(int) {

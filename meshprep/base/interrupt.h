@@ -1,11 +1,14 @@
-// Ctrl-C. By default it ends the process with exit code 130 and removes what is half written. Within an
-// InterruptScope the first one only sets a flag, so that long work can keep what is finished.
+// SIGINT (Ctrl-C) and SIGTERM. By default they end the process with exit code 130, and the file being written is
+// removed. Within an InterruptScope the first signal only sets a flag, so that long work can save what it has finished;
+// the second signal ends the process.
 #pragma once
 
 namespace malus {
 
-void handleInterrupts();  // installs the handlers of SIGINT and SIGTERM
+// Installs the handlers of SIGINT and SIGTERM. Call it once, before any thread starts.
+void handleInterrupts();
 
+// Defers the first signal while it exists. Clears the flag when constructed. At most one may exist at a time.
 class InterruptScope {
  public:
   InterruptScope();
@@ -14,9 +17,10 @@ class InterruptScope {
   InterruptScope& operator=(const InterruptScope&) = delete;
 };
 
-bool interrupted();  // whether the flag was set
+// Returns true if a signal arrived within the current or the last InterruptScope.
+bool interrupted();
 
-// Thrown by work that was interrupted and has kept what it had: exit code 130.
+// Thrown after an interrupt by work that has saved what it had finished. The program exits with code 130.
 struct Interrupted {};
 
 }  // namespace malus

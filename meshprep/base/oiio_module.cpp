@@ -1,6 +1,8 @@
-// The picture module: the only file that includes OpenImageIO.
+// The image module: the only file that includes OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+
+#include <fmt/format.h>
 
 #include "meshprep/base/image_module.h"
 
@@ -12,27 +14,31 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
+// Limits that image.h documents: a header of a few bytes can declare any size.
 constexpr int kMaxSide = 65536;
-constexpr std::uint64_t kMaxNumbers = std::uint64_t{1} << 30;  // 4 GiB: a few bytes may claim more
+constexpr int kMaxChannels = 64;
+constexpr std::uint64_t kMaxValues = std::uint64_t{1} << 30;  // 4 GiB
 
-std::string orElse(std::string message, const char* otherwise) { return message.empty() ? otherwise : message; }
+std::string messageOr(const std::string& message, const char* otherwise) {
+  return message.empty() ? otherwise : message;
+}
 
 std::string readImage(const std::string& path, Image& image) {
   try {
     const auto input = ImageInput::open(path);
-    if (!input) return orElse(OIIO::geterror(), "unknown format");
+    if (!input) return messageOr(OIIO::geterror(), "unknown format");
     const ImageSpec spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 ||
-        spec.nchannels < 1 || spec.nchannels > 64 ||
-        spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMaxNumbers)
-      return "unusual size";
+        spec.nchannels < 1 || spec.nchannels > kMaxChannels ||
+        spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMaxValues)
+      return fmt::format("unsupported size {} x {} with {} channels", spec.width, spec.height, spec.nchannels);
     image.width = spec.width;
     image.height = spec.height;
     image.channels.assign(spec.channelnames.begin(), spec.channelnames.end());
     image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                         static_cast<std::size_t>(spec.nchannels));
     if (!input->read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, image.pixels.data()))
-      return orElse(input->geterror(), "damaged file");
+      return messageOr(input->geterror(), "damaged file");
     for (const auto& attribute : spec.extra_attribs) {
       const std::string name = attribute.name().string();
       if (attribute.type() == TypeDesc::STRING) {
@@ -44,23 +50,23 @@ std::string readImage(const std::string& path, Image& image) {
     }
     return {};
   } catch (const std::exception& error) {
-    return orElse(error.what(), "damaged file");
+    return messageOr(error.what(), "damaged file");
   }
 }
 
-// To the file, or to the proxy in its place; path tells the format in any case.
-std::string writeSpec(const std::string& path, const ImageSpec& spec, TypeDesc type, const void* pixels,
+// Writes to the file, or to proxy if it is not null. The extension of path selects the format.
+std::string writeSpec(const std::string& path, const ImageSpec& spec, const TypeDesc& type, const void* pixels,
                       OIIO::Filesystem::IOProxy* proxy = nullptr) {
   try {
     const auto output = ImageOutput::create(path);
-    if (!output) return orElse(OIIO::geterror(), "unknown format");
+    if (!output) return messageOr(OIIO::geterror(), "unknown format");
     if (proxy != nullptr && !output->set_ioproxy(proxy)) return "cannot write to memory";
-    if (!output->open(path, spec)) return orElse(output->geterror(), "cannot open");
-    if (!output->write_image(type, pixels)) return orElse(output->geterror(), "cannot write");
-    if (!output->close()) return orElse(output->geterror(), "cannot close");
+    if (!output->open(path, spec)) return messageOr(output->geterror(), "cannot open");
+    if (!output->write_image(type, pixels)) return messageOr(output->geterror(), "cannot write");
+    if (!output->close()) return messageOr(output->geterror(), "cannot close");
     return {};
   } catch (const std::exception& error) {
-    return orElse(error.what(), "cannot write");
+    return messageOr(error.what(), "cannot write");
   }
 }
 
@@ -82,8 +88,8 @@ std::string writeExrImage(const std::string& path, const Image& image) {
         spec.attribute(name, TypeDesc(TypeDesc::FLOAT, static_cast<int>(list->size())), list->data());
     }
   }
-  // OpenImageIO's EXR writer adds today's date where it finds none; one that is no text is found and not
-  // written, so that equal pictures are equal files.
+  // Keep OpenImageIO from adding the current date, so that equal images give identical files: it looks for an attribute
+  // of this name and writes only one of type string.
   spec.attribute("DateTime", 0);
   return writeSpec(path, spec, TypeDesc::FLOAT, image.pixels.data());
 }
@@ -101,8 +107,8 @@ std::string writeGreyImage(const std::string& path, int width, int height, GreyD
   ImageSpec spec(width, height, 1, depth == GreyDepth::bits8 ? TypeDesc::UINT8 : TypeDesc::UINT16);
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("ImageDescription", description);
-  spec.attribute("compression", "none");  // of TIFF; PNG has one alone
-  spec.attribute("DateTime", 0);          // as in writeExrImage
+  spec.attribute("compression", "none");  // TIFF only; PNG has one method
+  spec.attribute("DateTime", 0);          // no date, as in writeExrImage
   if (depth == GreyDepth::bits16) return writeSpec(path, spec, TypeDesc::UINT16, values);
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(values[i]);
@@ -113,7 +119,7 @@ std::string writeGreyImage(const std::string& path, int width, int height, GreyD
 }  // namespace malus::image
 
 extern "C" __attribute__((visibility("default"))) const malus::image::Module* malusImageModule() {
-  OIIO::attribute("debug", 0);  // Debian's build would talk on stderr
+  OIIO::attribute("debug", 0);  // Debian's build prints to stderr otherwise
   static const malus::image::Module kModule = {malus::image::readImage, malus::image::writeExrImage,
                                                malus::image::encodePngImage, malus::image::writeGreyImage};
   return &kModule;

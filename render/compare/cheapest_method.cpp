@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 
 #include "bake/pack/format.h"
 #include "meshprep/base/atomic_file.h"
+#include "meshprep/base/cache_folder.h"
 #include "meshprep/base/error.h"
 #include "render/compare/picture_error.h"
 #include "render/compare/statistics.h"
@@ -26,14 +26,9 @@ constexpr std::uint32_t kWidth = 256;
 constexpr int kRounds = 5;
 
 fs::path cacheFile(const std::string& key) {
-  fs::path folder;
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
-    folder = cache;
-  else if (const char* home = std::getenv("HOME"); home && *home)
-    folder = fs::path(home) / ".cache";
-  else
-    return {};
-  return folder / "malus" / "errors" / fmt::format("{:016x}.json", pack::hashOf(std::as_bytes(std::span(key))));
+  const fs::path folder = cacheFolder("errors");
+  if (folder.empty()) return {};
+  return folder / fmt::format("{:016x}.json", pack::hashOf(std::as_bytes(std::span(key))));
 }
 
 // Empty where there is no cache or another key had the same hash.

@@ -1,6 +1,5 @@
 #include "render/vulkan/shader_cache.h"
 
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <set>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/atomic_file.h"
+#include "meshprep/base/cache_folder.h"
 #include "meshprep/base/error.h"
 #include "render/vulkan/glsl_compiler.h"
 
@@ -19,13 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint32_t kSpirvMagic = 0x07230203;
-
-fs::path cacheFolder() {
-  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder)
-    return fs::path(folder) / "malus" / "spirv";
-  if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "malus" / "spirv";
-  return {};
-}
 
 // The text with every include put in its place: what the key has to cover.
 void expand(const Variant& variant, std::string_view text, std::set<std::string>& seen, std::string& out) {
@@ -76,7 +69,7 @@ void save(const fs::path& path, const std::vector<std::uint32_t>& words) {
 }  // namespace
 
 std::vector<std::uint32_t> cachedSpirv(const Variant& variant, const StageSource& source) {
-  const fs::path folder = cacheFolder();
+  const fs::path folder = cacheFolder("spirv");
   const fs::path file = folder.empty() ? fs::path() : folder / keyOf(variant, source);
   if (!file.empty())
     if (std::vector<std::uint32_t> words = load(file); !words.empty()) return words;

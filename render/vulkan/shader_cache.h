@@ -1,5 +1,5 @@
-// Compiled shaders in the user's cache folder ($XDG_CACHE_HOME or ~/.cache, then malus/spirv), by a hash of
-// everything that goes into them. A cache that cannot be read or written is as good as none.
+// Compiled shaders in the user's cache folder (cacheFolder("spirv")), by a hash of all inputs of the compilation. A
+// cache that cannot be read or written is ignored.
 #pragma once
 
 #include <cstdint>

@@ -274,7 +274,7 @@ TEST_F(Bake, EnvironmentPicture) {
   scene_["environment"]["image"] = "missing.exr";
   EXPECT_TRUE(contains(error(), "missing.exr: cannot open")) << error();
   scene_["environment"]["image"] = "scene.json";
-  EXPECT_TRUE(contains(error(), "scene.json: cannot read the picture")) << error();
+  EXPECT_TRUE(contains(error(), "scene.json: cannot read the image")) << error();
 }
 
 TEST_F(Bake, BadMeshesNameTheirFile) {

@@ -1,4 +1,4 @@
-// What killed writers leave behind goes with the next write; what living ones hold stays.
+// Temporary files of killed writers are removed by the next write; those of living writers are kept.
 #include "meshprep/base/unfinished_files.h"
 
 #include <signal.h>
@@ -38,7 +38,7 @@ class UnfinishedFiles : public testing::Test {
   const fs::path output_ = folder_ / "out.pack";
 };
 
-// A process that writes and never finishes.
+// Child process that creates a temporary file and never finishes it.
 class Writer {
  public:
   explicit Writer(const fs::path& path) {
@@ -70,7 +70,7 @@ class Writer {
   pid_t process_ = 0;
 };
 
-TEST_F(UnfinishedFiles, ALivingWritersFileStaysAndADeadOnesGoes) {
+TEST_F(UnfinishedFiles, KeepsFilesOfLivingWritersAndRemovesThoseOfKilledOnes) {
   Writer writer(output_);
   ASSERT_EQ(names().size(), 1u);
   EXPECT_EQ(removeAbandoned(output_), 0);
@@ -83,14 +83,14 @@ TEST_F(UnfinishedFiles, ALivingWritersFileStaysAndADeadOnesGoes) {
   EXPECT_EQ(readTextFile(output_), "whole again");
 }
 
-TEST_F(UnfinishedFiles, WhatIsNobodysHereStays) {
+TEST_F(UnfinishedFiles, KeepsFilesOfOtherNamesAndHosts) {
   std::string own;
   {
     const UnfinishedFile file(output_);
     own = file.path().filename().string();
-    EXPECT_EQ(removeAbandoned(output_), 0);  // a lock of this very process counts too
+    EXPECT_EQ(removeAbandoned(output_), 0);  // locks of the same process count
   }
-  EXPECT_TRUE(names().empty());  // not renamed: removed
+  EXPECT_TRUE(names().empty());  // removed, because it was not renamed
   ASSERT_TRUE(own.starts_with(".out.") && own.ends_with(".part.pack")) << own;
   const std::string host = own.substr(5, own.find('-') - 5);
   const std::vector<std::string> others = {".other." + host + "-1-0.part.pack",      ".out." + host + "-1-0.part.exr",
@@ -119,7 +119,7 @@ TEST_F(UnfinishedFiles, FailedWritesLeaveNothing) {
   EXPECT_EQ(removeAbandoned(folder_ / "missing" / "out.pack"), 0);
 }
 
-TEST_F(UnfinishedFiles, ANewFileHasTheUsualRights) {
+TEST_F(UnfinishedFiles, NewFilesFollowTheUmask) {
   const mode_t mask = ::umask(022);
   writeFile(output_, std::string_view("x"));
   ::umask(mask);

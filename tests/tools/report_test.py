@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests of tools/report/compare_report.py on tiny results whose numbers are known."""
+"""Tests of tools/report/compare_report.py on small results with known values."""
 import copy
 import json
 import math
@@ -19,7 +19,7 @@ sys.path.insert(0, str(kScript.parent))
 import report_colours  # noqa: E402
 import report_data  # noqa: E402
 import report_errors  # noqa: E402
-import report_pictures  # noqa: E402
+import report_images  # noqa: E402
 
 kWidth, kHeight = 12, 9
 
@@ -80,7 +80,7 @@ def effect(renderer: str, **changes) -> dict:
     return base
 
 
-def off(share: float, rms: float) -> dict:
+def error(share: float, rms: float) -> dict:
     return {"meanAbs": 0.01, "maxAbs": 0.05, "relRms": rms, "shareOver1Percent": share, "perceptual": share / 2,
             "energyRatio": 1.02}
 
@@ -101,8 +101,8 @@ class Report(unittest.TestCase):
             write_exr(self.folder / f"pictures/{renderer}-stokes.exr", rgb, stokes)
         rows = []
         for renderer in ("vulkan", "embree"):
-            rows += [row(renderer, "schlick", error=off(12 / 108, 0.07), indistinguishable=["fresnel"]),
-                     row(renderer, "fresnel", error=off(12 / 108, 0.06), indistinguishable=["schlick"]),
+            rows += [row(renderer, "schlick", error=error(12 / 108, 0.07), indistinguishable=["fresnel"]),
+                     row(renderer, "fresnel", error=error(12 / 108, 0.06), indistinguishable=["schlick"]),
                      row(renderer, "stokes", medianMs=15.0, quartilesMs=[14.5, 15.5], payloadBytes=48,
                          ratioToSchlick={"median": 1.5, "low": 1.45, "high": 1.55})]
         rows.append(failed("vulkan", "stokes-half", "recursion limit 1 is below depth <3>"))
@@ -121,8 +121,8 @@ class Report(unittest.TestCase):
         page = self.page()
         self.assertIn('id="effects"', page)
         table = page[page.index('id="effects"'):page.index('id="paper"')]
-        for text in ("0.512", "0.498 to 0.533", "2,468", "388", "3.0 · 10⁻⁷", "not among the methods",
-                     "tiny: fresnel in place of stokes, polarized light cannot &lt;show&gt;."):
+        for text in ("0.512", "0.498 to 0.533", "2,468", "388", "3.0 · 10⁻⁷", "not measured",
+                     "fresnel replaces stokes", "polarized light cannot &lt;show&gt;"):
             self.assertIn(text, table)
         without = copy.deepcopy(self.results)
         del without["effects"]
@@ -145,11 +145,11 @@ class Report(unittest.TestCase):
         self.assertIn(text, done.stderr)
         self.assertNotIn("Traceback", done.stderr)
 
-    def assertIn(self, member, container, message=None):  # noqa: N802: without printing the whole page
+    def assertIn(self, member, container, message=None):  # noqa: N802: do not print the whole page
         self.assertTrue(member in container, message or f"missing: {member}")
 
     def assertNotIn(self, member, container, message=None):  # noqa: N802
-        self.assertTrue(member not in container, message or f"there: {member}")
+        self.assertTrue(member not in container, message or f"unexpected: {member}")
 
     # The page
 
@@ -158,7 +158,7 @@ class Report(unittest.TestCase):
         for entry in self.results["rows"]:
             self.assertEqual(page.count(f'data-row="{entry["renderer"]}/{entry["method"]}"'), 1)
 
-    def test_it_needs_no_other_file(self):
+    def test_the_page_is_self_contained(self):
         page = self.page()
         self.assertNotRegex(page, r"https?://")
         self.assertNotIn("@import", page)
@@ -177,13 +177,13 @@ class Report(unittest.TestCase):
     def test_failed_rows_show_their_reason(self):
         self.assertIn("failed: recursion limit 1 is below depth &lt;3&gt;", self.page())
 
-    def test_rows_that_cannot_be_told_apart_are_marked(self):
+    def test_rows_without_significant_difference_are_marked(self):
         self.assertIn("≈ fresnel", self.page())
 
     def test_names_are_escaped(self):
         self.assertIn("A tiny &lt;scene&gt;", self.page())
 
-    def test_several_sizes_stand_apart(self):
+    def test_several_sizes_are_separate(self):
         results = copy.deepcopy(self.results)
         results["rows"].append(row("embree", "schlick", depth=1, picture=None))
         page = self.page(results)
@@ -192,42 +192,41 @@ class Report(unittest.TestCase):
 
     # The sentences
 
-    def test_it_says_where_polarization_matters(self):
+    def test_pixels_where_polarization_matters_are_located(self):
         page = self.page()
-        self.assertIn("polarization matters in 11 % of the pixels, mostly in the lower left", page)
-        self.assertIn("by 20 % at most; to the eye (mean FLIP, 0 to 1) the picture is 0.0556 away", page)
-        self.assertIn("take <code>stokes</code>, which takes 1.500 times as long as <code>schlick</code> "
-                      "(1.450 to 1.550)", page)
+        for text in ("11 % of the pixels", "the lower left", "at most 20 %", "0.0556", "use <code>stokes</code>",
+                     "1.500 times as long as <code>schlick</code>", "1.450 to 1.550"):
+            self.assertIn(text, page)
 
-    def test_it_says_where_polarization_may_be_left_out(self):
+    def test_small_errors_allow_to_leave_polarization_out(self):
         rgb, _ = reference_pixels()
         for renderer in ("vulkan", "embree"):
             write_exr(self.folder / f"pictures/{renderer}-fresnel.exr", rgb * 1.004)
         for entry in self.results["rows"]:
             if entry["method"] == "fresnel":
-                entry["error"] = off(0, 0.004)
+                entry["error"] = error(0, 0.004)
         page = self.page()
-        self.assertIn("<code>fresnel</code> is within 0.40 % of the reference everywhere: polarization may be left "
-                      "out", page)
-        self.assertIn("take <code>fresnel</code>, which cannot be told apart from <code>schlick</code> in time", page)
+        for text in ("<code>fresnel</code> is within 0.40 % of the reference", "polarization may be left out",
+                     "use <code>fresnel</code>, which shows no significant difference"):
+            self.assertIn(text, page)
 
     def test_nothing_is_claimed_inside_the_noise(self):
-        self.assertIn("<code>fresnel</code> against <code>schlick</code>: cannot be told apart in 2 of 2 cases",
+        self.assertIn("<code>fresnel</code> against <code>schlick</code>: no significant difference in 2 of 2 cases",
                       self.page())
 
     def test_a_difference_outside_the_noise_is_named(self):
         for entry in self.results["rows"]:
             if entry["renderer"] == "embree" and entry["method"] == "fresnel":
                 entry.update(indistinguishable=[], ratioToSchlick={"median": 0.9, "low": 0.88, "high": 0.93})
-        self.assertIn("faster in 1, cannot be told apart in 1 of 2 cases", self.page())
+        self.assertIn("faster in 1, no significant difference in 1 of 2 cases", self.page())
 
-    def test_lavapipe_says_nothing_about_small_payloads(self):
+    def test_small_payloads_are_not_compared_on_lavapipe(self):
         for method, size, ms in (("sp", 36, 20.0), ("sp-ratio", 20, 10.0)):
             self.results["rows"].append(row("vulkan", method, payloadBytes=size, medianMs=ms, picture=None,
                                             quartilesMs=[ms - 0.1, ms + 0.1]))
         page = self.page()
-        self.assertIn("faster, not by its bytes", page)
-        self.assertIn("on which payloads of 12 to 36 bytes cannot be told apart", page)
+        self.assertIn("faster; not due to payload size", page)
+        self.assertIn("payloads of 12 to 36 bytes", page)
         self.assertNotIn("The method with the smaller payload: faster", page)
 
     def test_the_gpu_model_is_called_an_estimate(self):
@@ -242,7 +241,7 @@ class Report(unittest.TestCase):
             for method, cost in (("schlick", 100), ("fresnel", 125))]
         page = self.page()
         self.assertIn('id="gpu"', page)
-        self.assertIn("no number here\nis a time", page)
+        self.assertIn("not times", page)
         self.assertIn("1.250 times the estimate of <code>schlick</code>", page)
         self.assertIn("inverse throughput", page)
         self.assertIn("7,112", page)
@@ -250,7 +249,7 @@ class Report(unittest.TestCase):
 
     # Bad input
 
-    def test_bad_input_ends_with_one_line(self):
+    def test_bad_input_gives_one_line(self):
         self.fails("no such folder", self.folder / "missing")
         self.fails("results.json: cannot be read", self.folder)
         (self.folder / "results.json").write_text('{"rows": [')
@@ -262,12 +261,12 @@ class Report(unittest.TestCase):
         results = copy.deepcopy(self.results)
         del results["rows"][1]["method"]
         (self.folder / "results.json").write_text(json.dumps(results))
-        self.fails("row 1 lacks 'method'", self.folder)
+        self.fails("row 1 has no 'method'", self.folder)
         self.assertFalse((self.folder / "index.html").exists())
 
-    def test_a_missing_or_broken_picture_is_named(self):
+    def test_a_missing_or_damaged_image_is_named(self):
         (self.folder / "results.json").write_text(json.dumps(self.results))
-        (self.folder / "pictures/embree-fresnel.exr").write_bytes(b"not a picture")
+        (self.folder / "pictures/embree-fresnel.exr").write_bytes(b"not an image")
         self.fails("embree-fresnel.exr", self.folder)
         (self.folder / "pictures/reference.exr").unlink()
         self.fails("reference.exr", self.folder)
@@ -278,7 +277,7 @@ class Report(unittest.TestCase):
 
 class Parts(unittest.TestCase):
     def test_tone_curve(self):
-        # Values worked out from render/image/output.cpp's formula.
+        # Expected values follow from the formula in render/image/output.cpp.
         expected = {0.0: 0, 0.001: 3, 0.18: 118, 0.7: 218, 1.0: 242, 1e9: 255, math.nan: 0}
         got = report_colours.tone_mapped(numpy.array(list(expected)), 0)
         self.assertEqual(got.tolist(), list(expected.values()))
@@ -292,24 +291,24 @@ class Parts(unittest.TestCase):
             self.assertAlmostEqual(dolp[0], 0.5)
         self.assertEqual(report_colours.linear_polarization(0 * one, 0 * one, 0 * one)[0][0], 0)
 
-    def test_places(self):
+    def test_locations(self):
         mask = numpy.zeros((9, 9), bool)
-        self.assertEqual(report_errors.place(mask), "")
+        self.assertEqual(report_errors.location(mask), "")
         mask[4, 4] = True
-        self.assertEqual(report_errors.place(mask), "the centre")
+        self.assertEqual(report_errors.location(mask), "the centre")
         mask[:] = False
         mask[0:3, :] = True
-        self.assertEqual(report_errors.place(mask), "the upper third")
+        self.assertEqual(report_errors.location(mask), "the upper third")
         mask[:] = True
-        self.assertEqual(report_errors.place(mask), "all parts of the picture")
+        self.assertEqual(report_errors.location(mask), "all parts of the image")
 
-    def test_packed_stokes_keeps_what_it_says(self):
+    def test_packed_stokes_keeps_its_documented_resolution(self):
         import base64
         import zlib
         generator = numpy.random.default_rng(4)
         stokes = generator.uniform(0, 2, (kHeight, kWidth, 4, 3))
         stokes[:, :, 1:] = stokes[:, :, :1] * generator.uniform(-0.7, 0.7, (kHeight, kWidth, 3, 3))
-        packed = report_pictures.packed_stokes(stokes)
+        packed = report_images.packed_stokes(stokes)
         planes = numpy.frombuffer(zlib.decompress(base64.b64decode(packed["data"])), numpy.uint8)
         planes = numpy.cumsum(planes.reshape(12, kHeight, kWidth), axis=2, dtype=numpy.uint8).transpose(1, 2, 0)
         level = (planes[:, :, 0:3].astype(float) * 256 + planes[:, :, 3:6]) / 65535
@@ -325,8 +324,8 @@ class Parts(unittest.TestCase):
         self.assertEqual(report_data.pareto(rows), [rows[1], rows[0], rows[4]])
 
     def test_blocks_are_averaged(self):
-        picture = numpy.arange(24, dtype=float).reshape(4, 6, 1)
-        self.assertEqual(report_pictures.shrunk(picture, 3)[:, :, 0].tolist(), [[3.5, 5.5, 7.5], [15.5, 17.5, 19.5]])
+        image = numpy.arange(24, dtype=float).reshape(4, 6, 1)
+        self.assertEqual(report_images.shrunk(image, 3)[:, :, 0].tolist(), [[3.5, 5.5, 7.5], [15.5, 17.5, 19.5]])
 
 
 if __name__ == "__main__":

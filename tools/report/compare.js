@@ -1,14 +1,14 @@
 "use strict";
-// Two pictures of one view over each other; a slider, or a pointer on the picture, moves the edge between them.
-for (const box of document.querySelectorAll("[data-pictures]")) {
+// Overlays two images of one group. The slider, or the pointer on the image, moves the divider.
+for (const box of document.querySelectorAll("[data-images]")) {
   const data = JSON.parse(box.querySelector('script[type="application/json"]').textContent);
   const stack = box.querySelector(".stack"), split = box.querySelector("[data-split]");
 
   for (const select of box.querySelectorAll("[data-side]")) {
     const image = box.querySelector(`[data-show="${select.dataset.side}"]`);
     const show = () => {
-      image.src = data.pictures[select.value];
-      image.alt = `${select.options[select.selectedIndex].text}: picture on the ${select.dataset.side}`;
+      image.src = data.images[select.value];
+      image.alt = `${select.options[select.selectedIndex].text}: image on the ${select.dataset.side}`;
     };
     select.addEventListener("change", show);
     show();
@@ -30,10 +30,10 @@ for (const box of document.querySelectorAll("[data-pictures]")) {
   stack.addEventListener("pointermove", (event) => {
     if (stack.hasPointerCapture(event.pointerId)) follow(event);
   });
-  // Flip: all of the one, then all of the other.
+  // Flip: alternate between the two complete images.
   box.querySelector("[data-flip]").addEventListener("click", () => place(Number(split.value) < 50 ? 100 : 0));
 
-  // Differences of one renderer at a time.
+  // Show the differences of one renderer.
   const renderer = box.querySelector("[data-renderer]");
   renderer?.addEventListener("change", () => {
     for (const grid of box.querySelectorAll("[data-of]")) grid.hidden = grid.dataset.of !== renderer.value;

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Writes the pages of `malus compare`: FOLDER/index.html from FOLDER/results.json and FOLDER/pictures.
+"""Writes the report of `malus compare`: FOLDER/index.html from FOLDER/results.json and FOLDER/pictures.
 
     compare_report.py FOLDER
 
-The page holds everything it shows: plots as SVG, pictures as data, style and script inline. Exit codes: 0 done,
+The page is self-contained: plots are SVG, images are data URIs, style and script are inline. Exit codes: 0 done,
 1 failed (one line on stderr), 2 usage. Debian packages: python3-matplotlib, python3-jinja2, python3-numpy,
 python3-openimageio.
 """
@@ -11,7 +11,7 @@ import os
 import pathlib
 import sys
 
-sys.dont_write_bytecode = True  # the script may lie in a folder that is not the user's
+sys.dont_write_bytecode = True  # the folder of the script may be read-only
 
 
 def main() -> int:
@@ -29,9 +29,9 @@ def main() -> int:
         try:
             from report_page import page
         except ImportError as error:
-            raise ReportError(f"{error.name}: cannot be imported; expected python3-matplotlib, python3-jinja2, "
-                              f"python3-numpy and python3-openimageio of {sys.executable}") from None
-        # Written beside, then renamed: no half-written page is left.
+            raise ReportError(f"{error.name}: cannot be imported by {sys.executable}; install python3-matplotlib, "
+                              "python3-jinja2, python3-numpy and python3-openimageio") from None
+        # Write to a temporary file and rename it, so that an interruption leaves no partial page.
         unfinished = folder / "index.html.part"
         try:
             unfinished.write_text(page(folder, results), encoding="utf-8")

@@ -4,7 +4,7 @@ import json
 import pathlib
 import sys
 
-HEAD = ("scene", "renderer", "method", "rays", "ms", "RMS error", "off > 0.01")
+HEAD = ("scene", "renderer", "method", "rays", "ms", "RMS error", "|err| > 0.01")
 
 
 def rows(folder: pathlib.Path):
@@ -26,8 +26,8 @@ def main() -> None:
     widths = [max(len(r[i]) for r in [HEAD, *table]) for i in range(len(HEAD))]
     for row in [HEAD, *table]:
         print("  ".join(cell.ljust(w) if i < 3 else cell.rjust(w) for i, (cell, w) in enumerate(zip(row, widths))))
-    print("\nTimes are of one picture each, tracing alone, after one pixel to warm up; the error is of R, G, B")
-    print("against the double-precision reference with full Stokes vectors.")
+    print("\nTimes cover tracing of one image, after a warm-up render of one pixel. Errors are those of R, G, B")
+    print("relative to the double-precision reference with full Stokes vectors.")
     for renderer, device in devices.items():
         print(f"{renderer}: {device}")
 

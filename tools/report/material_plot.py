@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Curves of `malus material --plot`: the command's JSON from standard input, the picture's path as the argument."""
+"""Plots the curves of `malus material --plot`: reads the command's JSON from standard input; the argument is the image file."""
 import json
 import sys
 
@@ -12,7 +12,7 @@ from matplotlib import pyplot  # noqa: E402
 def main() -> None:
     rows = json.load(sys.stdin)
     if len(rows) < 2:
-        sys.exit("material_plot: one angle makes no curve: take --angle FROM:TO:STEP")
+        sys.exit("material_plot: a curve needs two angles or more; use --angle FROM:TO:STEP")
     angle = [r["angleDegrees"] for r in rows]
     pyplot.rcParams.update({"svg.hashsalt": "malus", "svg.fonttype": "none"})
     figure, (powers, phases) = pyplot.subplots(2, 1, sharex=True, figsize=(6.4, 6.4), height_ratios=(2, 1))
@@ -21,7 +21,7 @@ def main() -> None:
     for name, label, colour, style in curves:
         if rows[0][name] is not None:
             powers.plot(angle, [r[name] for r in rows], style, color=colour, label=label)
-    powers.set_ylabel("share of the power")
+    powers.set_ylabel("fraction of the power")
     powers.legend(frameon=False, ncol=2)
     phases.plot(angle, [r["phaseDegrees"] for r in rows], color="#555555")
     phases.set_ylabel("arg($r_p r_s^*$), degrees")
@@ -32,9 +32,9 @@ def main() -> None:
     for axes in (powers, phases):
         axes.grid(alpha=0.3)
     first = rows[0]
-    name = first["material"] or "given constants"
+    name = first["material"] or "user-defined constants"
     at = f" at {first['wavelengthNm']} nm" if first["wavelengthNm"] else ""
-    powers.set_title(f"{name}{at}: {first['eta']:g} - i {first['k']:g} against {first['outside']:g}")
+    powers.set_title(f"{name}{at}: {first['eta']:g} - i {first['k']:g} from medium {first['outside']:g}")
     figure.align_ylabels()
     figure.tight_layout()
     path = sys.argv[1]

@@ -1,7 +1,7 @@
-// A linear polarizer in front of a Stokes picture: I = 1/2 (S0 + S1 cos 2f + S2 sin 2f) for each colour.
-// The data are made by report_pictures.py, packed_stokes.
+// Applies a linear polarizer to a Stokes image: I = 1/2 (S0 + S1 cos 2f + S2 sin 2f) for each colour.
+// packed_stokes in report_images.py encodes the data.
 
-// Byte on the screen for radiance times gain, by the curve of render/image/output.cpp.
+// Returns the 8-bit display value of radiance times gain, with the tone curve of render/image/output.cpp.
 function toneMapped(x) {
   x = Math.min(Math.max(x, 0), 1e6);
   if (x > 0.7) x = 0.7 + 0.3 * (1 - Math.exp(-(x - 0.7) / 0.3));
@@ -9,7 +9,7 @@ function toneMapped(x) {
   return Math.floor(s * 255 + 0.5);
 }
 
-// The curve by a table over the square root of what it takes, up to where the screen is white (x = 4).
+// Table of the tone curve over the square root of its argument, up to display white (x = 4).
 const toneSteps = 8191, toneTop = 4;
 const toneTable = Uint8ClampedArray.from({ length: toneSteps + 1 }, (_, i) => toneMapped(toneTop * (i / toneSteps) ** 2));
 
@@ -17,7 +17,7 @@ async function unpackStokes({ width, height, largest, data }) {
   const packed = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-  // Bytes are differences along a row.
+  // Decode the differences along each row.
   for (let row = 0; row < bytes.length; row += width)
     for (let x = row + 1; x < row + width; ++x) bytes[x] += bytes[x - 1];
   const count = width * height, s0 = new Float32Array(3 * count), s1 = new Float32Array(3 * count), s2 = new Float32Array(3 * count);
@@ -47,7 +47,7 @@ function drawFiltered(context, stokes, gain, degrees) {
 }
 
 for (const figure of document.querySelectorAll(".filter")) {
-  const data = JSON.parse(figure.closest("[data-pictures]").querySelector('script[type="application/json"]').textContent);
+  const data = JSON.parse(figure.closest("[data-images]").querySelector('script[type="application/json"]').textContent);
   const turn = figure.querySelector("[data-turn]"), on = figure.querySelector("[data-on]");
   const angle = figure.querySelector("[data-angle]"), context = figure.querySelector("canvas").getContext("2d");
   let stokes = null, waiting = false;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints one line a mesh: what `malus prep` found and did, from the reports in a folder."""
+"""Prints one line per mesh with the counts of `malus prep`, from the JSON reports in a folder."""
 import json
 import pathlib
 import sys

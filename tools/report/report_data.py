@@ -1,4 +1,4 @@
-"""Reads results.json: checks what the page relies on, and gathers rows that may be compared with each other."""
+"""Reads and validates results.json, and groups the rows that may be compared with each other."""
 import json
 import math
 import pathlib
@@ -6,12 +6,12 @@ from dataclasses import dataclass, field
 
 
 class ReportError(Exception):
-    """One line: what, which file, what was expected."""
+    """An error message of one line: the file, the problem and what was expected."""
 
 
 @dataclass
 class Group:
-    """Rows of one scene, one size and one depth: the same rays, so their times and errors compare."""
+    """Rows of one scene, one size and one depth. They trace the same rays, so times and errors are comparable."""
     scene: str
     width: int
     height: int
@@ -28,7 +28,7 @@ class Group:
         return list(dict.fromkeys(row["renderer"] for row in self.rows))
 
     def row(self, renderer: str, method: str):
-        """The row, or None where it is missing or failed."""
+        """Returns the row, or None if it is missing or failed."""
         for row in self.rows:
             if row["renderer"] == renderer and row["method"] == method and row["status"] == "ok":
                 return row
@@ -38,7 +38,7 @@ class Group:
 def read_results(folder: pathlib.Path) -> dict:
     path = folder / "results.json"
     if not folder.is_dir():
-        raise ReportError(f"{folder}: no such folder; expected one that malus compare wrote")
+        raise ReportError(f"{folder}: no such folder; expected an output folder of malus compare")
     try:
         results = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -53,17 +53,17 @@ def read_results(folder: pathlib.Path) -> dict:
     for at, row in enumerate(results["rows"]):
         for name in ("scene", "renderer", "method", "width", "height", "depth", "status"):
             if not isinstance(row, dict) or name not in row:
-                raise ReportError(f"{path}: row {at} lacks '{name}'")
+                raise ReportError(f"{path}: row {at} has no '{name}'")
         if row["scene"] not in results["scenes"]:
-            raise ReportError(f"{path}: row {at} names scene '{row['scene']}', which 'scenes' lacks")
+            raise ReportError(f"{path}: row {at} names scene '{row['scene']}', which is not in 'scenes'")
     for at, reference in enumerate(results["references"]):
         for name in ("scene", "width", "height", "depth", "picture"):
             if not isinstance(reference, dict) or name not in reference:
-                raise ReportError(f"{path}: reference {at} lacks '{name}'")
+                raise ReportError(f"{path}: reference {at} has no '{name}'")
     return results
 
 
-def groups_of(results: dict) -> list:
+def group_rows(results: dict) -> list:
     groups = {}
     for row in results["rows"]:
         key = (row["scene"], row["width"], row["height"], row["depth"])
@@ -72,13 +72,13 @@ def groups_of(results: dict) -> list:
         key = tuple(reference[name] for name in ("scene", "width", "height", "depth"))
         if key in groups:
             groups[key].reference = reference
-    # Within a scene the largest picture first, then the deepest: the sentences speak of that one.
+    # Sort the largest and deepest group of a scene first: the summary sentences describe that group.
     scenes = list(results["scenes"])
     return sorted(groups.values(), key=lambda g: (scenes.index(g.scene), -g.width * g.height, -g.depth))
 
 
 def number(row: dict, *names):
-    """A finite number of a row, or None: failed rows have nulls."""
+    """Returns a finite number of a row, or None (failed rows contain nulls)."""
     value = row
     for name in names:
         value = value.get(name) if isinstance(value, dict) else None
@@ -90,7 +90,7 @@ def timed(row: dict) -> bool:
 
 
 def pareto(rows: list) -> list:
-    """Rows than which no other is both at least as fast and at least as exact, fastest first."""
+    """Returns the Pareto front of time and relative RMS error, fastest row first."""
     front, best = [], math.inf
     known = [row for row in rows if timed(row) and number(row, "error", "relRms") is not None]
     for row in sorted(known, key=lambda r: (r["medianMs"], r["error"]["relRms"])):

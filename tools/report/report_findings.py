@@ -1,16 +1,16 @@
-"""The paper's findings, one by one, answered by the rows of this run. Returns plain structures for the page."""
+"""The paper's findings compared with the measurements of this run. Returns plain structures for the page."""
 import html
 
 from report_data import number, timed
 from report_gpu import own_cost, traverses_apart
-from report_format import energy, interval, percent, plain, ratio, size_of
+from report_format import energy, interval, percent, plain, ratio, group_size
 from report_words import bold, code, mostly, verdict
 
-kWords = {"same": "cannot be told apart", "faster": "faster", "slower": "slower", "": "no time"}
+kWords = {"same": "no significant difference", "faster": "faster", "slower": "slower", "": "not timed"}
 
 
-def title_of(group) -> str:
-    return f"{group.scene}, {size_of(group)}"
+def group_title(group) -> str:
+    return f"{group.scene}, {group_size(group)}"
 
 
 def is_lavapipe(device: str) -> bool:
@@ -18,7 +18,7 @@ def is_lavapipe(device: str) -> bool:
 
 
 def counted(words: list, subject: str) -> str:
-    """"slower in 2, cannot be told apart in 4 of 6 cases"."""
+    """"slower in 2, no significant difference in 4 of 6 cases"."""
     known = [w for w in words if w]
     if not known:
         return f"{subject}: no times in this run."
@@ -37,7 +37,7 @@ def exact_against_schlick(groups) -> dict:
             words.append(word)
             relative = row.get("ratioToSchlick") or {}
             error = [group.row(renderer, m) for m in ("schlick", "fresnel")]
-            rows.append([title_of(group), renderer, ratio(number(relative, "median")),
+            rows.append([group_title(group), renderer, ratio(number(relative, "median")),
                          interval(number(relative, "low"), number(relative, "high")), kWords[word],
                          *(plain(number(r, "error", "relRms")) for r in error)])
     return {"id": "exact", "question": "Is exact Fresnel faster than Schlick?",
@@ -47,7 +47,7 @@ def exact_against_schlick(groups) -> dict:
                      "rel. RMS fresnel"], "rows": rows}
 
 
-# method, bytes, what it makes smaller
+# (reduced method, full method)
 kReductions = (("sp-cosine", "sp"), ("sp-ratio", "sp"), ("stokes-half", "stokes"), ("stokes-linear", "stokes"))
 
 
@@ -64,26 +64,26 @@ def payloads(groups, devices) -> dict:
                 overlap = all(quartiles) and quartiles[0][0] <= quartiles[1][1] and quartiles[1][0] <= quartiles[0][1]
                 same = whole in (small.get("indistinguishable") or []) or overlap
                 word = "same" if same else "faster" if quotient < 1 else "slower"
-                # lavapipe cannot tell 12 to 36 bytes apart: what differs there is not the payload.
+                # On lavapipe payloads of 12 to 36 bytes make no significant difference, so other costs cause the difference.
                 bytes_differ = not (is_lavapipe(devices.get(renderer)) and
                                     all(12 <= (r.get("payloadBytes") or 0) <= 36 for r in (small, large)))
                 if bytes_differ:
                     words.append(word)
                 shown.add(renderer)
-                rows.append([title_of(group), renderer, f"{method} / {whole}",
+                rows.append([group_title(group), renderer, f"{method} / {whole}",
                              f"{small.get('payloadBytes')} / {large.get('payloadBytes')}", ratio(quotient),
-                             kWords[word] + ("" if bytes_differ or same else ", not by its bytes")])
+                             kWords[word] + ("" if bytes_differ or same else "; not due to payload size")])
     answer = [counted(words, "The method with the smaller payload")] if words else []
     for renderer, device in devices.items():
         if renderer not in shown:
             continue
         if is_lavapipe(device):
-            answer.append(f"The device of {html.escape(renderer)} is a CPU ({html.escape(device)}), on which payloads of 12 to 36 bytes cannot "
-                          "be told apart: those rows are not counted. A difference there is the method’s "
-                          "arithmetic, and says nothing about what bytes cost on a GPU.")
+            answer.append(f"The device of {html.escape(renderer)} is a CPU ({html.escape(device)}), on which payloads of 12 to 36 bytes "
+                          "show no significant difference: those rows are not counted. A difference there is due to the "
+                          "method’s arithmetic and does not predict the cost of payload bytes on a GPU.")
         elif renderer == "embree":
-            answer.append("On embree a payload is a value that a function returns: what differs is the arithmetic "
-                          "of packing.")
+            answer.append("On embree a payload is the return value of a function: a difference is due to the "
+                          "arithmetic of packing.")
     return {"id": "payloads", "question": "Do the payload reductions help?",
             "paper": "They brought no large gain.", "answer": answer,
             "head": ["scene", "renderer", "methods", "bytes", "ratio of medians", "verdict"], "rows": rows}
@@ -93,27 +93,27 @@ def error_rows(groups, wrongs, methods) -> list:
     rows = []
     for group in groups:
         for method in methods:
-            # The renderers share the optics: the first that has the picture speaks for both.
+            # The renderers share the optics: report the first one that has the image.
             for renderer in group.renderers:
                 wrong, row = wrongs.get((group.key, renderer, method)), group.row(renderer, method)
                 if wrong is None or row is None:
                     continue
-                rows.append([title_of(group), renderer, method, plain(number(row, "error", "relRms")),
+                rows.append([group_title(group), renderer, method, plain(number(row, "error", "relRms")),
                              percent(number(row, "error", "shareOver1Percent")),
                              plain(number(row, "error", "perceptual")), energy(number(row, "error", "energyRatio")),
-                             wrong.place or "nowhere",
+                             wrong.location or "none",
                              "–" if wrong.dolp_off is None or wrong.dolp_rest is None
                              else f"{percent(wrong.dolp_off)} / {percent(wrong.dolp_rest)}"])
                 break
     return rows
 
 
-kErrorHead = ["scene", "picture of", "method", "rel. RMS", "pixels off > 1 %", "FLIP", "energy",
-              "mostly in", "DoLP there / elsewhere"]
+kErrorHead = ["scene", "renderer", "method", "rel. RMS", "pixels with error > 1 %", "FLIP", "energy",
+              "location", "DoLP there / elsewhere"]
 
 
-def said_of(groups, wrongs, method) -> list:
-    """One sentence a scene, of its first group."""
+def error_sentences(groups, wrongs, method) -> list:
+    """Returns one sentence per scene, for its first group."""
     answer, seen = [], set()
     for group in groups:
         if group.scene in seen:
@@ -125,8 +125,8 @@ def said_of(groups, wrongs, method) -> list:
             seen.add(group.scene)
             sum_ratio = number(row, "error", "energyRatio")
             light = "" if sum_ratio is None or abs(sum_ratio - 1) < 5e-4 else (
-                f"; the picture has {percent(abs(sum_ratio - 1))} too {'much' if sum_ratio > 1 else 'little'} light")
-            answer.append(f"{bold(group.scene)}: {code(method)} is off by more than 1 % in "
+                f"; the total energy is {percent(abs(sum_ratio - 1))} too {'high' if sum_ratio > 1 else 'low'}")
+            answer.append(f"{bold(group.scene)}: {code(method)} has an error above 1 % in "
                           f"{percent(number(row, 'error', 'shareOver1Percent'))} of the pixels{mostly(wrong)}; relative RMS error "
                           f"{plain(number(row, 'error', 'relRms'))}{light}.")
             break
@@ -140,7 +140,7 @@ def added_by_ratio(groups, added) -> list:
         if group.scene in seen or wrong is None:
             continue
         seen.add(group.scene)
-        answer.append(f"{bold(group.scene)}: against {code('sp')}, whose payload it shortens, {code('sp-ratio')} "
+        answer.append(f"{bold(group.scene)}: {code('sp-ratio')}, the reduced payload of {code('sp')}, "
                       f"changes {percent(wrong.share)} of the pixels by more than 1 %{mostly(wrong)}.")
     return answer
 
@@ -149,9 +149,8 @@ def bottleneck(model, all_rows) -> dict:
     finding = {"id": "bottleneck", "question": "Where is the bottleneck?",
                "paper": "Left open, for other GPUs and scenes too.", "head": [], "rows": []}
     if not model:
-        finding["answer"] = ["Not estimated in this run: <code>malus compare --gpu-model navi21,navi31</code> adds a "
-                             "compiler’s static estimate for GPUs. The times above show where it is not: they "
-                             "hold for the devices named, and for nothing else."]
+        finding["answer"] = ["Not estimated in this run: <code>malus compare --gpu-model navi21,navi31</code> adds the "
+                             "static estimates of a GPU compiler. The times above are valid only for the devices named."]
         return finding
     answer, rows = [], []
     for entry in model:
@@ -167,7 +166,7 @@ def bottleneck(model, all_rows) -> dict:
         top = max(dict.fromkeys(stages), key=stages.count)
         answer.append(f"{bold(family)}: by the compiler’s estimate the costliest stage is {html.escape(top)} in "
                       f"{stages.count(top)} of {len(stages)} pipelines.")
-        # The first scene's pipelines: the shaders of the method's own, traversal left out.
+        # Compare the shaders of the methods, without traversal, for the first scene.
         entries = [e for e in model if e.get("family") == family]
         cost = {e["method"]: own_cost(e) for e in entries if e.get("scene") == entries[0].get("scene")}
         cost = {method: value for method, value in cost.items() if value}
@@ -178,11 +177,11 @@ def bottleneck(model, all_rows) -> dict:
             exact = "" if not {"schlick", "fresnel"} <= cost.keys() else (
                 f"; {code('fresnel')} has {ratio(cost['fresnel'] / cost['schlick'])} times the estimate of "
                 f"{code('schlick')}")
-            answer.append(f"{bold(family)}: without traversal, the inverse throughput of a pipeline’s shaders goes "
+            answer.append(f"{bold(family)}: without traversal, the inverse throughput of a pipeline’s shaders ranges "
                           f"from {named[0]} to {named[1]}{exact}.")
     if any(not traverses_apart(entry) for entry in model):
-        answer.append("Methods that loop have their traversal inlined in one shader and are not compared with the others.")
-    answer.append("These are static estimates of compiled code, each stage counted once; never a time.")
+        answer.append("Iterative methods inline traversal in one shader and are not compared with the others.")
+    answer.append("These are static estimates of compiled code, each stage counted once. They are not times.")
     finding.update(answer=answer, rows=rows, head=["GPU family", "scene", "method", "costliest stage",
                                                    "inverse throughput", "share of all stages"])
     return finding
@@ -196,33 +195,33 @@ def needed(groups, wrongs) -> dict:
             if wrong is None or group.scene in seen:
                 continue
             seen.add(group.scene)
-            answer.append(f"{bold(group.scene)}: without polarization {percent(wrong.share)} of the pixels are off "
-                          f"by more than 1 %{mostly(wrong)}."
+            answer.append(f"{bold(group.scene)}: without polarization {percent(wrong.share)} of the pixels have "
+                          f"an error above 1 %{mostly(wrong)}."
                           + ("" if wrong.dolp_off is None or wrong.dolp_rest is None else
                              f" Their median degree of polarization is {percent(wrong.dolp_off)}, that of the others "
                              f"{percent(wrong.dolp_rest)}."))
     return {"id": "needed", "question": "Which scenes need polarization at all?",
-            "paper": "Left open. One mirror bounce of unpolarized light needs none, two can extinguish it.",
+            "paper": "Left open. One mirror bounce of unpolarized light needs none; two bounces can extinguish it.",
             "answer": answer or [f"{code('fresnel')} was not run."], "head": kErrorHead,
             "rows": error_rows(groups, wrongs, ["schlick", "fresnel"])}
 
 
 def findings(groups, wrongs, added, devices, model, all_rows) -> list:
-    """wrongs: by (group key, renderer, method); added: by group key, sp-ratio's picture against sp's."""
+    """wrongs: error summaries by (group key, renderer, method); added: by group key, sp-ratio relative to sp."""
     return [
         exact_against_schlick(groups),
         payloads(groups, devices),
         {"id": "cosine", "question": "How wrong is |cos|?",
-         "paper": "The s and p powers are turned by |cos|. Malus’s law has cos²: at 45° |cos| returns 1.41 times the "
-                  "light.", "answer": said_of(groups, wrongs, "sp"), "head": kErrorHead,
+         "paper": "The s and p powers are rotated by |cos|. Malus’s law has cos²: at 45° |cos| returns 1.41 times the "
+                  "light.", "answer": error_sentences(groups, wrongs, "sp"), "head": kErrorHead,
          "rows": error_rows(groups, wrongs, ["sp", "sp-cosine", "sp-malus"])},
         {"id": "ratio", "question": "How wrong is the ratio form, and in which pixels?",
          "paper": "It makes large colour errors in some situations.",
-         "answer": said_of(groups, wrongs, "sp-ratio") + added_by_ratio(groups, added), "head": kErrorHead,
+         "answer": error_sentences(groups, wrongs, "sp-ratio") + added_by_ratio(groups, added), "head": kErrorHead,
          "rows": error_rows(groups, wrongs, ["sp-ratio"])},
         {"id": "components", "question": "What is lost with s and p alone, and with linear light alone?",
          "paper": "Left open: s and p drop the ±45° component from the third surface on, and circular light.",
-         "answer": said_of(groups, wrongs, "sp-malus") + said_of(groups, wrongs, "stokes-linear"),
+         "answer": error_sentences(groups, wrongs, "sp-malus") + error_sentences(groups, wrongs, "stokes-linear"),
          "head": kErrorHead, "rows": error_rows(groups, wrongs, ["sp-malus", "stokes-linear", "stokes",
                                                                  "stokes-half"])},
         needed(groups, wrongs),

@@ -1,9 +1,9 @@
-"""Numbers as a person reads them."""
+"""Number formatting."""
 import math
 
 
 def plain(value, digits: int = 3) -> str:
-    """Three significant digits, without an exponent between 0.0001 and a million."""
+    """Formats three significant digits, without an exponent from 0.0001 to 10 million."""
     if value is None:
         return "–"
     if value == 0:
@@ -18,7 +18,7 @@ def plain(value, digits: int = 3) -> str:
 
 
 def percent(share) -> str:
-    """Of a share between 0 and 1 (or more): two significant digits, and never 0 for what is not."""
+    """Formats a share with two significant digits; a share above 0 is never printed as 0."""
     if share is None:
         return "–"
     value = 100 * share
@@ -48,7 +48,7 @@ def interval(low, high) -> str:
     return "" if low is None or high is None else f"{ratio(low)} to {ratio(high)}"
 
 
-def size_of(group) -> str:
+def group_size(group) -> str:
     return f"{group.width} × {group.height}, depth {group.depth}"
 
 

@@ -1,20 +1,20 @@
-"""The static estimate of a GPU's compiler: tables and plots per GPU family."""
+"""The static estimates of a GPU compiler: tables and plots per GPU family."""
 from markupsafe import Markup
 
 from report_data import number
 from report_plots import cost_against_payload
 
-kTraversal = ("traversal", "intersection")  # the driver's own shader, the same for every method
+kTraversal = ("traversal", "intersection")  # the driver's traversal shader, identical for every method
 
 
 def traverses_apart(entry: dict) -> bool:
-    """Whether traversal is a shader of its own. A loop has it inlined in its one shader: never compare the two."""
+    """Returns whether traversal is a separate shader. Iterative methods inline it, so the two kinds must not be compared."""
     return any(word in str(s.get("stage", "")).lower() for s in entry.get("stages") or [] for word in kTraversal)
 
 
 def own_cost(entry: dict):
-    """Inverse throughput of a pipeline's shaders without traversal, each counted once; None where unknown, as for
-    loops."""
+    """Returns the inverse throughput of a pipeline's shaders without traversal, each counted once; None if unknown
+    (iterative methods)."""
     if not traverses_apart(entry):
         return None
     own = [number(s, "inverseThroughput") for s in entry.get("stages") or []

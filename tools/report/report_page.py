@@ -1,4 +1,4 @@
-"""Puts the page together: numbers, sentences, plots and pictures into the templates."""
+"""Renders the page templates with numbers, sentences, plots and images."""
 import json
 import math
 import pathlib
@@ -10,12 +10,12 @@ from markupsafe import Markup
 import report_format
 from report_colours import (aolp_colours, difference_colours, difference_limit, dolp_colours, kSignificantDoLP,
                             linear_polarization, luminance, mapped, signed_difference, tone_mapped)
-from report_data import groups_of, number, pareto
-from report_effects import ratio_interval, reasons_of
-from report_errors import Wrongness, kOff, relative_error
+from report_data import group_rows, number, pareto
+from report_effects import ratio_interval, replacement_reasons
+from report_errors import ErrorSummary, kOff, relative_error
 from report_findings import findings
 from report_gpu import gpu_sections
-from report_pictures import Picture, jpeg, kPictureWidth, kStokesWidth, packed_stokes, png, shrunk
+from report_images import ExrImage, jpeg, kImageWidth, kStokesWidth, packed_stokes, png, shrunk
 from report_plots import error_against_time
 from report_words import first_sentence, second_sentence
 
@@ -23,11 +23,11 @@ kHere = pathlib.Path(__file__).resolve().parent
 
 
 class GroupView:
-    """One group of rows with everything the page shows of it."""
+    """The content of the page for one group of rows."""
 
     def __init__(self, folder: pathlib.Path, group, exposure_ev: float):
-        self.group, self.key, self.size = group, group.key, report_format.size_of(group)
-        self.wrongs, self.added, self.pictures, self.names = {}, None, {}, []
+        self.group, self.key, self.size = group, group.key, report_format.group_size(group)
+        self.wrongs, self.added, self.images, self.names = {}, None, {}, []
         self.differences, self.limit, self.polarization, self.stokes = {}, 0, None, None
         self.exposure_ev = exposure_ev
         front = [id(row) for renderer in group.renderers
@@ -38,7 +38,7 @@ class GroupView:
 
     def _read(self, folder: pathlib.Path) -> None:
         group = self.group
-        reference = Picture(folder / group.reference["picture"]) if group.reference else None
+        reference = ExrImage(folder / group.reference["picture"]) if group.reference else None
         if reference is not None:
             self._add("reference", "reference", reference.rgb)
             if reference.stokes is not None:
@@ -51,24 +51,24 @@ class GroupView:
             if row["status"] != "ok" or not row.get("picture"):
                 continue
             name = (row["renderer"], row["method"])
-            rgb[name] = Picture(folder / row["picture"]).rgb
+            rgb[name] = ExrImage(folder / row["picture"]).rgb
             self._add(f"{name[0]}/{name[1]}", f"{name[1]}, {name[0]}", rgb[name])
         if reference is None:
             return
-        small = shrunk(reference.rgb, kPictureWidth)
+        small = shrunk(reference.rgb, kImageWidth)
         signed = {}
-        for (renderer, method), picture in rgb.items():
-            if picture.shape != reference.rgb.shape:
+        for (renderer, method), image in rgb.items():
+            if image.shape != reference.rgb.shape:
                 continue
-            self.wrongs[self.key, renderer, method] = Wrongness(picture, reference.rgb, dolp)
-            signed[renderer, method] = signed_difference(shrunk(picture, kPictureWidth), small)
-        for renderer in group.renderers:  # what is off with full polarization too is not polarization
+            self.wrongs[self.key, renderer, method] = ErrorSummary(image, reference.rgb, dolp)
+            signed[renderer, method] = signed_difference(shrunk(image, kImageWidth), small)
+        for renderer in group.renderers:  # exclude pixels that are wrong with full polarization too
             plain, full = rgb.get((renderer, "fresnel")), rgb.get((renderer, "stokes"))
             if (renderer, "fresnel") in signed:
                 too = relative_error(full, reference.rgb) > kOff if (renderer, "stokes") in signed else None
-                self.wrongs[self.key, renderer, "polarization"] = Wrongness(plain, reference.rgb, dolp, too)
+                self.wrongs[self.key, renderer, "polarization"] = ErrorSummary(plain, reference.rgb, dolp, too)
             if self.added is None and {(renderer, "sp"), (renderer, "sp-ratio")} <= signed.keys():
-                self.added = Wrongness(rgb[renderer, "sp-ratio"], rgb[renderer, "sp"])
+                self.added = ErrorSummary(rgb[renderer, "sp-ratio"], rgb[renderer, "sp"])
         self.limit = difference_limit(list(signed.values()))
         for (renderer, method), d in signed.items():
             self.differences.setdefault(renderer, []).append(
@@ -76,10 +76,10 @@ class GroupView:
 
     def _add(self, name: str, label: str, rgb: numpy.ndarray) -> None:
         self.names.append((name, label))
-        self.pictures[name] = jpeg(tone_mapped(shrunk(rgb, kPictureWidth), self.exposure_ev))
+        self.images[name] = jpeg(tone_mapped(shrunk(rgb, kImageWidth), self.exposure_ev))
 
     def _polarization(self, stokes: numpy.ndarray) -> None:
-        light = shrunk(luminance(stokes), kPictureWidth)
+        light = shrunk(luminance(stokes), kImageWidth)
         dolp, aolp = linear_polarization(light[:, :, 0], light[:, :, 1], light[:, :, 2])
         lit = light[:, :, 0] > 0
         self.polarization = {
@@ -89,13 +89,13 @@ class GroupView:
 
     @property
     def first_choice(self) -> str:
-        """Shown beside the reference at first: the exact unpolarized picture, or whatever there is."""
+        """The image initially shown beside the reference: the exact unpolarized one if available."""
         names = [name for name, _ in self.names]
         return next((name for name in names if name.endswith("/fresnel")), names[-1])
 
     @property
     def data(self) -> Markup:
-        return script_json({"pictures": self.pictures, "stokes": self.stokes, "exposureEv": self.exposure_ev})
+        return script_json({"images": self.images, "stokes": self.stokes, "exposureEv": self.exposure_ev})
 
     @property
     def sentences(self) -> list:
@@ -106,7 +106,7 @@ class GroupView:
                 Markup(second_sentence(self.group))]
 
     def same_as(self, row: dict) -> str:
-        """The methods that a row's time cannot be told apart from, briefly."""
+        """Lists the methods whose time shows no significant difference from that of a row, abbreviated."""
         names = row.get("indistinguishable") or []
         others = [r["method"] for r in self.group.rows
                   if r["renderer"] == row["renderer"] and r is not row and r["status"] == "ok"]
@@ -117,7 +117,7 @@ class GroupView:
 
     @property
     def scale(self) -> dict:
-        """The legend of the difference pictures: colours, and the ticks' places in percent."""
+        """The legend of the difference images: colours, and the tick positions in percent."""
         strip = mapped(numpy.linspace(0, 1, 64), "RdBu_r")
         knee = self.limit / 100
         at = lambda v: 50 + 50 * math.copysign(math.log1p(abs(v) / knee) / math.log1p(self.limit / knee), v)  # noqa: E731
@@ -132,7 +132,7 @@ def gradient(colours: numpy.ndarray) -> str:
 
 
 def wheel() -> list:
-    """Wedges of the angle's legend: a line through the middle in the direction of the field has its colour."""
+    """Wedges of the legend of AoLP: each direction through the centre has the colour of that angle."""
     count, wedges = 72, []
     for i in range(count):
         a, b = (math.radians(360 * k / count) for k in (i, i + 1.3 if i + 1 < count else i + 1))
@@ -144,14 +144,14 @@ def wheel() -> list:
 
 
 def script_json(value) -> Markup:
-    """JSON that may stand inside a script element."""
+    """Encodes JSON for use inside a script element."""
     return Markup(json.dumps(value, separators=(",", ":")).replace("<", "\\u003c"))
 
 
 def described(value) -> str:
-    """A setting or a driver's entry as text."""
+    """Formats a setting or a driver property as text."""
     if value is None or value == []:
-        return "the scene's"
+        return "as in the scene"
     if isinstance(value, dict):
         return ", ".join(f"{k} {described(v)}" for k, v in value.items()) or "none"
     if isinstance(value, list):
@@ -161,7 +161,7 @@ def described(value) -> str:
 
 def page(folder: pathlib.Path, results: dict) -> str:
     scenes, wrongs, added = {}, {}, {}
-    for group in groups_of(results):
+    for group in group_rows(results):
         ev = number(results["scenes"][group.scene], "exposureEv") or 0.0
         view = GroupView(folder, group, ev)
         scenes.setdefault(group.scene, []).append(view)
@@ -182,10 +182,10 @@ def page(folder: pathlib.Path, results: dict) -> str:
         scenes=[(name, results["scenes"][name], views) for name, views in scenes.items()],
         findings=[{**f, "answer": [Markup(a) for a in f["answer"]]}
                   for f in findings(groups, wrongs, added, devices, model, results["rows"])],
-        effects=effects, reasons=reasons_of(effects), interval=ratio_interval,
+        effects=effects, reasons=replacement_reasons(effects), interval=ratio_interval,
         gpu=gpu_sections(model, results["rows"]), number=number, wheel=wheel(),
         dolp_gradient=gradient(mapped(numpy.linspace(0, 1, 32), "viridis")), least_dolp=kSignificantDoLP,
-        picture_width=kPictureWidth, stokes_width=kStokesWidth,
+        image_width=kImageWidth, stokes_width=kStokesWidth,
         style=Markup((kHere / "report.css").read_text(encoding="utf-8")),
         script=Markup("\n".join((kHere / name).read_text(encoding="utf-8")
                                 for name in ("compare.js", "polarizer.js"))))

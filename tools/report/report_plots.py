@@ -1,4 +1,4 @@
-"""Plots as SVG for the page: text and axes take the colour of the text around them, light or dark."""
+"""SVG plots for the page. Text and axes use currentColor, so they follow the light or dark theme."""
 import hashlib
 import html
 import io
@@ -17,7 +17,7 @@ kWidth, kHeight = 4.9, 3.7  # inches
 
 
 def _svg(figure, title: str) -> str:
-    # Names in the file come from the title, so that equal plots are equal and several fit on one page.
+    # Derive element ids from the title, so that output is deterministic and ids are unique on the page.
     with matplotlib.rc_context({"svg.hashsalt": title}):
         file = io.StringIO()
         figure.savefig(file, format="svg", transparent=True, metadata={"Date": None})
@@ -47,7 +47,7 @@ def _axes(width=kWidth, height=kHeight):
 
 
 def _spread(wanted: list, gap: float, low: float, high: float) -> list:
-    """Places near the wanted ones, sorted upwards, at least gap apart, within low..high where that fits."""
+    """Returns positions close to the requested ones, ascending, at least gap apart, within low..high if possible."""
     places = []
     for value in wanted:
         places.append(max(value, places[-1] + gap if places else low))
@@ -59,7 +59,7 @@ def _spread(wanted: list, gap: float, low: float, high: float) -> list:
 
 
 def _labels(figure, axes, points: list) -> None:
-    """Names at the right edge, in the order of the points' heights, with a thin line to each point."""
+    """Draws the labels at the right edge, in the vertical order of the points, each with a thin leader line."""
     axes.autoscale_view()
     box = axes.get_window_extent()
     points = sorted(points, key=lambda p: axes.transData.transform(p[:2])[1])
@@ -74,14 +74,14 @@ def _labels(figure, axes, points: list) -> None:
 
 
 def error_against_time(group, renderer: str) -> str:
-    """Relative RMS error against median time of one renderer's rows, with quartiles and the Pareto front."""
+    """Plots relative RMS error against median time for one renderer, with quartiles and the Pareto front."""
     rows = [r for r in group.rows if r["renderer"] == renderer and timed(r)
             and number(r, "error", "relRms") is not None]
     if not rows:
         return ""
     front = pareto(rows)
     least = min((r["error"]["relRms"] for r in rows if r["error"]["relRms"] > 0), default=1e-7)
-    height = lambda r: max(r["error"]["relRms"], least / 2)  # noqa: E731: a logarithm has no 0
+    height = lambda r: max(r["error"]["relRms"], least / 2)  # noqa: E731: keep an error of 0 on the logarithmic axis
     figure, axes = _axes()
     axes.set_yscale("log")
     steps_x, steps_y = [], []
@@ -98,11 +98,11 @@ def error_against_time(group, renderer: str) -> str:
                       markersize=5, color=colour, elinewidth=1, capsize=2.5,
                       markerfacecolor=colour if row in front else "none", zorder=3)
     axes.margins(x=0.08, y=0.08)
-    axes.set_xlabel("median time of a picture in ms, bar: quartiles")
+    axes.set_xlabel("median time per image [ms], bars: quartiles")
     axes.set_ylabel("relative RMS error")
     axes.xaxis.set_major_locator(ticker.MaxNLocator(5))
     low, high = axes.get_ylim()
-    if high / low < 50:  # few powers of ten: steps between them need names too
+    if high / low < 50:  # few decades: label intermediate ticks too
         axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
         axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
     axes.yaxis.set_minor_formatter(ticker.NullFormatter())
@@ -113,7 +113,7 @@ def error_against_time(group, renderer: str) -> str:
 
 
 def cost_against_payload(points: list, family: str, label: str) -> str:
-    """points: (payload bytes, cost, method) of one GPU family."""
+    """Plots (payload bytes, cost, method) of one GPU family."""
     if not points:
         return ""
     figure, axes = _axes()
@@ -121,7 +121,7 @@ def cost_against_payload(points: list, family: str, label: str) -> str:
         axes.plot(x, y, "o", markersize=5, color=kOther)
     axes.set_ylim(bottom=0)
     axes.margins(x=0.08, y=0.1)
-    axes.set_xlabel("payload in bytes")
+    axes.set_xlabel("payload [bytes]")
     axes.set_ylabel(label)
     figure.subplots_adjust(left=0.16, right=0.75, top=0.97, bottom=0.13)
     _labels(figure, axes, [(x, y, name, kInk, False) for x, y, name in points])

@@ -1,4 +1,4 @@
-"""Reads the EXR pictures and packs them into the page."""
+"""Reads the EXR images and encodes them for the page."""
 import base64
 import io
 import pathlib
@@ -10,26 +10,26 @@ from PIL import Image
 
 from report_data import ReportError
 
-kPictureWidth = 640  # widest picture in the page; the EXR files keep every pixel
-kStokesWidth = 480  # widest Stokes picture in the page
+kImageWidth = 640  # largest width of an image in the page; the EXR files have the full resolution
+kStokesWidth = 480  # largest width of a Stokes image in the page
 
 
-class Picture:
+class ExrImage:
     """rgb: height x width x 3, radiance. stokes: height x width x 4 x 3 (S0..S3 of R, G, B), or None."""
 
     def __init__(self, path: pathlib.Path):
         file = oiio.ImageInput.open(str(path))
         if not file:
-            raise ReportError(f"{path}: cannot be read as a picture: {oiio.geterror().splitlines()[0]}")
+            raise ReportError(f"{path}: cannot be read as an image: {oiio.geterror().splitlines()[0]}")
         spec = file.spec()
         pixels = file.read_image(oiio.FLOAT)
         file.close()
         if pixels is None:
-            raise ReportError(f"{path}: the picture is broken: {file.geterror()}")
+            raise ReportError(f"{path}: damaged image: {file.geterror()}")
         names = list(spec.channelnames)
         missing = [c for c in "RGB" if c not in names]
         if missing:
-            raise ReportError(f"{path}: lacks channel {missing[0]}; expected R, G and B, found {' '.join(names)}")
+            raise ReportError(f"{path}: has no channel {missing[0]}; expected R, G and B, found {' '.join(names)}")
         pixels = numpy.asarray(pixels, dtype=numpy.float32).reshape(spec.height, spec.width, len(names))
         self.rgb = pixels[:, :, [names.index(c) for c in "RGB"]]
         stokes = [f"S{s}.{c}" for s in range(4) for c in "RGB"]
@@ -39,7 +39,7 @@ class Picture:
 
 
 def shrunk(pixels: numpy.ndarray, widest: int) -> numpy.ndarray:
-    """The mean of whole blocks of pixels, so that the width is at most `widest`."""
+    """Downsamples by averaging blocks of pixels until the width is at most `widest`."""
     step = -(-pixels.shape[1] // widest)
     if step == 1:
         return pixels
@@ -54,14 +54,14 @@ def data_uri(data: bytes, kind: str) -> str:
 
 
 def jpeg(rgb: numpy.ndarray) -> str:
-    """For pictures that a person compares by eye: quality 93, colours at full resolution."""
+    """Encodes an image for visual comparison: quality 93, no chroma subsampling."""
     file = io.BytesIO()
     Image.fromarray(rgb, "RGB").save(file, "JPEG", quality=93, subsampling=0)
     return data_uri(file.getvalue(), "image/jpeg")
 
 
 def png(steps: numpy.ndarray, palette: numpy.ndarray) -> str:
-    """For pictures in colours of a scale: 255 steps, nothing else is lost."""
+    """Encodes a colour-mapped image losslessly, with a palette of 255 steps."""
     file = io.BytesIO()
     image = Image.fromarray(steps, "P")
     image.putpalette(palette.tobytes())
@@ -70,16 +70,16 @@ def png(steps: numpy.ndarray, palette: numpy.ndarray) -> str:
 
 
 def packed_stokes(stokes: numpy.ndarray) -> dict:
-    """What the page's filter needs, as zlib-compressed bytes in base64.
+    """Encodes the Stokes image of the polarizer demonstration as zlib-compressed bytes in base64.
 
     Twelve planes of bytes, each stored as differences along its rows (modulo 256): the high and the low byte of
-    round(65535 sqrt(S0 / largest)) for R, G, B; then round(127 (S1 / S0)) + 128 for R, G, B; then S2 alike.
-    S0 is kept to 1 part in 30,000 of the largest value (the brightest ten-thousandth is cut off there); S1/S0 and S2/S0 to 0.004, so that light behind the
-    filter is off by at most 0.3 % of the light without it.
+    round(65535 sqrt(S0 / largest)) for R, G, B; then round(127 (S1 / S0)) + 128 for R, G, B; then the same for S2.
+    S0 has a resolution of largest / 30,000 and is clamped at the 99.99th percentile. S1/S0 and S2/S0 have a
+    resolution of 0.004, so the filtered radiance has an error of at most 0.3 % of the unfiltered radiance.
     """
     pixels = numpy.nan_to_num(shrunk(stokes, kStokesWidth).astype(float))
     s0 = numpy.maximum(pixels[:, :, 0], 0)
-    # A lamp's mirror image must not take the steps from all the rest: white on the screen comes much earlier.
+    # Clamp highlights: they display as white in any case and would reduce the resolution of all other pixels.
     largest = max(float(numpy.quantile(s0, 0.9999)), 1e-6)
     level = numpy.round(65535 * numpy.sqrt(numpy.minimum(s0 / largest, 1))).astype(numpy.uint16)
     safe = numpy.where(s0 > 0, s0, 1)

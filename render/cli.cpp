@@ -19,11 +19,10 @@
 #include "meshprep/base/image.h"
 #include "render/compare/cheapest_method.h"
 #include "render/compare/image_difference.h"
-#include "render/embree/renderer.h"
 #include "render/image/mosaic.h"
 #include "render/image/output.h"
 #include "render/image/polarization.h"
-#include "render/reference/reference.h"
+#include "render/make_renderer.h"
 #include "render/scene/effects_choice.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
@@ -88,7 +87,7 @@ Analyser analyserFor(const RenderArguments& a) {
 void warnOfMissingLight(const RenderArguments& a, const Analyser& analyser) {
   if (!a.wavePlate.empty() && !a.polarizer && a.analyser.empty())
     console::warn("--wave-plate: a plate without --polarizer or --analyser behind it changes no intensity");
-  if (a.backend == "reference") return;
+  if (!backendInfo(a.backend).hasMethods) return;
   const CarriedLight carried = carriedBy(a.method);
   const bool linear = (analyser[1] != 0 || analyser[2] != 0) && !carried.linear,
              circular = analyser[3] != 0 && !carried.circular;
@@ -133,13 +132,13 @@ void checkUsage(const RenderArguments& a) {
     fail("--analyser", "the filter is either linear (--polarizer) or circular (--analyser)");
   if (!a.mosaic.empty() && (a.polarizer || !a.analyser.empty() || !a.wavePlate.empty()))
     fail("--mosaic", "has a polarizer in front of every pixel: no --polarizer, --analyser or --wave-plate");
-  if (a.maxError && a.backend == "reference") fail("--max-error", "the reference has no error");
+  if (a.maxError && !backendInfo(a.backend).hasMethods) fail("--max-error", "the reference has no error");
   if (a.tolerance > 0 && a.maxError) fail("--tolerance", "excludes --max-error");
   if (a.intensity && a.stokes) fail("--intensity", "excludes --stokes");
-  if (a.tolerance > 0 && (a.backend == "reference" || !methodNamed(a.method).isIterative))
+  if (a.tolerance > 0 && (!backendInfo(a.backend).hasMethods || !methodNamed(a.method).isIterative))
     fail("--tolerance", fmt::format("needs a method that follows the eye's path (importance, fresnel-iterative, "
                                     "schlick-iterative), not {}",
-                                    a.backend == "reference" ? "the reference" : a.method));
+                                    methodName(a.backend, a.method)));
   if (a.stokes && !a.maxError) requireStokes(a, "--stokes");
   if (a.intensity && (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty()))
     fail("--intensity", "excludes --output-dolp, --output-aolp and --mosaic");
@@ -150,7 +149,7 @@ void checkUsage(const RenderArguments& a) {
 }  // namespace
 
 void requireStokes(const RenderSettings& a, const std::string& option) {
-  if (a.backend == "reference" || methodNamed(a.method).hasStokes) return;
+  if (!backendInfo(a.backend).hasMethods || methodNamed(a.method).hasStokes) return;
   std::string able;
   for (const MethodInfo& m : methods())
     if (m.hasStokes) able += fmt::format("{}{}", able.empty() ? "" : ", ", m.name);
@@ -190,11 +189,9 @@ RenderParameters parametersFor(const RenderSettings& a, const pack::Scene& scene
 
 Picture renderScene(const RenderSettings& a, const pack::Scene& scene, const RenderParameters& parameters,
                     bool countRays) {
-  if (a.backend == "reference") return reference::render(scene, parameters, a.threads);
-  if (a.backend == "embree") return embree::Renderer(scene, a.threads).render(a.method, parameters);
-  vulkan::Renderer renderer(scene, {a.device, a.threads});
-  Picture picture = renderer.render(a.method, parameters);
-  if (countRays) picture.cost.rays = renderer.countRays(a.method, parameters);
+  const std::unique_ptr<Renderer> renderer = makeRenderer(a.backend, scene, {a.device, a.threads});
+  Picture picture = renderer->render(a.method, parameters);
+  if (countRays && picture.cost.rays == 0) picture.cost.rays = renderer->countRays(a.method, parameters);
   return picture;
 }
 
@@ -212,7 +209,7 @@ Picture intensityOf(Picture picture) {
 
 // What of the picture is asked for: its Stokes vectors where a file holds them.
 bake::PictureRequest requestOf(const RenderArguments& a, const RenderParameters& parameters) {
-  const bool stokesFile = !a.intensity && (a.backend == "reference" || hasStokes(methodNamed(a.method), parameters)) &&
+  const bool stokesFile = !a.intensity && hasStokes(a.backend, a.method, parameters) &&
                           std::any_of(a.outputs.begin(), a.outputs.end(),
                                       [](const std::string& output) { return endsWith(output, {".exr"}); });
   bake::PictureRequest request{parameters.depth, parameters.analyser, false, false};
@@ -232,11 +229,11 @@ pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, RenderPar
   parameters.everyEffect = a.effects == "all";
   // The reference carries everything, always.
   const EffectsChoice choice =
-      chooseEffects(effects, a.backend == "reference" ? "stokes" : a.method, scene, requestOf(a, parameters));
+      chooseEffects(effects, backendInfo(a.backend).hasMethods ? a.method : "stokes", scene, requestOf(a, parameters));
   // The reference keeps its polarized light whatever is left out.
   for (const std::string& warning : choice.warnings)
-    if (a.backend != "reference" || warning.find("-polarization") == std::string::npos) console::warn(warning);
-  if (a.backend != "reference" && choice.method != a.method) {
+    if (backendInfo(a.backend).hasMethods || warning.find("-polarization") == std::string::npos) console::warn(warning);
+  if (backendInfo(a.backend).hasMethods && choice.method != a.method) {
     if (!choice.why.empty()) a.inPlaceOf = fmt::format("in place of {}: {}", a.method, choice.why);
     a.method = choice.method;
   }
@@ -251,18 +248,8 @@ pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, RenderPar
 // The cheapest method that is good enough, and why, for a person.
 std::string chooseMethod(const RenderArguments& a, const pack::Pack& pack, const RenderParameters& parameters) {
   const bool needsStokes = parameters.stokes;
-  std::unique_ptr<vulkan::Renderer> vulkan;
-  std::unique_ptr<embree::Renderer> embree;
-  if (a.backend == "vulkan")
-    vulkan = std::make_unique<vulkan::Renderer>(pack.scene, vulkan::Options{a.device, a.threads});
-  else
-    embree = std::make_unique<embree::Renderer>(pack.scene, a.threads);
-  std::vector<MethodEstimate> estimates = estimateMethods(
-      pack, parameters, a.backend + " " + (vulkan ? vulkan->device() : embree->device()),
-      [&](const std::string& method, const RenderParameters& small) {
-        return vulkan ? vulkan->render(method, small) : embree->render(method, small);
-      },
-      a.threads, console::progress);
+  const std::unique_ptr<Renderer> renderer = makeRenderer(a.backend, pack.scene, {a.device, a.threads});
+  std::vector<MethodEstimate> estimates = estimateMethods(pack, parameters, *renderer, a.threads, console::progress);
   if (needsStokes) std::erase_if(estimates, [](const MethodEstimate& e) { return !methodNamed(e.method).hasStokes; });
   const MethodEstimate& best = cheapestUnder(estimates, *a.maxError);
   console::progressDone();
@@ -290,13 +277,14 @@ void runRender(RenderArguments a) {
   const pack::Scene scene = applyEffects(a, pack.scene, parameters);
   if (!a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty())
     requireStokes(a, !a.mosaic.empty() ? "--mosaic" : a.dolp.empty() ? "--output-aolp" : "--output-dolp");
-  console::progress(
-      fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, a.backend == "reference" ? "" : a.method));
+  const std::string backend = backendInfo(a.backend).name;
+  console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, backend,
+                                backendInfo(a.backend).hasMethods ? a.method : ""));
   parameters.checkNumerics = a.checkNumerics;
   const Picture picture = renderScene(a, scene, parameters, a.countRays);
   if (picture.faults.count > 0) throw Error(a.input, describe(picture.faults, pack.scene));
-  const std::string method = a.backend == "reference" ? "reference" : a.method;
-  const image::Image image = toImage(a.intensity ? intensityOf(picture) : picture, pack, parameters, a.backend, method);
+  const std::string method = methodName(a.backend, a.method);
+  const image::Image image = toImage(a.intensity ? intensityOf(picture) : picture, pack, parameters, backend, method);
   const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
   std::vector<std::string> written;
   const auto write = [&](const std::string& output, const auto& writer) {
@@ -316,7 +304,7 @@ void runRender(RenderArguments a) {
   const Cost& cost = picture.cost;
   if (a.json) {
     const nlohmann::json result = {{"scene", pack.scene.name},
-                                   {"renderer", a.backend},
+                                   {"renderer", backend},
                                    {"method", method},
                                    {"device", picture.device},
                                    {"width", picture.width},
@@ -333,7 +321,7 @@ void runRender(RenderArguments a) {
                                    {"outputs", written}};
     fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{}: {} {}{}, {} x {}, depth {}, {}{:.1f} ms on {}{}\n", pack.scene.name, a.backend, method,
+    fmt::print("{}: {} {}{}, {} x {}, depth {}, {}{:.1f} ms on {}{}\n", pack.scene.name, backend, method,
                a.inPlaceOf.empty() ? "" : fmt::format(" ({})", a.inPlaceOf), picture.width, picture.height,
                parameters.depth, cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs, picture.device,
                a.checkNumerics ? "; every value is finite and physical" : "");
@@ -378,9 +366,11 @@ void runCompareImages(const CompareArguments& arguments) {
 
 void addRenderSettings(CLI::App& command, RenderSettings& a) {
   command.add_option("pack", a.input, "scene pack")->required();
-  command.add_option("--backend", a.backend, "renderer")
-      ->check(CLI::IsMember({"vulkan", "embree", "reference"}))
-      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--backend", [&a](const std::string& name) { a.backend = backendNamed(name); }, "renderer")
+      ->check(CLI::IsMember(backendNames()))
+      ->default_str(backendInfo(a.backend).name);
   command.add_option("--method", a.method, "how light is carried along rays")
       ->check(CLI::IsMember(methodNames()))
       ->capture_default_str();

@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bake/pack/scene.h"
+#include "render/backend.h"
 #include "render/scene/picture.h"
 #include "render/scene/render_parameters.h"
 
@@ -22,7 +23,8 @@ namespace malus::render {
 // What every command that renders a picture takes, and its options.
 struct RenderSettings {
   std::string input;  // scene pack
-  std::string backend = "embree", method = "fresnel", device;
+  Backend backend = Backend::embree;
+  std::string method = "fresnel", device;
   std::uint32_t width = 0, height = 0;  // pixels; 0: the pack's, or what keeps its aspect
   std::uint32_t samples = 1;
   std::optional<std::uint32_t> depth;  // else the pack's

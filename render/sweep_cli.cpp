@@ -76,8 +76,8 @@ void runSweep(const SweepArguments& a) {
   parameters.stokes = true;
   const fs::path folder = a.folder;
   const OutputFolder made(folder);
-  const std::string method = a.backend == "reference" ? "reference" : a.method;
-  console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, a.backend, method));
+  const std::string method = methodName(a.backend, a.method), backend = backendInfo(a.backend).name;
+  console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, backend, method));
   const Picture picture = renderScene(a, pack.scene, parameters, false);
   const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
 
@@ -94,7 +94,7 @@ void runSweep(const SweepArguments& a) {
     writePicture(folder / nameOf(i), behind(linearPolarizer(degrees), picture), exposureEv);
     frames.push_back({{"file", nameOf(i)}, {"degrees", degrees}});
   }
-  const nlohmann::json result = {{"scene", pack.scene.name},  {"renderer", a.backend},
+  const nlohmann::json result = {{"scene", pack.scene.name},  {"renderer", backend},
                                  {"method", method},          {"device", picture.device},
                                  {"width", picture.width},    {"height", picture.height},
                                  {"depth", parameters.depth}, {"samples", parameters.samples},
@@ -108,7 +108,7 @@ void runSweep(const SweepArguments& a) {
   if (a.json)
     fmt::print("{}", text);
   else
-    fmt::print("{}: {} {}, {} frames of {} x {} in {}\n", pack.scene.name, a.backend, method, a.frames, picture.width,
+    fmt::print("{}: {} {}, {} frames of {} x {} in {}\n", pack.scene.name, backend, method, a.frames, picture.width,
                picture.height, folder.string());
 }
 

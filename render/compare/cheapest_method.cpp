@@ -13,7 +13,7 @@
 #include "meshprep/base/error.h"
 #include "render/compare/picture_error.h"
 #include "render/compare/statistics.h"
-#include "render/reference/reference.h"
+#include "render/make_renderer.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
@@ -61,15 +61,15 @@ void save(const fs::path& path, const std::string& key, const std::vector<Method
 
 }  // namespace
 
-std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const RenderParameters& full,
-                                            const std::string& device, const RenderSmall& render, unsigned threads,
-                                            const std::function<void(std::string_view)>& progress) {
+std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const RenderParameters& full, Renderer& renderer,
+                                            unsigned threads, const std::function<void(std::string_view)>& progress) {
   RenderParameters parameters = full;
   parameters.width = kWidth;
   parameters.height =
       std::max(1u, static_cast<std::uint32_t>(std::lround(static_cast<double>(kWidth) * full.height / full.width)));
   parameters.region = {0, 0, parameters.width, parameters.height};
   parameters.samples = 1;
+  const std::string device = fmt::format("{} {}", backendInfo(renderer.backend()).name, renderer.device());
   const std::string key = fmt::format(
       "malus {} pack {:016x} {} {}x{} depth {} analyser {} {} {} {} stokes {} methods {}", MALUS_VERSION, pack.hash,
       device, parameters.width, parameters.height, parameters.depth, parameters.analyser[0], parameters.analyser[1],
@@ -78,17 +78,19 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const Render
   if (std::vector<MethodEstimate> known = load(path, key); !known.empty()) return known;
 
   progress("measuring every method's error on a small picture");
-  const Picture reference = reference::render(pack.scene, parameters, threads);
+  const Picture reference = makeRenderer(Backend::reference, pack.scene, {"", threads})->render("", parameters);
   std::vector<MethodEstimate> list;
   std::vector<std::vector<double>> samples;
   for (const std::string& method : methodNames()) try {
-      list.push_back({method, pictureError(render(method, parameters), reference, pack.scene.exposureEv).relRms, 0});
+      list.push_back(
+          {method, pictureError(renderer.render(method, parameters), reference, pack.scene.exposureEv).relRms, 0});
       samples.emplace_back();
     } catch (const Error&) {  // this device cannot do it at this depth: others may
       if (method == methodNames().back() && list.empty()) throw;
     }
   for (int round = 0; round < kRounds; ++round)
-    for (std::size_t i = 0; i < list.size(); ++i) samples[i].push_back(render(list[i].method, parameters).cost.traceMs);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      samples[i].push_back(renderer.render(list[i].method, parameters).cost.traceMs);
   for (std::size_t i = 0; i < list.size(); ++i) list[i].medianMs = spreadOf(samples[i]).median;
   save(path, key, list);
   return list;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bake/pack/reader.h"
-#include "render/scene/picture.h"
+#include "render/renderer.h"
 #include "render/scene/render_parameters.h"
 
 namespace malus::render {
@@ -19,13 +19,10 @@ struct MethodEstimate {
   double medianMs = 0;  // of its interleaved rounds
 };
 
-// Renders one picture by a method; what a renderer does.
-using RenderSmall = std::function<Picture(const std::string& method, const RenderParameters& parameters)>;
-
-// Every method's error and time for a pack with this depth and filter, at a width of 256 pixels. key: what else
-// the times depend on (renderer and device). From the cache where it is there. Throws what rendering throws.
+// Every method's error and time for a pack with this depth and filter, at a width of 256 pixels, from the cache if it
+// is there. renderer: made from pack.scene. threads: of the reference, 0 for all. Throws what rendering throws.
 std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const RenderParameters& parameters,
-                                            const std::string& key, const RenderSmall& render, unsigned threads,
+                                            Renderer& renderer, unsigned threads,
                                             const std::function<void(std::string_view)>& progress);
 
 // The fastest with relRms <= maxError. Throws Error, naming the best there is, where there is none.

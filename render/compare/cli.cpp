@@ -50,7 +50,7 @@ void runCompare(const Arguments& a) {
   };
   // What the compiler of the device that was timed tells of its pipelines, where it tells.
   const auto& backends = a.settings.backends;
-  if (std::find(backends.begin(), backends.end(), "vulkan") != backends.end())
+  if (std::find(backends.begin(), backends.end(), Backend::vulkan) != backends.end())
     for (const auto& [name, pack] : comparison.packs)
       if (!comparison.interrupted && comparison.devices.contains("vulkan")) try {
           keep(vulkan::deviceStatistics(pack.scene, a.settings.methods, depthOf(pack.scene), a.settings.device), name);
@@ -95,9 +95,16 @@ void addCompareCommand(CLI::App& app) {
   command->add_option("--methods", a->settings.methods, "methods (default: all)")
       ->delimiter(',')
       ->check(CLI::IsMember(methodNames()));
-  command->add_option("--backends", a->settings.backends, "renderers (default: both)")
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--backends",
+          [a](const std::vector<std::string>& names) {
+            a->settings.backends.clear();
+            for (const std::string& name : names) a->settings.backends.push_back(backendNamed(name));
+          },
+          "renderers (default: both)")
       ->delimiter(',')
-      ->check(CLI::IsMember({"vulkan", "embree"}));
+      ->check(CLI::IsMember(methodBackendNames()));
   auto* width = command->add_option("--width", a->settings.widths, "widths of the pictures (default: the scene's)")
                     ->delimiter(',')
                     ->check(CLI::Range(1u, 16384u));

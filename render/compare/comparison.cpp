@@ -10,13 +10,11 @@
 
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
-#include "render/embree/renderer.h"
 #include "render/image/output.h"
-#include "render/reference/reference.h"
+#include "render/make_renderer.h"
 #include "render/scene/compiled_effects.h"
 #include "render/scene/effects_choice.h"
 #include "render/scene/methods.h"
-#include "render/vulkan/renderer.h"
 
 namespace malus::render {
 
@@ -32,34 +30,21 @@ double cpuMs() {
   return ms(usage.ru_utime) + ms(usage.ru_stime);
 }
 
-// Both renderers of one scene, made when first asked for.
+// The renderers of one scene, made when first asked for.
 class Renderers {
  public:
   Renderers(const pack::Scene& scene, const ComparisonSettings& settings) : scene_(scene), settings_(settings) {}
 
-  Picture render(const std::string& backend, const std::string& method, const RenderParameters& parameters) {
-    return backend == "vulkan" ? vulkan().render(method, parameters) : embree().render(method, parameters);
+  Renderer& operator[](Backend backend) {
+    std::unique_ptr<Renderer>& renderer = renderers_[backend];
+    if (!renderer) renderer = makeRenderer(backend, scene_, {settings_.device, settings_.threads});
+    return *renderer;
   }
-  std::uint64_t countRays(const std::string& backend, const std::string& method, const RenderParameters& parameters,
-                          const Picture& picture) {
-    return backend == "vulkan" ? vulkan().countRays(method, parameters) : picture.cost.rays;
-  }
-  std::string device(const std::string& backend) { return backend == "vulkan" ? vulkan().device() : embree().device(); }
 
  private:
-  vulkan::Renderer& vulkan() {
-    if (!vulkan_)
-      vulkan_ = std::make_unique<vulkan::Renderer>(scene_, vulkan::Options{settings_.device, settings_.threads});
-    return *vulkan_;
-  }
-  embree::Renderer& embree() {
-    if (!embree_) embree_ = std::make_unique<embree::Renderer>(scene_, settings_.threads);
-    return *embree_;
-  }
   const pack::Scene& scene_;
   const ComparisonSettings& settings_;
-  std::unique_ptr<vulkan::Renderer> vulkan_;
-  std::unique_ptr<embree::Renderer> embree_;
+  std::map<Backend, std::unique_ptr<Renderer>> renderers_;
 };
 
 // Rows that share a scene and a view.
@@ -146,7 +131,7 @@ Picture renderRow(ComparisonRow& row, Group& group, bool timed) {
   const double cpuBefore = cpuMs();
   RenderParameters parameters = group.parameters;
   parameters.everyEffect = row.everyEffect;
-  Picture picture = group.renderers->render(row.renderer, row.method, parameters);
+  Picture picture = (*group.renderers)[row.backend].render(row.method, parameters);
   const double cpu = cpuMs() - cpuBefore;
   if (timed) {
     row.samplesMs.push_back(picture.cost.traceMs);
@@ -177,7 +162,7 @@ void summarize(Comparison& comparison, const std::vector<Group>& groups) {
       row.time = spreadOf(row.samplesMs);
       for (const std::size_t j : group.rows) {
         const ComparisonRow& other = comparison.rows[j];
-        if (other.renderer != row.renderer || !other.ok() || other.samplesMs.size() != row.samplesMs.size()) continue;
+        if (other.backend != row.backend || !other.ok() || other.samplesMs.size() != row.samplesMs.size()) continue;
         if (other.everyEffect) continue;
         if (other.method == "schlick") row.ratioToSchlick = ratioSpread(row.samplesMs, other.samplesMs);
         if (i != j && !row.everyEffect && indistinguishable(row.samplesMs, other.samplesMs))
@@ -224,7 +209,8 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
       if (interrupted()) break;
       progress(
           fmt::format("{} {} x {}, depth {}: reference", name, parameters.width, parameters.height, parameters.depth));
-      const Picture reference = reference::render(pack.scene, parameters, settings.threads);
+      const Picture reference =
+          makeRenderer(Backend::reference, pack.scene, {"", settings.threads})->render("", parameters);
       comparison.devices["reference"] = reference.device;
       comparison.references.push_back(
           {name, parameters.width, parameters.height, parameters.depth, stem(name, parameters, "reference") + ".exr"});
@@ -233,17 +219,18 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
       groups.push_back({&pack, parameters, renderers, {}});
       const EffectsChoice cheapest =
           chooseEffects({"auto"}, "stokes", pack.scene, {parameters.depth, parameters.analyser, false, false});
-      for (const std::string& backend : settings.backends) {
+      for (const Backend backend : settings.backends) {
+        const std::string renderer = backendInfo(backend).name;
         EffectsPictures pictures;
         EffectsComparison effects;
         effects.why = cheapest.why;
         for (const auto& [method, everyEffect] : drawsOf(settings.methods, cheapest.method)) {
           if (interrupted()) break;
           progress(fmt::format("{} {} x {}, depth {}: {} {}{}", name, parameters.width, parameters.height,
-                               parameters.depth, backend, method, everyEffect ? ", all effects" : ""));
+                               parameters.depth, renderer, method, everyEffect ? ", all effects" : ""));
           ComparisonRow row;
           row.scene = name;
-          row.renderer = backend;
+          row.backend = backend;
           row.method = method;
           row.everyEffect = everyEffect;
           row.width = parameters.width;
@@ -257,11 +244,11 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
             row.stateBytes = info.pathBytes * (1 + pathStackSize(compiledEffects(pack.scene, drawn), parameters.depth));
           try {
             const Picture picture = renderRow(row, groups.back(), false);
-            row.rays = renderers->countRays(backend, method, drawn, picture);
+            row.rays = picture.cost.rays > 0 ? picture.cost.rays : (*renderers)[backend].countRays(method, drawn);
             row.error = pictureError(picture, reference, pack.scene.exposureEv);
             if (!everyEffect) {
-              row.picture = stem(name, parameters, fmt::format("{}-{}", backend, method)) + ".exr";
-              writePicture(folder / "pictures" / row.picture, toImage(picture, pack, parameters, backend, method), 0);
+              row.picture = stem(name, parameters, fmt::format("{}-{}", renderer, method)) + ".exr";
+              writePicture(folder / "pictures" / row.picture, toImage(picture, pack, parameters, renderer, method), 0);
             }
             const std::size_t index = comparison.rows.size();
             const bool isAll = everyEffect && method == "stokes", isAuto = !everyEffect && method == cheapest.method,
@@ -270,7 +257,7 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
             if (isAuto) effects.automatic = index;
             if (isImportance) effects.importance = index;
             if (isAll || isAuto || isImportance) pictures.add(index, picture);
-            comparison.devices[backend] = renderers->device(backend);
+            comparison.devices[renderer] = (*renderers)[backend].device();
           } catch (const Error& error) {
             row.status = error.what();
           }

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/pack/reader.h"
+#include "render/backend.h"
 #include "render/compare/picture_error.h"
 #include "render/compare/statistics.h"
 #include "render/scene/render_parameters.h"
@@ -22,7 +23,7 @@ namespace malus::render {
 
 struct ComparisonSettings {
   std::vector<std::string> methods;  // schlick is added where it is missing: ratios need it
-  std::vector<std::string> backends = {"vulkan", "embree"};
+  std::vector<Backend> backends = {Backend::vulkan, Backend::embree};
   std::vector<std::uint32_t> widths;   // pictures' widths; empty: the scene's times scale
   std::vector<std::uint32_t> heights;  // their heights, as many as widths; empty: by the scene's aspect
   double scale = 1;
@@ -36,7 +37,8 @@ struct ComparisonSettings {
 
 // One method on one renderer with one view of one scene.
 struct ComparisonRow {
-  std::string scene, renderer, method;
+  std::string scene, method;
+  Backend backend = Backend::vulkan;
   bool everyEffect = false;  // everything compiled in; else what the picture calls for
   std::uint32_t width = 0, height = 0, depth = 0;
   std::size_t payloadBytes = 0;

@@ -17,7 +17,7 @@ json number(double value) { return std::isfinite(value) ? json(value) : json(); 
 double medianOf(const std::vector<double>& values) { return values.empty() ? 0 : spreadOf(values).median; }
 
 json toJson(const ComparisonRow& row) {
-  json result = {{"scene", row.scene},           {"renderer", row.renderer},
+  json result = {{"scene", row.scene},           {"renderer", backendInfo(row.backend).name},
                  {"method", row.method},         {"effects", row.everyEffect ? "all" : "auto"},
                  {"width", row.width},           {"height", row.height},
                  {"depth", row.depth},           {"payloadBytes", row.payloadBytes},
@@ -75,14 +75,18 @@ json toJson(const EffectsComparison& e, const Comparison& comparison) {
     importance["ratioToAll"] = spreadJson(e.importanceToAll);
     importance["largestDifference"] = number(e.importanceDifference);
   }
-  return {{"scene", all.scene},   {"renderer", all.renderer}, {"width", all.width},
-          {"height", all.height}, {"depth", all.depth},       {"all", rowOf(e.all)},
-          {"auto", automatic},    {"importance", importance}, {"brightest", e.brightest}};
+  return {{"scene", all.scene},      {"renderer", backendInfo(all.backend).name},
+          {"width", all.width},      {"height", all.height},
+          {"depth", all.depth},      {"all", rowOf(e.all)},
+          {"auto", automatic},       {"importance", importance},
+          {"brightest", e.brightest}};
 }
 
 }  // namespace
 
 json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
+  json backends = json::array();
+  for (const Backend b : settings.backends) backends.push_back(backendInfo(b).name);
   json scenes = json::object(), references = json::array(), rows = json::array(), everything = json::array(),
        effects = json::array(), exposure = json::object();
   for (const auto& [name, pack] : comparison.packs) {
@@ -114,7 +118,7 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
             {"scale", settings.scale},
             {"depths", settings.depths},
             {"methods", settings.methods},
-            {"backends", settings.backends},
+            {"backends", backends},
             {"threads", settings.threads},
             {"effects", "auto"},
             {"exposureEv", exposure},
@@ -140,8 +144,8 @@ std::string toCsv(const Comparison& comparison) {
       status.push_back(c);
     }
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"\n",
-                        r.scene, r.renderer, r.method, r.everyEffect ? "all" : "auto", r.width, r.height, r.depth,
-                        r.payloadBytes, r.stateBytes, r.rays, r.time.median, r.time.low, r.time.high,
+                        r.scene, backendInfo(r.backend).name, r.method, r.everyEffect ? "all" : "auto", r.width,
+                        r.height, r.depth, r.payloadBytes, r.stateBytes, r.rays, r.time.median, r.time.low, r.time.high,
                         medianOf(r.wallMs), medianOf(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs,
                         medianOf(r.readBackMs), r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high,
                         r.error.meanAbs, r.error.maxAbs, r.error.relRms, r.error.shareOver1Percent, r.error.perceptual,
@@ -154,12 +158,13 @@ std::string toTable(const Comparison& comparison) {
   std::string text, heading;
   for (const ComparisonRow& r : comparison.rows) {
     if (r.everyEffect) continue;
-    const std::string group = fmt::format("{}, {} x {}, depth {}, {}", r.scene, r.width, r.height, r.depth, r.renderer);
+    const std::string renderer = backendInfo(r.backend).name;
+    const std::string group = fmt::format("{}, {} x {}, depth {}, {}", r.scene, r.width, r.height, r.depth, renderer);
     if (group != heading) {
       heading = group;
       text += fmt::format("\n{} ({})\n  {:<14}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10}{:>9}{:>9}  {}\n", group,
-                          comparison.devices.count(r.renderer) ? comparison.devices.at(r.renderer) : "no device",
-                          "method", "bytes", "rays", "ms", "ratio to schlick", "Mray/s", "rel RMS", "off >1%", "energy",
+                          comparison.devices.count(renderer) ? comparison.devices.at(renderer) : "no device", "method",
+                          "bytes", "rays", "ms", "ratio to schlick", "Mray/s", "rel RMS", "off >1%", "energy",
                           "not told apart from");
     }
     if (!r.ok()) {
@@ -189,8 +194,8 @@ std::string toTable(const Comparison& comparison) {
                          ratio.high, difference);
     };
     text += fmt::format("  {:<34}{:>10.1f}  {:<42}{}\n",
-                        fmt::format("{} {} x {}, {}", all.scene, all.width, all.height, all.renderer), all.time.median,
-                        cell(e.automatic, e.automaticToAll, e.automaticDifference),
+                        fmt::format("{} {} x {}, {}", all.scene, all.width, all.height, backendInfo(all.backend).name),
+                        all.time.median, cell(e.automatic, e.automaticToAll, e.automaticDifference),
                         cell(e.importance, e.importanceToAll, e.importanceDifference));
   }
   return text;

@@ -11,10 +11,12 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "bake/pack/format.h"
 #include "render/embree/methods.h"
 #include "render/embree/tile.h"
 #include "render/scene/compiled_effects.h"
 #include "render/scene/methods.h"
+#include "render/scene/render_scene.h"
 
 namespace malus::embree {
 using Clock = std::chrono::steady_clock;
@@ -55,7 +57,11 @@ Renderer::~Renderer() = default;
 
 std::string Renderer::device() const { return fmt::format("{}, {} threads", Bvh::version(), impl_->threads); }
 
-render::Picture Renderer::render(std::string_view name, const render::RenderParameters& parameters) const {
+std::vector<std::string> Renderer::methods() const { return render::methodNames(); }
+
+std::uint32_t Renderer::maxDepth(std::string_view /*method*/) const { return pack::kMaxDepth; }
+
+render::Picture Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
   const render::MethodInfo& info = render::methodNamed(name);
   const Method& method = buildFor(name, render::compiledEffects(*impl_->source, parameters), parameters.checkNumerics);
 

@@ -6,21 +6,24 @@
 #include <string_view>
 #include <vector>
 
-#include "render/scene/picture.h"
-#include "render/scene/render_scene.h"
+#include "bake/pack/scene.h"
+#include "render/renderer.h"
 
 namespace malus::embree {
 
-class Renderer {
+class Renderer final : public render::Renderer {
  public:
-  // threads: 0 for all cores. Throws Error.
+  // Builds the acceleration structure. scene must outlive the renderer. threads: 0 for all cores. Throws Error if
+  // Embree fails.
   Renderer(const pack::Scene& scene, unsigned threads);
-  ~Renderer();
+  Renderer(pack::Scene&& scene, unsigned threads) = delete;
+  ~Renderer() override;
 
-  // method: one of render::methods(). Throws Error for another.
-  render::Picture render(std::string_view method, const render::RenderParameters& parameters) const;
-
-  std::string device() const;
+  render::Backend backend() const override { return render::Backend::embree; }
+  std::string device() const override;
+  std::vector<std::string> methods() const override;
+  std::uint32_t maxDepth(std::string_view method) const override;
+  render::Picture render(std::string_view method, const render::RenderParameters& parameters) override;
 
  private:
   struct Impl;

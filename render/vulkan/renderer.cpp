@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/pack/format.h"
 #include "meshprep/base/error.h"
 #include "render/scene/methods.h"
 #include "render/scene/render_scene.h"
@@ -207,7 +208,15 @@ std::string Renderer::device() const {
   return fmt::format("{}, {}", impl_->device.physical().name, impl_->device.physical().driver);
 }
 
-std::uint32_t Renderer::maxDepth() const {
+std::vector<std::string> Renderer::methods() const {
+  std::vector<std::string> names;
+  for (const render::MethodInfo& m : render::methods())
+    if (!m.isIterative || impl_->device.hasRayQueries()) names.push_back(m.name);
+  return names;
+}
+
+std::uint32_t Renderer::maxDepth(std::string_view method) const {
+  if (render::methodNamed(method).isIterative) return pack::kMaxDepth;
   const std::uint32_t limit = impl_->device.rayTracing().maxRayRecursionDepth;
   return limit < 2 ? 0 : limit - 2;  // the camera ray, and a shadow ray from the last hit
 }
@@ -299,9 +308,9 @@ render::Picture Renderer::render(std::string_view method, const render::RenderPa
   if (isIterative && !impl_->device.hasRayQueries())
     throw Error("--method", fmt::format("device '{}' has no ray queries", impl_->device.physical().name),
                 "a method that recurses", method);
-  if (!isIterative && parameters.depth > maxDepth())
+  if (parameters.depth > maxDepth(method))
     throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name),
-                fmt::format("at most {}", maxDepth()), fmt::format("{}", parameters.depth));
+                fmt::format("at most {}", maxDepth(method)), fmt::format("{}", parameters.depth));
   Variant variant = variantFor(impl_->scene, method, parameters);
   render::Picture picture = impl_->trace(variant, parameters);
   picture.device = device();

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "bake/pack/scene.h"
-#include "render/scene/picture.h"
-#include "render/scene/render_parameters.h"
+#include "render/renderer.h"
 
 namespace malus::vulkan {
 
@@ -24,24 +23,28 @@ struct DeviceDescription {
 };
 std::vector<DeviceDescription> devices();
 
-class Renderer {
+class Renderer final : public render::Renderer {
  public:
   // Builds the acceleration structure and uploads the scene, which must outlive the renderer. Throws Error:
   // no device, one without ray tracing, out of memory.
   Renderer(const pack::Scene& scene, const Options& options);
-  ~Renderer();
+  Renderer(pack::Scene&& scene, const Options& options) = delete;
+  ~Renderer() override;
 
   // method: one of shaders/methods or shaders/iterative. Pipelines are made at the first use of a method and kept.
   // traceMs is the device's own time of the trace alone. Throws Error: a depth past the device's recursion limit, a
   // message of the validation layers.
-  render::Picture render(std::string_view method, const render::RenderParameters& parameters);
+  render::Picture render(std::string_view method, const render::RenderParameters& parameters) override;
 
   // Rays of a picture, from a variant that counts; not timed.
-  std::uint64_t countRays(std::string_view method, const render::RenderParameters& parameters);
+  std::uint64_t countRays(std::string_view method, const render::RenderParameters& parameters) override;
 
-  std::string device() const;
-  // Most specular interactions that the device's recursion allows; methods that loop have no such limit.
-  std::uint32_t maxDepth() const;
+  render::Backend backend() const override { return render::Backend::vulkan; }
+  std::string device() const override;
+  // Iterative methods need ray queries.
+  std::vector<std::string> methods() const override;
+  // Recursive methods are limited by the device's recursion depth, iterative ones are not.
+  std::uint32_t maxDepth(std::string_view method) const override;
 
  private:
   struct Impl;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/embree/renderer.h"
-#include "render/reference/reference.h"
+#include "render/reference/renderer.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
 #include "shaders/gpu/fault.h"
@@ -174,7 +174,7 @@ TEST(CheckNumerics, FindsNothingInASoundScene) {
 TEST(CheckNumerics, LeavesThePictureAlone) {
   const pack::Scene scene = lampOverGold(1);
   render::RenderParameters parameters = render::defaultParameters(scene);
-  const embree::Renderer embree(scene, 0);
+  embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
   const auto plain = embree.render("stokes", parameters).pixels,
              plainVulkan = vulkan.render("stokes", parameters).pixels;

@@ -14,7 +14,7 @@
 #include "bake/pack/reader.h"
 #include "meshprep/base/error.h"
 #include "render/embree/renderer.h"
-#include "render/reference/reference.h"
+#include "render/reference/renderer.h"
 #include "render/scene/effects_choice.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
@@ -148,7 +148,7 @@ TEST_P(HardScenes, RenderersAgreeWithTheReference) {
 
 TEST_P(HardScenes, EveryMethodIsSound) {
   const pack::Scene& scene = packOf(GetParam()).scene;
-  const embree::Renderer renderer(scene, 0);
+  embree::Renderer renderer(scene, 0);
   for (const std::string& method : render::methodNames())
     expectSound(renderer.render(method, checkedView(scene)), scene, "embree " + method);
 }
@@ -158,7 +158,7 @@ TEST_P(HardScenes, AutoEqualsAll) {
   const pack::Scene& scene = packOf(GetParam()).scene;
   const Expected& expected = scenes().at(GetParam());
   render::RenderParameters parameters = render::defaultParameters(scene);
-  const embree::Renderer embree(scene, 0);
+  embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
   for (const render::Analyser& analyser : {render::kNoFilter, render::linearPolarizer(30)}) {
     parameters.analyser = analyser;
@@ -187,7 +187,7 @@ TEST_P(HardScenes, AutoEqualsAll) {
 // Every method draws the same picture by the smallest build that will do and by the one that has everything.
 TEST_P(HardScenes, EveryMethodIsTheSameInEveryBuild) {
   const pack::Scene& scene = packOf(GetParam()).scene;
-  const embree::Renderer renderer(scene, 0);
+  embree::Renderer renderer(scene, 0);
   render::RenderParameters parameters = render::defaultParameters(scene);
   for (const std::string& method : render::methodNames()) {
     parameters.everyEffect = false;
@@ -206,7 +206,7 @@ TEST_P(HardScenes, ImportanceIsTheIntensityOfTheReference) {
   const pack::Scene& scene = packOf(GetParam()).scene;
   const Expected& expected = scenes().at(GetParam());
   render::RenderParameters parameters = checkedView(scene);
-  const embree::Renderer embree(scene, 0);
+  embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
   for (const render::Analyser& analyser : {render::kNoFilter, render::linearPolarizer(30),
                                            render::behindWavePlate(render::linearPolarizer(75), {20, 90})}) {
@@ -321,7 +321,7 @@ TEST(HardScene, AutoIsExactWherePolarizationCannotShow) {
       EXPECT_EQ(render::chooseEffects({"auto"}, "stokes", scene, request).method, "fresnel");
       EXPECT_EQ(render::chooseEffects({"auto"}, "importance", scene, request).method, "fresnel-iterative");
       const Picture truth = reference::render(scene, parameters, 0);
-      const embree::Renderer embree(scene, 0);
+      embree::Renderer embree(scene, 0);
       vulkan::Renderer vulkan(scene, {});
       for (const char* method : {"fresnel", "fresnel-iterative"})
         for (const Picture& p : {embree.render(method, parameters), vulkan.render(method, parameters)}) {
@@ -388,17 +388,18 @@ TEST(HardScene, ChainsOfMirrors) {
   const auto centre = centreOf(picturesOf("facing-mirrors").reference);
   EXPECT_NEAR(centre[0][0], .466385, 2e-6);
   vulkan::Renderer renderer(scene, {});
-  if (renderer.maxDepth() < scene.depth) {
+  if (renderer.maxDepth("stokes") < scene.depth) {
     try {
       renderer.render("stokes", render::defaultParameters(scene));
       ADD_FAILURE() << "a depth past the device's recursion limit was accepted";
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find(fmt::format("at most {}", renderer.maxDepth())), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find(fmt::format("at most {}", renderer.maxDepth("stokes"))),
+                std::string::npos);
       EXPECT_NE(std::string(error.what()).find("found 64"), std::string::npos) << error.what();
     }
     // To its limit it goes, and agrees.
     render::RenderParameters parameters = checkedView(scene);
-    parameters.depth = renderer.maxDepth();
+    parameters.depth = renderer.maxDepth("stokes");
     const Picture a = renderer.render("stokes", parameters), b = reference::render(scene, parameters, 0);
     expectSound(a, scene, "vulkan at its limit");
     double largest = 0;

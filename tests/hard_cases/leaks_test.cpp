@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/embree/renderer.h"
-#include "render/reference/reference.h"
+#include "render/reference/renderer.h"
 #include "render/vulkan/renderer.h"
 #include "tests/render/test_scene.h"
 

@@ -15,7 +15,7 @@
 #include "bake/scene_file/scene_file.h"
 #include "render/compare/picture_error.h"
 #include "render/embree/renderer.h"
-#include "render/reference/reference.h"
+#include "render/reference/renderer.h"
 #include "render/scene/effects_choice.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
@@ -42,7 +42,7 @@ Stokes stokesAt(const Picture& p, std::size_t pixel, std::size_t colour) {
 std::map<std::string, Picture> everywhere(const pack::Scene& scene) {
   RenderParameters parameters = render::defaultParameters(scene);
   parameters.stokes = true;
-  const embree::Renderer embree(scene, 0);
+  embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
   std::map<std::string, Picture> pictures;
   for (const char* method : {"stokes", "importance"})
@@ -359,7 +359,7 @@ TEST_P(EffectScenes, AutoEqualsAll) {
 // nothing is lost.
 TEST_P(EffectScenes, ToleranceBoundsTheError) {
   const pack::Scene& scene = sceneNamed(GetParam());
-  const embree::Renderer embree(scene, 0);
+  embree::Renderer embree(scene, 0);
   RenderParameters parameters = render::defaultParameters(scene);
   const Picture exact = embree.render("importance", parameters);
   // The brightest source, which a picture may show in mirrors alone; a Rayleigh sky is up to 1.5 times its mean.

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
       parameters.region = {0, 0, parameters.width, parameters.height};
       parameters.everyEffect = effects == "all";
       if (effects.starts_with("DEPTH=")) parameters.depth = static_cast<std::uint32_t>(std::stoul(effects.substr(6)));
-      const embree::Renderer renderer(scene, 1);
+      embree::Renderer renderer(scene, 1);
       renderer.render(method, parameters);  // the scheduler starts up
       CALLGRIND_ZERO_STATS;
       renderer.render(method, parameters);

@@ -18,7 +18,7 @@
 #include "render/compare/image_difference.h"
 #include "render/embree/renderer.h"
 #include "render/image/output.h"
-#include "render/reference/reference.h"
+#include "render/reference/renderer.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
 
@@ -125,7 +125,7 @@ TEST_P(Scenes, EveryValueIsOneThatLightCanHave) {
     EXPECT_EQ(picture.faults.count, 0u) << what << ": " << describe(picture.faults, scene);
   };
   expectSound(reference::render(scene, parameters, 0), "reference");
-  const embree::Renderer embree(scene, 0);
+  embree::Renderer embree(scene, 0);
   for (const std::string& method : render::methodNames())
     expectSound(embree.render(method, parameters), "embree " + method);
   vulkan::Renderer vulkan(scene, {});

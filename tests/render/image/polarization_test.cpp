@@ -17,7 +17,7 @@
 #include "render/cli.h"
 #include "render/embree/renderer.h"
 #include "render/image/output.h"
-#include "render/reference/reference.h"
+#include "render/reference/renderer.h"
 #include "render/sweep_cli.h"
 #include "tests/render/test_scene.h"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "render/embree/renderer.h"
-#include "render/reference/reference.h"
+#include "render/reference/renderer.h"
 #include "render/scene/methods.h"
 #include "tests/render/test_scene.h"
 
@@ -208,7 +208,7 @@ pack::Scene paintGlassAndGold() {
 // Fairness of every comparison: without polarization-dependent branching all methods send the same rays.
 TEST(ClosedForms, EveryMethodTracesTheSameRays) {
   const pack::Scene scene = paintGlassAndGold();
-  const embree::Renderer renderer(scene, 1);
+  embree::Renderer renderer(scene, 1);
   const std::uint64_t rays = renderer.render("schlick", render::defaultParameters(scene)).cost.rays;
   EXPECT_GT(rays, 24u * 24u * 3u);
   for (const std::string& method : render::methodNames())
@@ -217,7 +217,7 @@ TEST(ClosedForms, EveryMethodTracesTheSameRays) {
 
 TEST(ClosedForms, LoopsEqualTheirRecursions) {
   const pack::Scene scene = paintGlassAndGold();
-  const embree::Renderer renderer(scene, 1);
+  embree::Renderer renderer(scene, 1);
   render::RenderParameters parameters = render::defaultParameters(scene);
   for (const render::Analyser& analyser :
        {render::kNoFilter, render::linearPolarizer(40), render::circularAnalyser(render::Handedness::left)}) {

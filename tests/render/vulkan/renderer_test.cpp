@@ -50,7 +50,7 @@ TEST(VulkanRenderer, EqualsEmbreeInEveryMethod) {
   const pack::Scene scene = everything();
   const render::RenderParameters parameters = render::defaultParameters(scene);
   Renderer renderer(scene, {});
-  const embree::Renderer other(scene, 0);
+  embree::Renderer other(scene, 0);
   std::uint64_t rays = 0;
   for (const std::string& method : render::methodNames()) {
     const render::Picture a = renderer.render(method, parameters), b = other.render(method, parameters);
@@ -89,7 +89,7 @@ TEST(VulkanRenderer, DepthPastTheRecursionLimitIsRefused) {
   const pack::Scene scene = everything();
   Renderer renderer(scene, {});
   render::RenderParameters parameters = render::defaultParameters(scene);
-  parameters.depth = renderer.maxDepth() + 1;
+  parameters.depth = renderer.maxDepth("stokes") + 1;
   EXPECT_THROW(renderer.render("fresnel", parameters), Error);
   // A loop does not recurse.
   parameters.region = {0, 0, 2, 2};

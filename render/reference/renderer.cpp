@@ -1,4 +1,4 @@
-#include "render/reference/reference.h"
+#include "render/reference/renderer.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +14,7 @@
 #include <oneapi/tbb/task_arena.h>
 #include <glm/geometric.hpp>
 
+#include "bake/pack/format.h"
 #include "render/embree/embree.h"
 #include "render/reference/surface.h"
 #include "render/scene/render_scene.h"
@@ -24,11 +25,16 @@ namespace malus::reference {
 namespace {
 
 using pack::MaterialKind;
+using Clock = std::chrono::steady_clock;
+
+double sinceMs(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 struct Tracer {
   const pack::Scene& scene;
   const embree::Bvh& bvh;
-  std::vector<dvec3> hemisphereTransmittance;  // per material
+  const std::vector<dvec3>& hemisphereTransmittance;  // per material
   const render::RenderParameters& parameters;
   std::uint64_t rays = 0;
   std::uint32_t pixelX = 0, pixelY = 0;  // the pixel at hand
@@ -292,20 +298,41 @@ struct Tracer {
 
 }  // namespace
 
-render::Picture render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads) {
-  const auto start = std::chrono::steady_clock::now();
-  const render::RenderScene floats = render::makeRenderScene(scene);
-  const embree::Bvh bvh(floats, threads);
-  std::vector<dvec3> fill;
-  for (const pack::Material& m : scene.materials) fill.push_back(render::hemisphereTransmittance(m));
-  const auto built = std::chrono::steady_clock::now();
+struct Renderer::Impl {
+  Impl(const pack::Scene& source, unsigned threadCount)
+      : scene(source), threads(threadCount), bvh(render::makeRenderScene(source), threadCount) {
+    for (const pack::Material& m : source.materials)
+      hemisphereTransmittance.push_back(render::hemisphereTransmittance(m));
+  }
 
+  const pack::Scene& scene;
+  unsigned threads;
+  embree::Bvh bvh;
+  std::vector<dvec3> hemisphereTransmittance;  // per material
+  double buildMs = 0;
+};
+
+Renderer::Renderer(const pack::Scene& scene, unsigned threads) {
+  const auto start = Clock::now();
+  impl_ = std::make_unique<Impl>(scene, threads);
+  impl_->buildMs = sinceMs(start);
+}
+
+Renderer::~Renderer() = default;
+
+std::string Renderer::device() const { return fmt::format("double precision on {}", embree::Bvh::version()); }
+
+std::uint32_t Renderer::maxDepth(std::string_view /*method*/) const { return pack::kMaxDepth; }
+
+render::Picture Renderer::render(std::string_view /*method*/, const render::RenderParameters& parameters) {
+  const pack::Scene& scene = impl_->scene;
+  const auto start = Clock::now();
   render::Picture picture;
   picture.width = parameters.region.width;
   picture.height = parameters.region.height;
   picture.channels = render::kStokesChannels;
   picture.pixels.resize(picture.channels * picture.width * picture.height);
-  picture.device = fmt::format("double precision on {}", embree::Bvh::version());
+  picture.device = device();
   const pack::Camera& camera = scene.camera;
   const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi),
                tanX = tanY * parameters.width / parameters.height;
@@ -314,7 +341,7 @@ render::Picture render(const pack::Scene& scene, const render::RenderParameters&
   std::mutex merging;
 
   const auto row = [&](std::uint32_t y) {
-    Tracer tracer{scene, bvh, fill, parameters};
+    Tracer tracer{scene, impl_->bvh, impl_->hemisphereTransmittance, parameters};
     for (std::uint32_t x = 0; x < parameters.region.width; ++x) {
       tracer.pixelX = parameters.region.x + x;
       tracer.pixelY = parameters.region.y + y;
@@ -342,16 +369,19 @@ render::Picture render(const pack::Scene& scene, const render::RenderParameters&
     picture.faults.add(tracer.faults, parameters.width);
   };
   const auto traceAll = [&] { tbb::parallel_for(std::uint32_t{0}, parameters.region.height, row); };
-  if (threads == 0)
+  if (impl_->threads == 0)
     traceAll();
   else
-    tbb::task_arena(static_cast<int>(threads)).execute(traceAll);
+    tbb::task_arena(static_cast<int>(impl_->threads)).execute(traceAll);
 
-  const auto ms = [](auto from, auto to) { return std::chrono::duration<double, std::milli>(to - from).count(); };
-  picture.cost.buildMs = ms(start, built);
-  picture.cost.traceMs = picture.cost.wallMs = ms(built, std::chrono::steady_clock::now());
+  picture.cost.buildMs = impl_->buildMs;
+  picture.cost.traceMs = picture.cost.wallMs = sinceMs(start);
   picture.cost.rays = rays;
   return picture;
+}
+
+render::Picture render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads) {
+  return Renderer(scene, threads).render("", parameters);
 }
 
 }  // namespace malus::reference

@@ -1,0 +1,22 @@
+// Makes the renderer of a backend.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bake/pack/scene.h"
+#include "render/renderer.h"
+
+namespace malus::render {
+
+struct RendererOptions {
+  std::string device;    // Vulkan: number or part of a name; "" for the best. Ignored by other backends
+  unsigned threads = 0;  // CPU threads, lavapipe's included; 0 for all
+};
+
+// Builds the acceleration structure and, on a GPU, uploads the scene. scene must outlive the renderer. Throws Error: no
+// device, one without ray tracing, out of memory.
+std::unique_ptr<Renderer> makeRenderer(Backend backend, const pack::Scene& scene, const RendererOptions& options);
+std::unique_ptr<Renderer> makeRenderer(Backend backend, pack::Scene&& scene, const RendererOptions& options) = delete;
+
+}  // namespace malus::render

@@ -1,0 +1,35 @@
+// The reference renderer: double precision, full Stokes vectors and 4 x 4 Mueller matrices per colour, hit points
+// refined in double, plain recursion. Slow and simple, so that its formulas can be checked by hand.
+#pragma once
+
+#include <memory>
+
+#include "bake/pack/scene.h"
+#include "render/renderer.h"
+
+namespace malus::reference {
+
+// Images have Stokes channels always.
+class Renderer final : public render::Renderer {
+ public:
+  // Builds the acceleration structure. scene must outlive the renderer. threads: 0 for all cores. Throws Error if
+  // Embree fails.
+  Renderer(const pack::Scene& scene, unsigned threads);
+  Renderer(pack::Scene&& scene, unsigned threads) = delete;
+  ~Renderer() override;
+
+  render::Backend backend() const override { return render::Backend::reference; }
+  std::string device() const override;
+  std::vector<std::string> methods() const override { return {}; }
+  std::uint32_t maxDepth(std::string_view method) const override;
+  render::Picture render(std::string_view method, const render::RenderParameters& parameters) override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// One image by a renderer made for it.
+render::Picture render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads);
+
+}  // namespace malus::reference

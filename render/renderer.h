@@ -1,0 +1,45 @@
+// The interface of every renderer. render/make_renderer.h makes one for a backend.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/backend.h"
+#include "render/scene/picture.h"
+#include "render/scene/render_parameters.h"
+
+namespace malus::render {
+
+// A renderer refers to the pack::Scene that it was made from: the scene must outlive the renderer and must not change.
+// Calls must not overlap; a renderer uses several threads by itself.
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  virtual Backend backend() const = 0;
+  // The device and its driver, for reports: "Embree 3.13.5, 8 threads".
+  virtual std::string device() const = 0;
+
+  // Names of the methods that the device can render by; empty if the backend has no methods.
+  virtual std::vector<std::string> methods() const = 0;
+  // Largest RenderParameters::depth that the device can render by a method.
+  virtual std::uint32_t maxDepth(std::string_view method) const = 0;
+
+  // Renders parameters.region. method: one of methods(), ignored by a backend without methods. Throws Error: an unknown
+  // or unsupported method, a depth over maxDepth(method).
+  virtual Picture render(std::string_view method, const RenderParameters& parameters) = 0;
+  // Renders once more, untimed, to count camera, specular and shadow rays. Needed only if render() left Cost::rays
+  // at 0. Throws as render() does.
+  virtual std::uint64_t countRays(std::string_view method, const RenderParameters& parameters) {
+    return render(method, parameters).cost.rays;
+  }
+
+ protected:
+  Renderer() = default;
+};
+
+}  // namespace malus::render

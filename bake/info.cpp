@@ -72,7 +72,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
   }
   for (const pack::Material& m : scene.materials)
     materials.push_back({{"name", m.name},
-                         {"type", pack::nameOf(m.kind)},
+                         {"type", pack::materialKindName(m.kind)},
                          {"eta", {m.eta.x, m.eta.y, m.eta.z}},
                          {"k", {m.k.x, m.k.y, m.k.z}}});
   for (const pack::Effect& e : effectsOf(scene))
@@ -123,7 +123,7 @@ std::string infoText(const pack::Pack& pack, double tolerance) {
   text += "\nmaterials\n";
   for (const pack::Material& m : scene.materials)
     text += fmt::format("  {:<24} {:<13} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}\n", m.name,
-                        pack::nameOf(m.kind), m.eta.x, m.eta.y, m.eta.z, m.k.x, m.k.y, m.k.z);
+                        pack::materialKindName(m.kind), m.eta.x, m.eta.y, m.eta.z, m.k.x, m.k.y, m.k.z);
   text += "\neffects\n";
   for (const pack::Effect& e : effectsOf(scene))
     text += fmt::format("  {:<3} {:<22} {}\n", e.on ? "on" : "off", e.name, e.reason);

@@ -13,7 +13,7 @@ json materialJson(const pack::Material& m) {
   json highlight;
   if (m.highlightStrength > 0) highlight = {{"strength", m.highlightStrength}, {"exponent", m.highlightExponent}};
   json result = {{"name", m.name},
-                 {"type", pack::nameOf(m.kind)},
+                 {"type", pack::materialKindName(m.kind)},
                  {"eta", vectorJson(m.eta)},
                  {"k", vectorJson(m.k)},
                  {"outsideEta", m.outsideEta},

@@ -13,7 +13,6 @@
 
 namespace malus::bake {
 using pack::Material;
-using pack::MaterialKind;
 
 namespace {
 
@@ -27,7 +26,7 @@ struct Face {
 double reflectance(const Material& m, double c) {
   double most = 0;
   for (int colour = 0; colour < 3; ++colour) {
-    const f64::Reflectance r = m.kind == MaterialKind::metal
+    const f64::Reflectance r = pack::isConductor(m.kind)
                                    ? f64::conductorReflectance(c, m.outsideEta, m.eta[colour], m.k[colour])
                                    : f64::dielectricReflectance(c, m.outsideEta, m.eta.y);
     most = std::max({most, r.rs, r.rp});
@@ -61,11 +60,10 @@ double most(const Face& face, std::span<const glm::dvec3> points, double flat) {
 }
 
 bool isFlatMirror(const Material& m, const pack::Mesh& mesh) {
-  const bool opaque =
-      m.kind == MaterialKind::metal || m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass;
   // From a denser side light can be totally reflected.
-  const bool denser = m.kind != MaterialKind::metal && m.outsideEta > m.eta.y;
-  return opaque && !denser && mesh.normals.empty() && m.coating.thicknessNm == 0 && m.roughness == 0 && m.maps.eta < 0;
+  const bool denser = pack::isDielectric(m.kind) && m.outsideEta > m.eta.y;
+  return pack::isOpaqueInterface(m.kind) && !denser && mesh.normals.empty() && m.coating.thicknessNm == 0 &&
+         m.roughness == 0 && m.maps.eta < 0;
 }
 
 }  // namespace
@@ -74,7 +72,7 @@ std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, doubl
   std::vector<Face> faces;
   for (const pack::Mesh& mesh : scene.meshes) {
     const Material& m = scene.materials[mesh.material];
-    if (m.kind == MaterialKind::lambert || m.kind == MaterialKind::emitter) continue;
+    if (!pack::isInterface(m.kind)) continue;
     for (const glm::uvec3& t : mesh.triangles) {
       if (faces.size() == kMostFaces) return depth;
       const glm::dvec3 p0(mesh.positions[t.x]), p1(mesh.positions[t.y]), p2(mesh.positions[t.z]);

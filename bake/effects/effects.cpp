@@ -19,11 +19,12 @@ namespace {
 
 bool positive(const glm::dvec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 
-bool isInterface(const Material& m) { return m.kind != MaterialKind::lambert && m.kind != MaterialKind::emitter; }
-
-bool isPolarizingElement(const Material& m) {
-  return m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate;
-}
+// Traits of the kind, for namesWhere.
+bool isInterface(const Material& m) { return pack::isInterface(m.kind); }
+bool isPolarizingElement(const Material& m) { return pack::isPolarizingElement(m.kind); }
+bool isDielectric(const Material& m) { return pack::isDielectric(m.kind); }
+bool isConductor(const Material& m) { return pack::isConductor(m.kind); }
+bool isClear(const Material& m) { return pack::isClear(m.kind); }
 
 bool isCoated(const Material& m) { return m.coating.thicknessNm > 0; }
 
@@ -76,14 +77,9 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
   const bool diffuse = addFor("diffuse", namesWhere(scene, [](const Material& m) { return positive(m.albedo); }),
                               "material with an albedo");
   addFor("textures", namesWhere(scene, [](const Material& m) { return m.maps.any(); }), "textured material");
-  const std::string dielectrics = namesWhere(scene, [](const Material& m) {
-    return m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass || m.kind == MaterialKind::glass;
-  });
-  addFor("dielectric", dielectrics, "dielectric interface");
-  const bool conductor =
-      addFor("conductor", namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::metal; }), "metal");
-  const std::string glass = namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::glass; });
-  addFor("transmission", glass, "clear glass");
+  addFor("dielectric", namesWhere(scene, isDielectric), "dielectric interface");
+  const bool conductor = addFor("conductor", namesWhere(scene, isConductor), "metal");
+  addFor("transmission", namesWhere(scene, isClear), "clear glass");
   addFor("absorption", namesWhere(scene, absorbs), "material with an absorbing medium");
   const bool coated = addFor("coatings", namesWhere(scene, isCoated), "material with a thin film");
   addFor("polarizing-sheets", namesWhere(scene, isPolarizingElement), "polarizer or wave plate");
@@ -96,8 +92,8 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
   else
     add("rough-reflection", false, "depth 0 reflects nothing");
   const std::string bent = namesWhere(scene, [&](const Material& m) {
-    if (m.kind == MaterialKind::glass) return m.eta.y != m.outsideEta;
-    if (m.kind != MaterialKind::paint && m.kind != MaterialKind::mirrorGlass) return false;
+    if (pack::hasInside(m.kind)) return m.eta.y != m.outsideEta;
+    if (!isDielectric(m)) return false;
     return m.outsideEta > leastEta(scene, m);
   });
   const bool tir = deep && !bent.empty();
@@ -113,9 +109,8 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
   const bool several = !interfaces.empty() && interfacesMutuallyVisible(scene);
   const std::uint32_t interactions = interfaces.empty() ? 0 : several ? depth : std::min(depth, 1u);
   // Sources that are polarized themselves end any path.
-  const std::string displays = namesWhere(scene, [](const Material& m) {
-    return m.kind == MaterialKind::emitter && m.polarization > 0 && positive(m.radiance);
-  });
+  const std::string displays = namesWhere(
+      scene, [](const Material& m) { return pack::isEmitter(m.kind) && m.polarization > 0 && positive(m.radiance); });
   const bool sky = scene.environment.size > 0 || positive(scene.environment.radiance);
   const bool polarizedSky = scene.environment.skyDegree > 0 && sky, sources = polarizedSky || !displays.empty();
   const std::uint32_t chain = interactions + (sources || (leaving && (several || interactions == 0)) ? 1u : 0u);
@@ -174,7 +169,7 @@ std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& 
   add("highlights", highlights,
       highlights ? "glossy materials under point lights" : "no glossy material under a point light");
   addFor("emitters",
-         namesWhere(scene, [](const Material& m) { return m.kind == MaterialKind::emitter && positive(m.radiance); }),
+         namesWhere(scene, [](const Material& m) { return pack::isEmitter(m.kind) && positive(m.radiance); }),
          "emitter");
   add("polarized-emitters", !displays.empty(),
       displays.empty() ? "no polarized emitter" : fmt::format("{}; gone with unpolarized light", displays));
@@ -213,10 +208,8 @@ pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& of
     if (isOff("diffuse")) m.albedo = glm::dvec3(0.0);
     if (isOff("highlights")) m.highlightStrength = 0;
     if (isOff("emitters")) m.radiance = glm::dvec3(0.0);
-    const bool dielectric =
-        m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass || m.kind == MaterialKind::glass;
-    if (m.kind == MaterialKind::glass && isOff("transmission")) m.kind = MaterialKind::mirrorGlass;
-    if ((dielectric && isOff("dielectric")) || (m.kind == MaterialKind::metal && isOff("conductor"))) {
+    if (isClear(m) && isOff("transmission")) m.kind = MaterialKind::mirrorGlass;
+    if ((isDielectric(m) && isOff("dielectric")) || (isConductor(m) && isOff("conductor"))) {
       m.kind = MaterialKind::lambert;
       m.eta = glm::dvec3(1.0);
       m.k = glm::dvec3(0.0);
@@ -228,7 +221,7 @@ pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& of
     if (isOff("absorption")) m.absorption = m.outsideAbsorption = glm::dvec3(0.0);
     if (isOff("coatings")) m.coating = {};
     if (isOff("rough-reflection")) m.roughness = 0;
-    if (isOff("polarized-emitters") && m.kind == MaterialKind::emitter) m.polarization = 0;
+    if (isOff("polarized-emitters") && pack::isEmitter(m.kind)) m.polarization = 0;
     if (isOff("polarizing-sheets") && isPolarizingElement(m)) {  // grey ones
       m.transmittanceParallel = m.transmittanceCrossed = (m.transmittanceParallel + m.transmittanceCrossed) * 0.5;
       m.retardanceDegrees = glm::dvec3(0.0);

@@ -11,13 +11,11 @@
 #include <glm/geometric.hpp>
 
 namespace malus::bake {
-using pack::MaterialKind;
 
 namespace {
 
 bool isInterface(const pack::Scene& scene, const pack::Mesh& mesh) {
-  const MaterialKind kind = scene.materials[mesh.material].kind;
-  return kind != MaterialKind::lambert && kind != MaterialKind::emitter;
+  return pack::isInterface(scene.materials[mesh.material].kind);
 }
 
 // Whether every edge of every interface has a face on both sides, corners in one place being one.
@@ -61,9 +59,7 @@ bool interfacesMutuallyVisible(const pack::Scene& scene) {
   std::vector<Face> faces;
   for (const pack::Mesh& mesh : scene.meshes) {
     if (!isInterface(scene, mesh)) continue;
-    const MaterialKind kind = scene.materials[mesh.material].kind;
-    // Glass is seen from inside too; sheets are seen through.
-    if (kind == MaterialKind::glass || kind == MaterialKind::polarizer || kind == MaterialKind::wavePlate) return true;
+    if (pack::transmits(scene.materials[mesh.material].kind)) return true;
     std::vector<bool> used(mesh.positions.size(), false);
     for (const glm::uvec3& t : mesh.triangles) used[t.x] = used[t.y] = used[t.z] = true;
     for (std::size_t i = 0; i < used.size(); ++i) {

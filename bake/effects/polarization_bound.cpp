@@ -9,7 +9,6 @@
 #include "shaders/optics/optics.h"
 
 namespace malus::bake {
-using pack::MaterialKind;
 
 namespace {
 
@@ -24,10 +23,9 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
   const auto ratio = [](double a, double b) { return a + b > 0 ? std::abs(a - b) / (a + b) : 0; };
   for (const pack::Mesh& mesh : scene.meshes) {
     const pack::Material& m = scene.materials[mesh.material];
-    if (m.kind == MaterialKind::emitter && m.radiance[colour] > 0)
-      result.source = std::max(result.source, m.polarization);
-    if (m.kind == MaterialKind::lambert || m.kind == MaterialKind::emitter) continue;
-    if (m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate) {
+    if (pack::isEmitter(m.kind) && m.radiance[colour] > 0) result.source = std::max(result.source, m.polarization);
+    if (!pack::isInterface(m.kind)) continue;
+    if (pack::isPolarizingElement(m.kind)) {
       result.interaction =
           std::max(result.interaction, ratio(m.transmittanceParallel[colour], m.transmittanceCrossed[colour]));
       continue;
@@ -49,12 +47,11 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
         if (m.albedo[colour] > 0) result.leaving = std::max(result.leaving, ratio(1 - r.rs, 1 - r.rp));
       }
     };
-    if (m.kind == MaterialKind::metal) {
+    if (pack::isConductor(m.kind)) {
       look(m.outsideEta, m.eta[colour], m.k[colour], false);
     } else {
-      const bool glass = m.kind == MaterialKind::glass;
-      look(m.outsideEta, m.eta.y, 0, glass);
-      if (glass) look(m.eta.y, m.outsideEta, 0, true);
+      look(m.outsideEta, m.eta.y, 0, pack::transmits(m.kind));
+      if (pack::hasInside(m.kind)) look(m.eta.y, m.outsideEta, 0, true);
       // Between the steps lies Brewster's angle, where D is 1.
       if (m.eta.y != m.outsideEta) result.interaction = 1;
     }

@@ -146,7 +146,7 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     ImportedMesh mesh;
     mesh.sheet = sheets.contains(part.name) || sheets.contains(instance.name);
     mesh.material = indices.of(part.material);
-    mesh.part = partOf(instance.part, mesh.sheet, materials[mesh.material].kind == pack::MaterialKind::glass);
+    mesh.part = partOf(instance.part, mesh.sheet, pack::hasInside(materials[mesh.material].kind));
     mesh.name = meshNames.take(instance.name);
     mesh.worldFromObject = worldFromFile * instance.worldFromObject;
     result.meshes.push_back(std::move(mesh));

@@ -44,7 +44,7 @@ class Placer {
         static_cast<std::uint32_t>(std::find_if(materials_.begin(), materials_.end(),
                                                 [&](const pack::Material& m) { return m.name == mesh.material; }) -
                                    materials_.begin());
-    const bool glass = materials_[material].kind == pack::MaterialKind::glass;
+    const bool glass = pack::hasInside(materials_[material].kind);
     prep::Options options = mesh.preparation;
     options.certifyGlass = glass && !options.asIs;
     if (glass && options.asIs && !options.sheet)

@@ -93,13 +93,13 @@ void readMaterials(ByteReader r, std::vector<Material>& materials) {
   for (std::uint32_t i = 0; i < count; ++i) {
     Material m;
     m.name = r.text();
-    m.kind = static_cast<MaterialKind>(r.u32AtMost(kMaterialKinds - 1, "kind of material"));
+    m.kind = static_cast<MaterialKind>(r.u32AtMost(kMaterialKindCount - 1, "kind of material"));
     m.eta = r.dvec3Between(0, kMaxEta, "index eta");
     m.k = r.dvec3Between(0, kMaxEta, "index k");
     for (int c = 0; c < 3; ++c)
       if (m.eta[c] < kMinEta && m.k[c] < kMinEta)
         r.fail("index of refraction", "eta or k of at least 1e-3", "both below");
-    if (m.kind == MaterialKind::glass || m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass)
+    if (isDielectric(m.kind))
       for (int c = 0; c < 3; ++c)
         if (m.eta[c] < kMinEta || m.k[c] != 0)
           r.fail("index of a dielectric", "eta of at least 1e-3 and k = 0",
@@ -185,26 +185,21 @@ void readSurfaces(ByteReader r, const std::vector<Texture>& textures, std::vecto
     r.fail("number of surfaces", fmt::format("{}, as of materials", materials.size()), fmt::format("{}", count));
   const std::vector<Range> ranges = rangesOf(textures);
   for (Material& m : materials) {
-    const bool sheet = m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate;
-    const bool opaque =
-        m.kind == MaterialKind::metal || m.kind == MaterialKind::paint || m.kind == MaterialKind::mirrorGlass;
     m.absorption = r.dvec3Between(0, kMaxAbsorption, "absorption");
     m.outsideAbsorption = r.dvec3Between(0, kMaxAbsorption, "absorption outside");
     m.coating.eta = r.dvec3Between(kMinEta, kMaxEta, "index of a coating");
-    m.coating.thicknessNm =
-        r.f64Between(0, opaque || m.kind == MaterialKind::glass ? kMaxThicknessNm : 0, "thickness of a coating");
-    m.roughness = r.f64Between(0, opaque ? 1 : 0, "roughness");
+    m.coating.thicknessNm = r.f64Between(0, canBeCoated(m.kind) ? kMaxThicknessNm : 0, "thickness of a coating");
+    m.roughness = r.f64Between(0, canBeRough(m.kind) ? 1 : 0, "roughness");
     m.axis = r.dvec3Between(-1.001, 1.001, "axis");
-    m.polarization = r.f64Between(0, m.kind == MaterialKind::emitter ? 1 : 0, "polarization of an emitter");
-    if (sheet || m.polarization > 0) requireUnit(r, m.axis, "axis");
+    m.polarization = r.f64Between(0, isEmitter(m.kind) ? 1 : 0, "polarization of an emitter");
+    if (isPolarizingElement(m.kind) || m.polarization > 0) requireUnit(r, m.axis, "axis");
     m.transmittanceParallel = r.dvec3Between(0, 1, "transmittance of a sheet");
     m.transmittanceCrossed = r.dvec3Between(0, 1, "transmittance of a sheet");
     m.retardanceDegrees = r.dvec3Between(-kMaxRetardanceDegrees, kMaxRetardanceDegrees, "retardance");
     m.maps.albedo = readMap(r, ranges, 0, 1);
-    m.maps.eta = readMap(r, ranges, m.kind == MaterialKind::metal ? 0 : static_cast<float>(kMinEta),
-                         static_cast<float>(kMaxEta));
+    m.maps.eta = readMap(r, ranges, isConductor(m.kind) ? 0 : static_cast<float>(kMinEta), static_cast<float>(kMaxEta));
     m.maps.k = readMap(r, ranges, static_cast<float>(kMinEta), static_cast<float>(kMaxEta));
-    if ((m.maps.eta >= 0 && !opaque) || (m.maps.k >= 0) != (m.maps.eta >= 0 && m.kind == MaterialKind::metal))
+    if ((m.maps.eta >= 0 && !canHaveIndexMap(m.kind)) || (m.maps.k >= 0) != (m.maps.eta >= 0 && isConductor(m.kind)))
       r.fail(fmt::format("index map of material '{}'", m.name), "eta of an opaque interface, with k of a metal alone",
              "another");
     m.maps.origin = r.dvec3Between(-kMaxLength, kMaxLength, "origin of a projection");
@@ -245,7 +240,7 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
   if (const auto at = find(kTextures, false)) readTextures(reader(*at), pack.scene.textures);
   if (const auto at = find(kSurfaces, false)) readSurfaces(reader(*at), pack.scene.textures, pack.scene.materials);
   for (const Material& m : pack.scene.materials)
-    if ((m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate) && m.axis == glm::dvec3(0.0))
+    if (isPolarizingElement(m.kind) && m.axis == glm::dvec3(0.0))
       throw Error(where, fmt::format("section {} is missing", kSurfaces), fmt::format("the axis of '{}'", m.name));
   if (const auto at = find(kSky, false)) readSky(reader(*at), pack.scene.environment);
   const std::size_t geometry = *find(kGeometry, true);

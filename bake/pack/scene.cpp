@@ -2,32 +2,9 @@
 
 namespace malus::pack {
 
-std::string_view nameOf(MaterialKind kind) {
-  switch (kind) {
-    case MaterialKind::lambert:
-      return "lambert";
-    case MaterialKind::paint:
-      return "paint";
-    case MaterialKind::mirrorGlass:
-      return "mirror-glass";
-    case MaterialKind::metal:
-      return "metal";
-    case MaterialKind::glass:
-      return "glass";
-    case MaterialKind::emitter:
-      return "emitter";
-    case MaterialKind::polarizer:
-      return "polarizer";
-    case MaterialKind::wavePlate:
-      return "wave-plate";
-  }
-  return "unknown";
-}
-
 bool Material::isPlain() const {
-  return kind != MaterialKind::polarizer && kind != MaterialKind::wavePlate && absorption == glm::dvec3(0.0) &&
-         outsideAbsorption == glm::dvec3(0.0) && coating.thicknessNm == 0 && roughness == 0 && polarization == 0 &&
-         !maps.any();
+  return !isPolarizingElement(kind) && absorption == glm::dvec3(0.0) && outsideAbsorption == glm::dvec3(0.0) &&
+         coating.thicknessNm == 0 && roughness == 0 && polarization == 0 && !maps.any();
 }
 
 std::uint64_t Scene::vertexCount() const {

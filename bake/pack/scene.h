@@ -5,26 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-namespace malus::pack {
+#include "bake/pack/material_kinds.h"
 
-// How a surface treats light. Values are those of the file.
-enum class MaterialKind : std::uint32_t {
-  lambert = 0,
-  paint = 1,
-  mirrorGlass = 2,
-  metal = 3,
-  glass = 4,
-  emitter = 5,
-  polarizer = 6,
-  wavePlate = 7
-};
-inline constexpr std::uint32_t kMaterialKinds = 8;
-std::string_view nameOf(MaterialKind kind);  // as in scene.json: "mirror-glass"
+namespace malus::pack {
 
 // Of the three colours.
 inline constexpr glm::dvec3 kWavelengthsNm{630, 532, 465};

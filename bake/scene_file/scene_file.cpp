@@ -88,12 +88,9 @@ void readEnvironment(StrictObject environment, SceneDescription& scene) {
 
 pack::MaterialKind kindNamed(StrictObject& material) {
   const std::string type = material.text("type");
-  std::vector<std::string> names;
-  for (std::uint32_t i = 0; i < pack::kMaterialKinds; ++i) {
-    const auto kind = static_cast<pack::MaterialKind>(i);
-    names.emplace_back(pack::nameOf(kind));
-    if (type == names.back()) return kind;
-  }
+  if (const auto kind = pack::findMaterialKind(type)) return *kind;
+  std::vector<std::string_view> names;
+  for (const pack::MaterialKindInfo& info : pack::kMaterialKinds) names.push_back(info.name);
   material.fail("type", "unknown type of material", fmt::format("{}", fmt::join(names, ", ")),
                 fmt::format("'{}'", type));
 }
@@ -140,11 +137,10 @@ std::int32_t readMap(StrictObject map, SceneDescription& scene, TextureDescripti
 }
 
 void readMaps(StrictObject& material, pack::Material& result, SceneDescription& scene) {
-  using Kind = pack::MaterialKind;
-  const bool metal = result.kind == Kind::metal;
-  if ((metal || result.kind == Kind::paint || result.kind == Kind::lambert) && material.has("albedoMap"))
+  const bool metal = pack::isConductor(result.kind);
+  if (pack::canBeDiffuse(result.kind) && material.has("albedoMap"))
     result.maps.albedo = readMap(material.object("albedoMap"), scene, {{}, 1, 0, 0, 1, false});
-  if (metal || result.kind == Kind::paint || result.kind == Kind::mirrorGlass) {
+  if (pack::canHaveIndexMap(result.kind)) {
     if (material.has("etaMap"))
       result.maps.eta =
           readMap(material.object("etaMap"), scene, {{}, 1, 0, metal ? 0 : pack::kMinEta, pack::kMaxEta, !metal});
@@ -165,18 +161,17 @@ void readMaps(StrictObject& material, pack::Material& result, SceneDescription& 
 void readExtras(StrictObject& material, pack::Material& result, SceneDescription& scene) {
   using Kind = pack::MaterialKind;
   const Kind kind = result.kind;
-  const bool opaque = kind == Kind::metal || kind == Kind::paint || kind == Kind::mirrorGlass;
   result.outsideAbsorption = material.numberOrVector("outsideAbsorption", 0, pack::kMaxAbsorption, glm::dvec3(0.0));
-  if (kind == Kind::glass)
+  if (pack::hasInside(kind))
     result.absorption = material.numberOrVector("absorption", 0, pack::kMaxAbsorption, glm::dvec3(0.0));
-  if ((opaque || kind == Kind::glass) && material.has("coating")) {
+  if (pack::canBeCoated(kind) && material.has("coating")) {
     StrictObject coating = material.object("coating");
     result.coating.eta = coating.numberOrVector("eta", pack::kMinEta, pack::kMaxEta);
     result.coating.thicknessNm = coating.number("thicknessNm", 0, pack::kMaxThicknessNm);
     coating.finish();
   }
-  if (opaque) result.roughness = material.number("roughness", 0, 1, 0);
-  if (kind == Kind::emitter && material.has("polarization")) {
+  if (pack::canBeRough(kind)) result.roughness = material.number("roughness", 0, 1, 0);
+  if (pack::isEmitter(kind) && material.has("polarization")) {
     StrictObject polarization = material.object("polarization");
     result.axis = direction(polarization, "axis");
     result.polarization = polarization.number("degree", 0, 1, 1);
@@ -203,14 +198,12 @@ pack::Material readMaterial(const std::string& name, StrictObject material, Scen
   result.name = name;
   result.kind = kindNamed(material);
   const Kind kind = result.kind;
-  const bool interface = kind == Kind::metal || kind == Kind::glass || kind == Kind::mirrorGlass || kind == Kind::paint;
-  if (interface) {
+  if (pack::hasIndex(kind)) {
     // A mirror with an index map has its index there.
     const bool optional = kind == Kind::paint || (kind == Kind::mirrorGlass && material.has("etaMap"));
     if (optional) result.eta = glm::dvec3(1.5);
-    readIndex(material, result, kind != Kind::metal);
-    if (!optional && result.eta == glm::dvec3(1.0) && kind != Kind::metal && !material.has("preset") &&
-        !material.has("eta"))
+    readIndex(material, result, pack::isDielectric(kind));
+    if (!optional && pack::isDielectric(kind) && !material.has("preset") && !material.has("eta"))
       material.fail("preset", "is missing", "a preset, or eta");
   }
   result.outsideEta = material.number("outsideEta", pack::kMinEta, pack::kMaxEta, 1);
@@ -220,9 +213,9 @@ pack::Material readMaterial(const std::string& name, StrictObject material, Scen
     result.albedo = material.numberOrVector("albedo", 0, 1);
   else if (mapped)
     result.albedo = material.numberOrVector("albedo", 0, 1, glm::dvec3(1.0));
-  if (kind == Kind::metal && !mapped) result.albedo = material.numberOrVector("albedo", 0, 1, glm::dvec3(0.0));
-  if (kind == Kind::emitter) result.radiance = material.vector("radiance", 0, kBright);
-  if (interface && material.has("highlight")) {
+  if (pack::isConductor(kind) && !mapped) result.albedo = material.numberOrVector("albedo", 0, 1, glm::dvec3(0.0));
+  if (pack::isEmitter(kind)) result.radiance = material.vector("radiance", 0, kBright);
+  if (pack::hasIndex(kind) && material.has("highlight")) {
     StrictObject highlight = material.object("highlight");
     result.highlightExponent = highlight.integer("exponent", 1, 4095);
     result.highlightStrength = highlight.number("strength", 0, 1e6, 1);

@@ -24,7 +24,6 @@ namespace malus::reference {
 
 namespace {
 
-using pack::MaterialKind;
 using Clock = std::chrono::steady_clock;
 
 double sinceMs(Clock::time_point start) {
@@ -130,7 +129,7 @@ struct Tracer {
   // Of the medium on the side of the ray.
   static dvec3 absorptionAt(const Hit& h) {
     const pack::Material& m = *h.surface.material;
-    return m.kind == MaterialKind::glass && !h.outside ? m.absorption : m.outsideAbsorption;
+    return pack::hasInside(m.kind) && !h.outside ? m.absorption : m.outsideAbsorption;
   }
 
   // Diffuse radiance below the interface, and highlight radiance along the mirror direction.
@@ -155,7 +154,7 @@ struct Tracer {
         continue;
       const dvec3 arriving = light.intensity / (distance * distance) * transmittanceOver(absorptionAt(h), distance);
       const dvec3 entering =
-          m.kind == MaterialKind::lambert
+          !pack::hasIndex(m.kind)
               ? dvec3(1)
               : interfaceOf(h.surface, std::min(c, 1.0), m.outsideEta, h.surface.eta.y).meanTransmittance;
       if (isDiffuse) diffuse += f64::lambertRadiance(albedo, arriving * c, entering);
@@ -228,20 +227,20 @@ struct Tracer {
     const dvec3 medium = transmittanceOver(absorptionAt(h), h.travelled);
 
     // Surfaces without an interface.
-    if (m.kind == MaterialKind::emitter) {
+    if (pack::isEmitter(m.kind)) {
       const dvec3 radiance = h.outside ? m.radiance / (m.outsideEta * m.outsideEta) * medium : dvec3(0);
       if (m.polarization == 0) return checked(h, depth, unpolarized(radiance), {});
       const dvec3 s = f64::sDirection(d, glm::cross(h.face, m.axis));
       return checked(h, depth, turned(glm::transpose(toSurface(d, s)), polarized(radiance, m.polarization)), {});
     }
     dvec3 diffuse, highlight;
-    if (m.kind == MaterialKind::lambert) {
+    if (!pack::isInterface(m.kind)) {
       directLight(h, depth, h.normal, diffuse, highlight);
       return checked(h, depth, unpolarized(diffuse * medium), {});
     }
 
     // Sheets: straight on.
-    if (m.kind == MaterialKind::polarizer || m.kind == MaterialKind::wavePlate) {
+    if (pack::isPolarizingElement(m.kind)) {
       if (depth == 0) return unpolarized(dvec3(0));
       const dmat4 turn = toSurface(d, f64::sDirection(d, glm::cross(h.face, m.axis)));
       const Light arriving = turned(turn, trace(h.position, queryBelow(h), d, depth - 1, behindRough));
@@ -250,7 +249,7 @@ struct Tracer {
     }
 
     // Interfaces: from the index on this side to the one beyond.
-    const bool glass = m.kind == MaterialKind::glass;
+    const bool glass = pack::hasInside(m.kind);
     if (glass && depth == 0) return unpolarized(dvec3(0));
     const double inside = h.surface.eta.y;
     const double n1 = !glass || h.outside ? m.outsideEta : inside, n2 = !glass || h.outside ? inside : m.outsideEta;

@@ -9,7 +9,6 @@
 #include "render/scene/render_scene.h"
 
 namespace malus::reference {
-using pack::MaterialKind;
 
 namespace {
 
@@ -49,7 +48,7 @@ Interface interfaceOf(const Surface& surface, double c, double n1, double n2) {
   Interface result;
   for (std::size_t i = 0; i < 3; ++i) {
     const int colour = static_cast<int>(i);
-    const bool metal = m.kind == MaterialKind::metal;
+    const bool metal = pack::isConductor(m.kind);
     const double n3 = metal ? surface.eta[colour] : n2, k3 = metal ? surface.k[colour] : 0;
     if (m.coating.thicknessNm > 0) {
       const f64::Film film =

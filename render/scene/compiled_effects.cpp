@@ -30,7 +30,7 @@ std::uint32_t compiledEffects(const pack::Scene& scene, const RenderParameters& 
     need(Effect::kAbsorption, m.absorption != glm::dvec3(0.0) || m.outsideAbsorption != glm::dvec3(0.0));
     need(Effect::kCoatings, m.coating.thicknessNm > 0);
     need(Effect::kRoughness, m.roughness > 0 && parameters.depth > 0);
-    need(Effect::kPolarizedEmitters, m.kind == pack::MaterialKind::emitter && m.polarization > 0);
+    need(Effect::kPolarizedEmitters, pack::isEmitter(m.kind) && m.polarization > 0);
   }
   const bool lit = !scene.lights.empty() && (diffuse || glossy);
   need(Effect::kPointLights, lit);

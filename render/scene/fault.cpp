@@ -31,7 +31,7 @@ std::string describe(const Faults& faults, const pack::Scene& scene) {
   if (f.material < scene.materials.size()) {
     const pack::Material& m = scene.materials[f.material];
     const int colour = static_cast<int>(f.colour);
-    where = fmt::format("material '{}' ({})", m.name, pack::nameOf(m.kind));
+    where = fmt::format("material '{}' ({})", m.name, pack::materialKindName(m.kind));
     optics = fmt::format(", cosine {:.9g}, index {:.9g} - i {:.9g} against {:.9g}, normal {}, at {}", f.cosine,
                          m.eta[colour], m.k[colour], m.outsideEta, text(f.normal), text(f.position));
   }

@@ -11,21 +11,11 @@ namespace malus::render {
 
 gpu::SurfaceKind surfaceKind(pack::MaterialKind kind) {
   switch (kind) {
-    case pack::MaterialKind::lambert:
-      return gpu::kLambert;
-    case pack::MaterialKind::paint:
-      return gpu::kPaint;
-    case pack::MaterialKind::mirrorGlass:
-      return gpu::kPaint;  // paint without albedo
-    case pack::MaterialKind::metal:
-      return gpu::kMetal;
-    case pack::MaterialKind::glass:
-      return gpu::kGlass;
-    case pack::MaterialKind::emitter:
-      return gpu::kEmitter;
-    case pack::MaterialKind::polarizer:
-    case pack::MaterialKind::wavePlate:
-      return gpu::kPolarizingElement;
+#define MALUS_MATERIAL_KIND(kind, value, name, surface, traits, summary) \
+  case pack::MaterialKind::kind:                                         \
+    return gpu::surface;
+#include "bake/pack/material_kinds.def"
+#undef MALUS_MATERIAL_KIND
   }
   return gpu::kLambert;
 }
@@ -35,7 +25,7 @@ glm::dvec3 roundTripPhase(const pack::Coating& coating) { return 2 * coating.thi
 namespace {
 
 f64::Reflectance reflectanceOf(const pack::Material& m, double c, int colour) {
-  const bool metal = m.kind == pack::MaterialKind::metal;
+  const bool metal = pack::isConductor(m.kind);
   const double n3 = metal ? m.eta[colour] : m.eta.y, k3 = metal ? m.k[colour] : 0;
   if (m.coating.thicknessNm > 0)
     return f64::thinFilm(c, m.outsideEta, m.coating.eta[colour], roundTripPhase(m.coating)[colour], n3, k3).reflected;
@@ -71,8 +61,7 @@ gpu::MaterialExtra extraOf(const pack::Material& m) {
 }  // namespace
 
 glm::dvec3 hemisphereTransmittance(const pack::Material& m) {
-  const gpu::SurfaceKind kind = surfaceKind(m.kind);
-  if (kind != gpu::kPaint && kind != gpu::kMetal && kind != gpu::kGlass) return glm::dvec3(1.0);
+  if (!pack::hasIndex(m.kind)) return glm::dvec3(1.0);
   constexpr int kSteps = 256;
   glm::dvec3 sum(0.0);
   for (int i = 0; i < kSteps; ++i) {

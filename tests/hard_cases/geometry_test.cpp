@@ -317,7 +317,7 @@ TEST(HardScene, AutoIsExactWherePolarizationCannotShow) {
       const pack::Scene scene = withoutMutualSight(flat, kind);
       const render::RenderParameters parameters = render::defaultParameters(scene);
       const bake::PictureRequest request{parameters.depth, parameters.analyser, false, false};
-      SCOPED_TRACE(testing::Message() << (flat ? "flat " : "ball ") << pack::nameOf(kind));
+      SCOPED_TRACE(testing::Message() << (flat ? "flat " : "ball ") << pack::materialKindName(kind));
       EXPECT_EQ(render::chooseEffects({"auto"}, "stokes", scene, request).method, "fresnel");
       EXPECT_EQ(render::chooseEffects({"auto"}, "importance", scene, request).method, "fresnel-iterative");
       const Picture truth = reference::render(scene, parameters, 0);

@@ -13,7 +13,8 @@ endforeach()
 install(TARGETS malus_base malus_compress malus_pack malus_optics EXPORT malusTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY shaders/optics DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/malus/shaders FILES_MATCHING PATTERN "*.h" PATTERN "*.md")
-install(DIRECTORY bake/pack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/malus/bake FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY bake/pack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/malus/bake
+  FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
 install(FILES meshprep/base/error.h meshprep/base/atomic_file.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/malus/meshprep/base)
 install(FILES meshprep/compress/draco_mesh.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/malus/meshprep/compress)

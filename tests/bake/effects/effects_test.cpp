@@ -19,7 +19,7 @@ using pack::MaterialKind;
 
 Material material(MaterialKind kind, double albedo = 0) {
   Material m;
-  m.name = std::string(pack::nameOf(kind));
+  m.name = std::string(pack::materialKindName(kind));
   m.kind = kind;
   if (kind == MaterialKind::metal) {
     m.eta = glm::dvec3(0.2);

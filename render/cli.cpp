@@ -23,6 +23,7 @@
 #include "render/image/output.h"
 #include "render/image/polarization.h"
 #include "render/make_renderer.h"
+#include "render/method_option.h"
 #include "render/scene/effects_choice.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
@@ -88,9 +89,9 @@ void warnOfMissingLight(const RenderArguments& a, const Analyser& analyser) {
   if (!a.wavePlate.empty() && !a.polarizer && a.analyser.empty())
     console::warn("--wave-plate: a plate without --polarizer or --analyser behind it changes no intensity");
   if (!backendInfo(a.backend).hasMethods) return;
-  const CarriedLight carried = carriedBy(a.method);
-  const bool linear = (analyser[1] != 0 || analyser[2] != 0) && !carried.linear,
-             circular = analyser[3] != 0 && !carried.circular;
+  const MethodInfo& method = methodNamed(a.method);
+  const bool linear = (analyser[1] != 0 || analyser[2] != 0) && !method.carriesLinear(),
+             circular = analyser[3] != 0 && !method.carriesCircular();
   if (!linear && !circular) return;
   console::warn(fmt::format("--method {} carries no {} light ({}): of that the filter passes half, whatever its state",
                             a.method,
@@ -229,7 +230,8 @@ pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, RenderPar
   parameters.everyEffect = a.effects == "all";
   // The reference carries everything, always.
   const EffectsChoice choice =
-      chooseEffects(effects, backendInfo(a.backend).hasMethods ? a.method : "stokes", scene, requestOf(a, parameters));
+      chooseEffects(effects, backendInfo(a.backend).hasMethods ? a.method : completeRecursiveMethod().name, scene,
+                    requestOf(a, parameters));
   // The reference keeps its polarized light whatever is left out.
   for (const std::string& warning : choice.warnings)
     if (backendInfo(a.backend).hasMethods || warning.find("-polarization") == std::string::npos) console::warn(warning);
@@ -372,7 +374,7 @@ void addRenderSettings(CLI::App& command, RenderSettings& a) {
       ->check(CLI::IsMember(backendNames()))
       ->default_str(backendInfo(a.backend).name);
   command.add_option("--method", a.method, "how light is carried along rays")
-      ->check(CLI::IsMember(methodNames()))
+      ->transform(methodName())
       ->capture_default_str();
   command.add_option("--width", a.width, "picture width (default: the pack's; height keeps the aspect)")
       ->check(CLI::Range(1u, 16384u));

@@ -12,6 +12,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/compare/results.h"
+#include "render/method_option.h"
 #include "render/report_script.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/gpu_model.h"
@@ -94,7 +95,7 @@ void addCompareCommand(CLI::App& app) {
   command->add_option("-o,--output", a->output, "folder for the report")->required();
   command->add_option("--methods", a->settings.methods, "methods (default: all)")
       ->delimiter(',')
-      ->check(CLI::IsMember(methodNames()));
+      ->transform(methodName());
   command
       ->add_option_function<std::vector<std::string>>(
           "--backends",

@@ -79,8 +79,8 @@ class EffectsPictures {
   std::map<std::size_t, std::vector<float>> pictures_;
 };
 
-// The methods of a comparison, each with what the scene calls for; the one that auto takes in place of `stokes`; and
-// `stokes` and `importance` once more with everything.
+// The methods of a comparison, each with the effects that the scene needs; the one that `--effects auto` takes in
+// place of the complete recursive method; and the complete methods once more with every effect.
 struct Draw {
   std::string method;
   bool everyEffect;
@@ -92,9 +92,9 @@ std::vector<Draw> drawsOf(const std::vector<std::string>& methods, const std::st
   };
   draws.reserve(methods.size() + 3);
   for (const std::string& method : methods) draws.push_back({method, false});
-  if (named("stokes") && !named(cheapest)) draws.push_back({cheapest, false});
-  for (const char* method : {"stokes", "importance"})
-    if (named(method)) draws.push_back({method, true});
+  if (named(completeRecursiveMethod().name) && !named(cheapest)) draws.push_back({cheapest, false});
+  for (const MethodInfo& m : render::methods())
+    if (m.isComplete() && named(m.name)) draws.push_back({m.name, true});
   return draws;
 }
 
@@ -164,7 +164,7 @@ void summarize(Comparison& comparison, const std::vector<Group>& groups) {
         const ComparisonRow& other = comparison.rows[j];
         if (other.backend != row.backend || !other.ok() || other.samplesMs.size() != row.samplesMs.size()) continue;
         if (other.everyEffect) continue;
-        if (other.method == "schlick") row.ratioToSchlick = ratioSpread(row.samplesMs, other.samplesMs);
+        if (other.method == baselineMethod().name) row.ratioToSchlick = ratioSpread(row.samplesMs, other.samplesMs);
         if (i != j && !row.everyEffect && indistinguishable(row.samplesMs, other.samplesMs))
           row.indistinguishable.push_back(other.method);
       }
@@ -189,8 +189,9 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
   if (!settings.widths.empty() && !settings.heights.empty() && settings.widths.size() != settings.heights.size())
     throw Error("--height", "are not as many as the widths", fmt::format("{}", settings.widths.size()),
                 fmt::format("{}", settings.heights.size()));
-  if (std::find(settings.methods.begin(), settings.methods.end(), "schlick") == settings.methods.end())
-    settings.methods.insert(settings.methods.begin(), "schlick");
+  const std::string& baseline = baselineMethod().name;
+  if (std::find(settings.methods.begin(), settings.methods.end(), baseline) == settings.methods.end())
+    settings.methods.insert(settings.methods.begin(), baseline);
   for (const std::string& method : settings.methods) methodNamed(method);
 
   Comparison comparison;
@@ -217,8 +218,8 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
       writePicture(folder / "pictures" / comparison.references.back().picture,
                    toImage(reference, pack, parameters, "reference", "reference"), 0);
       groups.push_back({&pack, parameters, renderers, {}});
-      const EffectsChoice cheapest =
-          chooseEffects({"auto"}, "stokes", pack.scene, {parameters.depth, parameters.analyser, false, false});
+      const EffectsChoice cheapest = chooseEffects({"auto"}, completeRecursiveMethod().name, pack.scene,
+                                                   {parameters.depth, parameters.analyser, false, false});
       for (const Backend backend : settings.backends) {
         const std::string renderer = backendInfo(backend).name;
         EffectsPictures pictures;
@@ -251,8 +252,8 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
               writePicture(folder / "pictures" / row.picture, toImage(picture, pack, parameters, renderer, method), 0);
             }
             const std::size_t index = comparison.rows.size();
-            const bool isAll = everyEffect && method == "stokes", isAuto = !everyEffect && method == cheapest.method,
-                       isImportance = !everyEffect && method == "importance";
+            const bool isAll = everyEffect && !info.isIterative, isAuto = !everyEffect && method == cheapest.method,
+                       isImportance = !everyEffect && info.isIterative && info.isComplete();
             if (isAll) effects.all = index;
             if (isAuto) effects.automatic = index;
             if (isImportance) effects.importance = index;

@@ -1,5 +1,5 @@
-// Every build of every method of the Embree renderer: methods in the order of the list in shaders/CMakeLists.txt,
-// builds from the smallest on.
+// Every build of every method of the Embree renderer: methods in the order of shaders/methods.def, the builds of a
+// method from the fewest effects to all of them.
 #pragma once
 
 #include <vector>

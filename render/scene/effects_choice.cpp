@@ -6,6 +6,7 @@
 
 #include "bake/effects/polarization_bound.h"
 #include "meshprep/base/error.h"
+#include "render/scene/methods.h"
 
 namespace malus::render {
 
@@ -15,17 +16,10 @@ bool contains(const std::vector<std::string>& list, std::string_view name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-// The method that leaves out linear, or only circular, polarization; the same where there is none.
-std::string without(const std::string& method, bool linear, bool circular) {
-  if (linear && method == "importance") return "fresnel-iterative";
-  if (linear && method != "schlick" && method != "schlick-iterative" && method != "fresnel-iterative") return "fresnel";
-  if (circular && method == "stokes") return "stokes-linear";
-  return method;
-}
-
-// Those that are exact, so that a cheaper exact one may stand for them. `sp` and its kin are what they are.
-bool isExact(const std::string& method) {
-  return method == "stokes" || method == "stokes-linear" || method == "stokes-half" || method == "importance";
+// Name of the method that replaces this one if linear, or circular, polarization is not needed.
+std::string withoutPolarization(const MethodInfo& method, bool linear, bool circular) {
+  if (linear) return method.withoutLinear;
+  return circular ? method.withoutCircular : method.name;
 }
 
 }  // namespace
@@ -41,8 +35,9 @@ EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::st
     // Who asks for Stokes vectors gets a method that has them, though they may be 0.
     const bool linear = request.linearStokes || bake::isOn(effects, "linear-polarization"),
                circular = bake::isOn(effects, "circular-polarization");
-    if (!isExact(method)) return choice;
-    choice.method = without(method, !linear, !circular);
+    const MethodInfo& info = methodNamed(method);
+    if (info.accuracy == Accuracy::approximate) return choice;
+    choice.method = withoutPolarization(info, !linear, !circular);
     if (choice.method != method)
       choice.why =
           !linear ? "polarized light cannot show in this picture" : "circular light cannot show in this picture";
@@ -57,8 +52,8 @@ EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::st
                   fmt::format("auto, all, or some of {}", fmt::join(known, ", ")));
   for (const pack::Effect& e : effects)
     if (e.on && !contains(asked, e.name) && e.name != "tir") choice.off.push_back(e.name);
-  choice.method =
-      without(method, contains(choice.off, "linear-polarization"), contains(choice.off, "circular-polarization"));
+  choice.method = withoutPolarization(methodNamed(method), contains(choice.off, "linear-polarization"),
+                                      contains(choice.off, "circular-polarization"));
   for (const std::string& name : choice.off) {
     std::string size = "the error can be as large as the light that it makes";
     if (name == "linear-polarization" || name == "circular-polarization") {

@@ -1,5 +1,7 @@
 #include "render/scene/methods.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
@@ -7,14 +9,46 @@
 
 namespace malus::render {
 
+namespace {
+
+// Method structs by the formulation and file of a row.
+#define MALUS_STRUCT_recursive(file) f32::Method_##file
+#define MALUS_STRUCT_iterative(file) f32::Iterative_##file
+
+// Sizes and channels, which follow from the method's own declarations.
+template <class M>
+MethodInfo infoFrom(CarriedPolarization polarization, Accuracy accuracy, const char* withoutLinear,
+                    const char* withoutCircular, const char* alias) {
+  const auto orItself = [](const char* name) { return *name == 0 ? M::kName : name; };
+  MethodInfo info{M::kName,
+                  0,
+                  M::kHasStokes != 0,
+                  false,
+                  0,
+                  polarization,
+                  accuracy,
+                  orItself(withoutLinear),
+                  orItself(withoutCircular),
+                  alias};
+  if constexpr (requires { typename M::Payload; }) {
+    static_assert(sizeof(typename M::Payload) == M::kPayloadBytes);
+    info.payloadBytes = sizeof(typename M::Payload);
+  } else {
+    info.isIterative = true;
+    info.pathBytes = 7 * sizeof(float) + sizeof(typename M::Throughput);
+  }
+  return info;
+}
+
+}  // namespace
+
 const std::vector<MethodInfo>& methods() {
-#define MALUS_ROW(M) {f32::M::kName, sizeof(f32::M::Payload), f32::M::kHasStokes != 0, false, 0},
-#define MALUS_LOOP_ROW(M) \
-  {f32::M::kName, 0, f32::M::kHasStokes != 0, true, 7 * sizeof(float) + sizeof(f32::M::Throughput)},
-  static const std::vector<MethodInfo> kMethods = {MALUS_FOR_EACH_METHOD(MALUS_ROW)
-                                                       MALUS_FOR_EACH_ITERATIVE(MALUS_LOOP_ROW)};
-#undef MALUS_LOOP_ROW
-#undef MALUS_ROW
+  static const std::vector<MethodInfo> kMethods = {
+#define MALUS_METHOD_ROW(name, file, formulation, polarization, accuracy, withoutLinear, withoutCircular, alias)   \
+  infoFrom<MALUS_STRUCT_##formulation(file)>(CarriedPolarization::polarization, Accuracy::accuracy, withoutLinear, \
+                                             withoutCircular, alias),
+#include "shaders/methods.def"
+  };
   return kMethods;
 }
 
@@ -24,7 +58,7 @@ bool hasStokes(const MethodInfo& method, const RenderParameters& parameters) {
 
 const MethodInfo& methodNamed(std::string_view name) {
   for (const MethodInfo& m : methods())
-    if (m.name == name) return m;
+    if (m.name == name || (!m.alias.empty() && m.alias == name)) return m;
   throw Error("--method", fmt::format("unknown method '{}'", name), fmt::format("{}", fmt::join(methodNames(), ", ")));
 }
 
@@ -32,6 +66,20 @@ std::vector<std::string> methodNames() {
   std::vector<std::string> names;
   for (const MethodInfo& m : methods()) names.push_back(m.name);
   return names;
+}
+
+std::vector<std::string> methodAliases() {
+  std::vector<std::string> aliases;
+  for (const MethodInfo& m : methods())
+    if (!m.alias.empty()) aliases.push_back(m.alias);
+  return aliases;
+}
+
+const MethodInfo& baselineMethod() { return methods().front(); }
+
+const MethodInfo& completeRecursiveMethod() {
+  return *std::find_if(methods().begin(), methods().end(),
+                       [](const MethodInfo& m) { return m.isComplete() && !m.isIterative; });
 }
 
 }  // namespace malus::render

@@ -1,4 +1,4 @@
-// The methods of rendering, by name, from the list in shaders/CMakeLists.txt.
+// The rendering methods and their traits, from shaders/methods.def.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,40 @@
 
 namespace malus::render {
 
+// Polarization that a method carries from surface to surface: none, S1 and S2, or S1, S2 and S3.
+enum class CarriedPolarization { none, linear, full };
+
+// approximate: a model with an error of its own. exact: the intensity is exact where the components that are not
+// carried are 0. packed: as exact, rounded to 16 bits.
+enum class Accuracy { approximate, packed, exact };
+
 struct MethodInfo {
   std::string name;
-  std::size_t payloadBytes;  // of what a ray brings back
-  bool hasStokes;            // pictures have Stokes channels; of a loop where the view asks for them
-  bool isIterative;          // follows the eye's path in a loop: no recursion
-  std::size_t pathBytes;     // of what a loop keeps of a path: origin, direction, depth, what the eye's path carries
+  std::size_t payloadBytes;  // per ray, what a recursive method's ray returns; 0 for an iterative one
+  bool hasStokes;            // images can have Stokes channels; those of an iterative method on request (--stokes)
+  bool isIterative;          // a loop along the camera path; else recursive
+  std::size_t pathBytes;     // per path of an iterative method: origin, direction, depth and throughput; else 0
+  CarriedPolarization polarization;
+  Accuracy accuracy;
+  std::string withoutLinear;    // cheaper method if no linear polarization is needed; may be itself
+  std::string withoutCircular;  // the same for circular polarization
+  std::string alias;            // earlier name that is still accepted; may be empty
+
+  bool carriesLinear() const { return polarization != CarriedPolarization::none; }
+  bool carriesCircular() const { return polarization == CarriedPolarization::full; }
+  // Exact and with all of the Stokes vector: what other methods are measured against.
+  bool isComplete() const { return accuracy == Accuracy::exact && carriesCircular(); }
 };
 
-// Whether a picture of the method has Stokes channels.
+// Whether an image of the method has Stokes channels.
 bool hasStokes(const MethodInfo& method, const RenderParameters& parameters);
 
 const std::vector<MethodInfo>& methods();
-const MethodInfo& methodNamed(std::string_view name);  // throws Error for an unknown one
+const MethodInfo& methodNamed(std::string_view name);  // name or alias; throws Error for any other name
 std::vector<std::string> methodNames();
+std::vector<std::string> methodAliases();
+
+const MethodInfo& baselineMethod();           // the one to which `malus compare` relates times: the first
+const MethodInfo& completeRecursiveMethod();  // the first recursive method that is complete: stokes
 
 }  // namespace malus::render

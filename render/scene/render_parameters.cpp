@@ -3,10 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <glm/geometric.hpp>
-
-#include "shaders/methods/methods.h"
-
 namespace malus::render {
 
 namespace {
@@ -31,26 +27,6 @@ Turn turnOf(double degrees) {
   }
 }
 
-// Light from a glass mirror at Brewster's angle, linearly polarized, that meets a metal mirror whose plane of
-// incidence is at 45 degrees to the glass's: what goes to the eye is linear in part and circular in part.
-template <class M>
-CarriedLight probe() {
-  using f32::real3;
-  const real3 toMetal(0, 0, -1), metalNormal(0.5f, 0.5f, std::sqrt(0.5f));
-  const real3 toGlass = f32::mirrorDirection(toMetal, metalNormal, metalNormal.z);
-  const real3 side = glm::normalize(real3(0, 0, 1) + glm::cross(toGlass, real3(0, 0, 1)));
-  const real3 glassNormal = glm::normalize(side * 1.5f - toGlass);
-  const auto glass = M::dielectricTerms(-glm::dot(toGlass, glassNormal), 1.0f, 1.5f);
-  const auto metal = M::conductorTerms(metalNormal.z, 1.0f, real3(0.2f), real3(3.0f));
-  const real3 glassS = M::surfaceS(toGlass, glassNormal), metalS = M::surfaceS(toMetal, metalNormal);
-  const auto fromGlass = M::payloadFromSurface(M::lightReflect(glass, M::lightUnpolarized(real3(1))), toGlass, glassS);
-  const auto fromMetal =
-      M::payloadFromSurface(M::lightReflect(metal, M::lightAtSurface(fromGlass, toGlass, metalS)), toMetal, metalS);
-  const f32::Stokes seen = M::payloadStokes(fromMetal, toMetal);
-  const auto some = [&](const real3& v) { return std::abs(v.x) > 1e-2f * seen.s0.x; };
-  return {some(seen.s1) || some(seen.s2), some(seen.s3)};
-}
-
 }  // namespace
 
 Analyser linearPolarizer(double degrees) {
@@ -68,15 +44,6 @@ Analyser behindWavePlate(const Analyser& analyser, const WavePlate& plate) {
   const double along = q * axis.cos + u * axis.sin, across = u * axis.cos - q * axis.sin;
   const double delayed = across * delay.cos - v * delay.sin, circular = across * delay.sin + v * delay.cos;
   return {w, along * axis.cos - delayed * axis.sin, along * axis.sin + delayed * axis.cos, circular};
-}
-
-CarriedLight carriedBy(std::string_view method) {
-#define MALUS_PROBE(M) \
-  if (method == f32::M::kName) return probe<f32::M>();
-  MALUS_FOR_EACH_METHOD(MALUS_PROBE)
-#undef MALUS_PROBE
-  if (method == "schlick-iterative" || method == "fresnel-iterative") return {false, false};
-  return {};
 }
 
 RenderParameters defaultParameters(const pack::Scene& scene) {

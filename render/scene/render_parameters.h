@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 
 #include "bake/pack/scene.h"
 
@@ -36,14 +35,6 @@ struct WavePlate {
 // The plate in front of an analyser (toward the scene): the analyser's row times R(-a) G(d) R(a), where R turns
 // the frame and G is [[cos d, sin d], [-sin d, cos d]] on (S2, S3). The plate alone changes no intensity.
 Analyser behindWavePlate(const Analyser& analyser, const WavePlate& plate);
-
-// Which part of polarized light a method's rays bring back: linear (S1, S2), circular (S3). Found by sending
-// light through mirrors with the method's own functions. A name without such functions counts as both.
-struct CarriedLight {
-  bool linear = true;
-  bool circular = true;
-};
-CarriedLight carriedBy(std::string_view method);
 
 struct RenderParameters {
   std::uint32_t width = 0;  // of the whole picture

@@ -20,6 +20,8 @@ FN SurfaceLight lightUnpolarized(real3 radiance) {
   return l;
 }
 FN SurfaceLight lightPolarized(real3 radiance, real degree) { return lightUnpolarized(radiance); }
+FN SurfaceLight lightFromStokes(Stokes s) { return lightUnpolarized(s.s0); }
+FN real3 lightRadiance(SurfaceLight l) { return l.colour; }
 FN SurfaceLight lightScale(SurfaceLight a, real3 scale) {
   SurfaceLight l;
   l.colour = a.colour * scale;

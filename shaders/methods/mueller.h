@@ -23,6 +23,12 @@ FN SurfaceLight lightPolarized(real3 radiance, real degree) {
   l.stokes.s1 = radiance * degree;
   return l;
 }
+FN SurfaceLight lightFromStokes(Stokes s) {
+  SurfaceLight l;
+  l.stokes = s;
+  return l;
+}
+FN real3 lightRadiance(SurfaceLight l) { return l.stokes.s0; }
 FN SurfaceLight lightScale(SurfaceLight a, real3 scale) {
   SurfaceLight l;
   l.stokes.s0 = a.stokes.s0 * scale;

@@ -43,6 +43,13 @@ FN SurfaceLight lightPolarized(real3 radiance, real degree) {
   l.p = radiance * (R(0.5) - R(0.5) * degree);
   return l;
 }
+FN SurfaceLight lightFromStokes(Stokes s) {
+  SurfaceLight l;
+  l.s = (s.s0 + s.s1) * R(0.5);
+  l.p = (s.s0 - s.s1) * R(0.5);
+  return l;
+}
+FN real3 lightRadiance(SurfaceLight l) { return l.s + l.p; }
 FN SurfaceLight lightScale(SurfaceLight a, real3 scale) {
   SurfaceLight l;
   l.s = a.s * scale;

@@ -28,6 +28,14 @@ FN SurfaceLight lightPolarized(real3 radiance, real degree) {
   return l;
 }
 FN SurfaceLight lightUnpolarized(real3 radiance) { return lightPolarized(radiance, R(0.0)); }
+FN SurfaceLight lightFromStokes(Stokes s) {
+  SurfaceLight l;
+  l.s0 = s.s0;
+  l.s1 = s.s1;
+  l.s2 = s.s2;
+  return l;
+}
+FN real3 lightRadiance(SurfaceLight l) { return l.s0; }
 FN SurfaceLight lightAdd(SurfaceLight a, SurfaceLight b) {
   SurfaceLight l;
   l.s0 = a.s0 + b.s0;

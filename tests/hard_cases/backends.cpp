@@ -14,16 +14,6 @@
 
 namespace malus::test {
 
-namespace {
-
-const char* lightFile(std::string_view method) {
-  if (method == "schlick" || method == "fresnel") return "light_colour.h";
-  if (method == "stokes-linear") return "light_linear.h";
-  return method.starts_with("sp") ? "light_powers.h" : "light_mueller.h";
-}
-
-}  // namespace
-
 std::vector<std::byte> runOnDevice(bool doublePrecision, std::string_view method, std::string_view in,
                                    std::string_view out, std::string_view call, const std::vector<std::byte>& input,
                                    std::size_t outputBytes, std::size_t count) {
@@ -43,7 +33,6 @@ std::vector<std::byte> runOnDevice(bool doublePrecision, std::string_view method
     const auto include = [&](std::string_view file) {
       rest += fmt::format("#include \"tests/hard_cases/{}\"\n", file);
     };
-    if (!method.empty()) include(lightFile(method));
     if (call.starts_with("iterative")) include("iterative_probe.h");
     if (call.starts_with("chain")) include("chain_probe.h");
     if (call.starts_with("handOver")) include("hand_over_probe.h");

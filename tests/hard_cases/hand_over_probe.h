@@ -1,13 +1,17 @@
 // Light handed over in one method, whose file comes before this one.
 
 FN HandOverOut handOverProbe(GIVEN_PARAMETER(HandOverIn)) {
-  Payload p = payloadFromSurface(lightOf(GIVEN.radiance, GIVEN.light), GIVEN.d, GIVEN.from);
+  Stokes sent = stokesUnpolarized(GIVEN.radiance);
+  sent.s1 = GIVEN.radiance * GIVEN.light.x;
+  sent.s2 = GIVEN.radiance * GIVEN.light.y;
+  sent.s3 = GIVEN.radiance * GIVEN.light.z;
+  Payload p = payloadFromSurface(lightFromStokes(sent), GIVEN.d, GIVEN.from);
   Stokes s = payloadStokes(p, GIVEN.d);
   HandOverOut r;
   r.s0 = s.s0;
   r.s1 = s.s1;
   r.s2 = s.s2;
   r.s3 = s.s3;
-  r.received = lightTotal(lightAtSurface(p, GIVEN.d, GIVEN.to));
+  r.received = lightRadiance(lightAtSurface(p, GIVEN.d, GIVEN.to));
   return r;
 }

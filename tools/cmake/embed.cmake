@@ -4,5 +4,6 @@ function(malus_embed)
   add_custom_command(OUTPUT ${E_TARGET_SOURCE}
     COMMAND ${CMAKE_COMMAND} -DOUT=${E_TARGET_SOURCE} -DNAMESPACE=${E_NAMESPACE} -DVARIABLE=${E_VARIABLE} -DFILE=${E_FILE}
             -P ${PROJECT_SOURCE_DIR}/tools/cmake/embed_text.cmake
-    DEPENDS ${E_FILE} ${PROJECT_SOURCE_DIR}/tools/cmake/embed_text.cmake VERBATIM)
+    DEPENDS ${E_FILE} ${PROJECT_SOURCE_DIR}/tools/cmake/embed_text.cmake
+            ${PROJECT_SOURCE_DIR}/tools/cmake/embed_text.cpp.in VERBATIM)
 endfunction()

@@ -81,18 +81,5 @@ TEST(RenderParameters, PlateAloneChangesNothing) {
   for (const double axis : {0.0, 30.0, 90.0}) EXPECT_EQ(behindWavePlate(kNoFilter, {axis, 90}), kNoFilter);
 }
 
-TEST(RenderParameters, MethodsTellWhatTheyCarry) {
-  for (const auto& [method, linear, circular] :
-       {std::tuple("schlick", false, false), std::tuple("fresnel", false, false), std::tuple("sp", true, false),
-        std::tuple("sp-cosine", true, false), std::tuple("sp-ratio", true, false), std::tuple("sp-malus", true, false),
-        std::tuple("schlick-iterative", false, false), std::tuple("importance", true, true),
-        std::tuple("stokes-linear", true, false), std::tuple("stokes", true, true),
-        std::tuple("reference", true, true)}) {
-    const CarriedLight throughput = carriedBy(method);
-    EXPECT_EQ(throughput.linear, linear) << method;
-    EXPECT_EQ(throughput.circular, circular) << method;
-  }
-}
-
 }  // namespace
 }  // namespace malus::render

@@ -16,7 +16,7 @@ namespace {
 std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 glm::dvec3 boundOf(const pack::Scene& scene) {
-  PictureRequest request;
+  ImageRequest request;
   request.depth = scene.depth;
   return polarizationErrorBound(scene, request);
 }

@@ -188,10 +188,10 @@ RenderParameters parametersFor(const RenderSettings& a, const pack::Scene& scene
   return parameters;
 }
 
-Picture renderScene(const RenderSettings& a, const pack::Scene& scene, const RenderParameters& parameters,
-                    bool countRays) {
+RenderResult renderScene(const RenderSettings& a, const pack::Scene& scene, const RenderParameters& parameters,
+                         bool countRays) {
   const std::unique_ptr<Renderer> renderer = makeRenderer(a.backend, scene, {a.device, a.threads});
-  Picture picture = renderer->render(a.method, parameters);
+  RenderResult picture = renderer->render(a.method, parameters);
   if (countRays && picture.cost.rays == 0) picture.cost.rays = renderer->countRays(a.method, parameters);
   return picture;
 }
@@ -199,7 +199,7 @@ Picture renderScene(const RenderSettings& a, const pack::Scene& scene, const Ren
 namespace {
 
 // The colour channels alone.
-Picture intensityOf(Picture picture) {
+RenderResult intensityOf(RenderResult picture) {
   for (std::size_t i = 0; i < std::size_t{picture.width} * picture.height; ++i)
     for (std::size_t c = 0; c < kColourChannels; ++c)
       picture.pixels[i * kColourChannels + c] = picture.pixels[i * picture.channels + c];
@@ -209,11 +209,11 @@ Picture intensityOf(Picture picture) {
 }
 
 // What of the picture is asked for: its Stokes vectors where a file holds them.
-bake::PictureRequest requestOf(const RenderArguments& a, const RenderParameters& parameters) {
+bake::ImageRequest requestOf(const RenderArguments& a, const RenderParameters& parameters) {
   const bool stokesFile = !a.intensity && hasStokes(a.backend, a.method, parameters) &&
                           std::any_of(a.outputs.begin(), a.outputs.end(),
                                       [](const std::string& output) { return endsWith(output, {".exr"}); });
-  bake::PictureRequest request{parameters.depth, parameters.analyser, false, false};
+  bake::ImageRequest request{parameters.depth, parameters.analyser, false, false};
   request.linearStokes = stokesFile || !a.dolp.empty() || !a.aolp.empty() || !a.mosaic.empty();
   request.circularStokes = stokesFile;
   return request;
@@ -283,7 +283,7 @@ void runRender(RenderArguments a) {
   console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, backend,
                                 backendInfo(a.backend).hasMethods ? a.method : ""));
   parameters.checkNumerics = a.checkNumerics;
-  const Picture picture = renderScene(a, scene, parameters, a.countRays);
+  const RenderResult picture = renderScene(a, scene, parameters, a.countRays);
   if (picture.faults.count > 0) throw Error(a.input, describe(picture.faults, pack.scene));
   const std::string method = methodName(a.backend, a.method);
   const image::Image image = toImage(a.intensity ? intensityOf(picture) : picture, pack, parameters, backend, method);
@@ -296,7 +296,7 @@ void runRender(RenderArguments a) {
     written.push_back(output);
   };
   for (const std::string& output : a.outputs)
-    write(output, [&](const std::string& file) { writePicture(file, image, exposureEv); });
+    write(output, [&](const std::string& file) { writeImage(file, image, exposureEv); });
   write(a.dolp, [&](const std::string& file) { writeDolp(file, image); });
   write(a.aolp, [&](const std::string& file) { writeAolp(file, image); });
   write(a.mosaic, [&](const std::string& file) {
@@ -346,7 +346,7 @@ void runCompareImages(const CompareArguments& arguments) {
   } catch (const Error& error) {
     throw Error(fmt::format("{}, {}", arguments.a, arguments.b), error.what());
   }
-  if (!arguments.difference.empty()) writePicture(arguments.difference, differencePicture(a, b, arguments.gain), 0);
+  if (!arguments.difference.empty()) writeImage(arguments.difference, differenceImage(a, b, arguments.gain), 0);
   if (arguments.json) {
     const auto number = [](double v) {
       return std::isfinite(v) ? nlohmann::json(v) : nlohmann::json();
@@ -361,7 +361,7 @@ void runCompareImages(const CompareArguments& arguments) {
                d.rms, d.max, d.p999, arguments.threshold, d.outliers, d.pixels,
                d.nonFinite > 0 ? fmt::format(", {} with NaN or infinity", d.nonFinite) : "");
   }
-  if (arguments.failOver && !(d.max <= *arguments.failOver)) throw PicturesDiffer{};
+  if (arguments.failOver && !(d.max <= *arguments.failOver)) throw ImagesDiffer{};
 }
 
 }  // namespace

@@ -15,8 +15,8 @@
 
 #include "bake/pack/scene.h"
 #include "render/backend.h"
-#include "render/scene/picture.h"
 #include "render/scene/render_parameters.h"
+#include "render/scene/render_result.h"
 
 namespace malus::render {
 
@@ -40,11 +40,11 @@ void requireStokes(const RenderSettings& settings, const std::string& option);
 // The view without a filter. Throws Error for a size or a region that the scene does not allow.
 RenderParameters parametersFor(const RenderSettings& settings, const pack::Scene& scene);
 // countRays: Vulkan traces once more, untimed, to count them.
-Picture renderScene(const RenderSettings& settings, const pack::Scene& scene, const RenderParameters& parameters,
-                    bool countRays);
+RenderResult renderScene(const RenderSettings& settings, const pack::Scene& scene, const RenderParameters& parameters,
+                         bool countRays);
 
 // Thrown by compare-images where the pictures differ by more than --fail-over: exit code 3.
-struct PicturesDiffer {};
+struct ImagesDiffer {};
 
 void addRenderCommand(CLI::App& app);
 void addCompareImagesCommand(CLI::App& app);

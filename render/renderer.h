@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "render/backend.h"
-#include "render/scene/picture.h"
 #include "render/scene/render_parameters.h"
+#include "render/scene/render_result.h"
 
 namespace malus::render {
 
@@ -31,7 +31,7 @@ class Renderer {
 
   // Renders parameters.region. method: one of methods(), ignored by a backend without methods. Throws Error: an unknown
   // or unsupported method, a depth over maxDepth(method).
-  virtual Picture render(std::string_view method, const RenderParameters& parameters) = 0;
+  virtual RenderResult render(std::string_view method, const RenderParameters& parameters) = 0;
   // Renders once more, untimed, to count camera, specular and shadow rays. Needed only if render() left Cost::rays
   // at 0. Throws as render() does.
   virtual std::uint64_t countRays(std::string_view method, const RenderParameters& parameters) {

@@ -53,7 +53,7 @@ class OutputFolder {
 };
 
 // The colour behind an analyser, from the Stokes channels of a rendered picture.
-image::Image behind(const Analyser& analyser, const Picture& picture) {
+image::Image behind(const Analyser& analyser, const RenderResult& picture) {
   if (picture.channels != kStokesChannels) throw Error("malus sweep", "the picture has no Stokes vectors");
   image::Image result;
   result.width = static_cast<int>(picture.width);
@@ -78,7 +78,7 @@ void runSweep(const SweepArguments& a) {
   const OutputFolder made(folder);
   const std::string method = methodName(a.backend, a.method), backend = backendInfo(a.backend).name;
   console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, backend, method));
-  const Picture picture = renderScene(a, pack.scene, parameters, false);
+  const RenderResult picture = renderScene(a, pack.scene, parameters, false);
   const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
 
   const fs::path list = folder / "sweep.json";
@@ -91,7 +91,7 @@ void runSweep(const SweepArguments& a) {
   for (unsigned i = 0; i < a.frames; ++i) {
     const double degrees = 180.0 * i / a.frames;
     console::progress(fmt::format("writing frame {} of {}", i + 1, a.frames));
-    writePicture(folder / nameOf(i), behind(linearPolarizer(degrees), picture), exposureEv);
+    writeImage(folder / nameOf(i), behind(linearPolarizer(degrees), picture), exposureEv);
     frames.push_back({{"file", nameOf(i)}, {"degrees", degrees}});
   }
   const nlohmann::json result = {{"scene", pack.scene.name},  {"renderer", backend},

@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const malus::bake::PacksDiffer&) {
     return finish() == kDone ? kDiffer : kFailed;
-  } catch (const malus::render::PicturesDiffer&) {
+  } catch (const malus::render::ImagesDiffer&) {
     return finish() == kDone ? kDiffer : kFailed;
   } catch (const malus::Interrupted&) {
     malus::console::progressDone();

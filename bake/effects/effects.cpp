@@ -52,12 +52,12 @@ std::string namesWhere(const pack::Scene& scene, const std::function<bool(const 
 }  // namespace
 
 std::vector<Effect> findEffects(const pack::Scene& scene) {
-  PictureRequest request;
+  ImageRequest request;
   request.depth = scene.depth;
   return findEffects(scene, request);
 }
 
-std::vector<Effect> findEffects(const pack::Scene& scene, const PictureRequest& request) {
+std::vector<Effect> findEffects(const pack::Scene& scene, const ImageRequest& request) {
   const std::uint32_t depth = request.depth;
   const auto& filter = request.analyser;
   const bool linearFilter = filter[1] != 0 || filter[2] != 0, circularFilter = filter[3] != 0;

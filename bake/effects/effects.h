@@ -13,7 +13,7 @@ namespace malus::bake {
 
 // What is asked of a picture beside the scene. The baker does not know: it asks for the intensity without a filter at
 // the scene's depth; a renderer refines the set by the same rules.
-struct PictureRequest {
+struct ImageRequest {
   std::uint32_t depth = 0;
   std::array<double, 4> analyser = {1, 0, 0, 0};  // first row of the filter's Mueller matrix
   bool linearStokes = false;                      // S1, S2, DoLP or AoLP are asked for
@@ -21,7 +21,7 @@ struct PictureRequest {
 };
 
 // In the order in which they are listed everywhere.
-std::vector<pack::Effect> findEffects(const pack::Scene& scene, const PictureRequest& request);
+std::vector<pack::Effect> findEffects(const pack::Scene& scene, const ImageRequest& request);
 std::vector<pack::Effect> findEffects(const pack::Scene& scene);  // for the baker
 
 bool isOn(const std::vector<pack::Effect>& effects, std::string_view name);

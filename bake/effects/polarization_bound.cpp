@@ -61,7 +61,7 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
 
 }  // namespace
 
-glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const PictureRequest& request) {
+glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const ImageRequest& request) {
   const auto& a = request.analyser;
   const double filter = a[0] > 0 ? std::min(1.0, std::sqrt(a[1] * a[1] + a[2] * a[2] + a[3] * a[3]) / a[0]) : 0;
   const bool several = interfacesMutuallyVisible(scene);

@@ -11,6 +11,6 @@ namespace malus::bake {
 // the longest chain of diattenuating elements that the picture's depth and filter allow, each at its largest D of any
 // angle (derived in shaders/optics/CONVENTIONS.md). 0 where at most one stands on any
 // path. Relative to the truth there is no bound, because the truth may be 0.
-glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const PictureRequest& request);
+glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const ImageRequest& request);
 
 }  // namespace malus::bake

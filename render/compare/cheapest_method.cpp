@@ -11,7 +11,7 @@
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/cache_folder.h"
 #include "meshprep/base/error.h"
-#include "render/compare/picture_error.h"
+#include "render/compare/image_error.h"
 #include "render/compare/statistics.h"
 #include "render/make_renderer.h"
 #include "render/scene/methods.h"
@@ -78,12 +78,12 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const Render
   if (std::vector<MethodEstimate> known = load(path, key); !known.empty()) return known;
 
   progress("measuring every method's error on a small picture");
-  const Picture reference = makeRenderer(Backend::reference, pack.scene, {"", threads})->render("", parameters);
+  const RenderResult reference = makeRenderer(Backend::reference, pack.scene, {"", threads})->render("", parameters);
   std::vector<MethodEstimate> list;
   std::vector<std::vector<double>> samples;
   for (const std::string& method : methodNames()) try {
       list.push_back(
-          {method, pictureError(renderer.render(method, parameters), reference, pack.scene.exposureEv).relRms, 0});
+          {method, imageError(renderer.render(method, parameters), reference, pack.scene.exposureEv).relRms, 0});
       samples.emplace_back();
     } catch (const Error&) {  // this device cannot do it at this depth: others may
       if (method == methodNames().back() && list.empty()) throw;

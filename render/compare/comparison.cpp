@@ -58,7 +58,7 @@ struct Group {
 // Intensities of the pictures that the effects' table compares, while they are needed.
 class EffectsPictures {
  public:
-  void add(std::size_t row, const Picture& picture) {
+  void add(std::size_t row, const RenderResult& picture) {
     std::vector<float>& rgb = pictures_[row];
     for (std::size_t i = 0; i < picture.pixels.size(); i += picture.channels)
       rgb.insert(rgb.end(), {picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]});
@@ -127,11 +127,11 @@ std::vector<RenderParameters> parameterVariants(const pack::Scene& scene, const 
 }
 
 // One render of a row, its times kept where `timed`.
-Picture renderRow(ComparisonRow& row, Group& group, bool timed) {
+RenderResult renderRow(ComparisonRow& row, Group& group, bool timed) {
   const double cpuBefore = cpuMs();
   RenderParameters parameters = group.parameters;
   parameters.everyEffect = row.everyEffect;
-  Picture picture = (*group.renderers)[row.backend].render(row.method, parameters);
+  RenderResult picture = (*group.renderers)[row.backend].render(row.method, parameters);
   const double cpu = cpuMs() - cpuBefore;
   if (timed) {
     row.samplesMs.push_back(picture.cost.traceMs);
@@ -210,13 +210,13 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
       if (interrupted()) break;
       progress(
           fmt::format("{} {} x {}, depth {}: reference", name, parameters.width, parameters.height, parameters.depth));
-      const Picture reference =
+      const RenderResult reference =
           makeRenderer(Backend::reference, pack.scene, {"", settings.threads})->render("", parameters);
       comparison.devices["reference"] = reference.device;
       comparison.references.push_back(
           {name, parameters.width, parameters.height, parameters.depth, stem(name, parameters, "reference") + ".exr"});
-      writePicture(folder / "pictures" / comparison.references.back().picture,
-                   toImage(reference, pack, parameters, "reference", "reference"), 0);
+      writeImage(folder / "pictures" / comparison.references.back().picture,
+                 toImage(reference, pack, parameters, "reference", "reference"), 0);
       groups.push_back({&pack, parameters, renderers, {}});
       const EffectsChoice cheapest = chooseEffects({"auto"}, completeRecursiveMethod().name, pack.scene,
                                                    {parameters.depth, parameters.analyser, false, false});
@@ -244,12 +244,12 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
           if (info.isIterative)
             row.stateBytes = info.pathBytes * (1 + pathStackSize(compiledEffects(pack.scene, drawn), parameters.depth));
           try {
-            const Picture picture = renderRow(row, groups.back(), false);
+            const RenderResult picture = renderRow(row, groups.back(), false);
             row.rays = picture.cost.rays > 0 ? picture.cost.rays : (*renderers)[backend].countRays(method, drawn);
-            row.error = pictureError(picture, reference, pack.scene.exposureEv);
+            row.error = imageError(picture, reference, pack.scene.exposureEv);
             if (!everyEffect) {
               row.picture = stem(name, parameters, fmt::format("{}-{}", renderer, method)) + ".exr";
-              writePicture(folder / "pictures" / row.picture, toImage(picture, pack, parameters, renderer, method), 0);
+              writeImage(folder / "pictures" / row.picture, toImage(picture, pack, parameters, renderer, method), 0);
             }
             const std::size_t index = comparison.rows.size();
             const bool isAll = everyEffect && !info.isIterative, isAuto = !everyEffect && method == cheapest.method,

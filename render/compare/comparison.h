@@ -15,7 +15,7 @@
 
 #include "bake/pack/reader.h"
 #include "render/backend.h"
-#include "render/compare/picture_error.h"
+#include "render/compare/image_error.h"
 #include "render/compare/statistics.h"
 #include "render/scene/render_parameters.h"
 
@@ -50,7 +50,7 @@ struct ComparisonRow {
   Spread time;                                 // of samplesMs
   Spread ratioToSchlick;                       // of the same rounds
   std::vector<std::string> indistinguishable;  // methods that the rounds do not tell apart from this one
-  PictureError error;
+  ImageError error;
   std::string status = "ok";  // or why it failed
   std::string picture;        // file name under pictures/
   bool ok() const { return status == "ok"; }

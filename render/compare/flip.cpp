@@ -155,7 +155,7 @@ struct Seen {
   std::array<Plane, 3> filtered;  // opponent channels behind the eye's sensitivity
   Features features;
 };
-Seen seen(const Picture& picture, double gain, double pixelsPerDegree) {
+Seen seen(const RenderResult& picture, double gain, double pixelsPerDegree) {
   const Size size{picture.width, picture.height};
   const std::size_t count = size.width * size.height;
   std::array<Plane, 3> planes;
@@ -183,7 +183,7 @@ constexpr double kKnee = 0.4, kKneeValue = 0.95;
 
 }  // namespace
 
-double meanFlip(const Picture& picture, const Picture& reference, double exposureEv, double pixelsPerDegree) {
+double meanFlip(const RenderResult& picture, const RenderResult& reference, double exposureEv, double pixelsPerDegree) {
   if (picture.width != reference.width || picture.height != reference.height)
     throw Error("", "pictures differ in size", fmt::format("{} x {}", reference.width, reference.height),
                 fmt::format("{} x {}", picture.width, picture.height));

@@ -3,7 +3,7 @@
 // Computer Graphics and Interactive Techniques 3(2), 2020; all constants are the paper's.
 #pragma once
 
-#include "render/scene/picture.h"
+#include "render/scene/render_result.h"
 
 namespace malus::render {
 
@@ -12,7 +12,7 @@ inline constexpr double kPixelsPerDegree = 0.7 * (3840 / 0.7) * 3.14159265358979
 
 // Mean over the pixels, 0 (the same) to 1 (black against white). Colours are linear sRGB times 2^exposureEv, cut to
 // [0, 1] as a display does; what is not finite counts as 1. Throws Error where the sizes differ.
-double meanFlip(const Picture& picture, const Picture& reference, double exposureEv,
+double meanFlip(const RenderResult& picture, const RenderResult& reference, double exposureEv,
                 double pixelsPerDegree = kPixelsPerDegree);
 
 }  // namespace malus::render

@@ -69,7 +69,7 @@ ImageDifference difference(const image::Image& a, const image::Image& b, const s
   return result;
 }
 
-image::Image differencePicture(const image::Image& a, const image::Image& b, double gain) {
+image::Image differenceImage(const image::Image& a, const image::Image& b, double gain) {
   requireSameSize(a, b);
   image::Image result;
   result.width = a.width;

@@ -24,6 +24,6 @@ ImageDifference difference(const image::Image& a, const image::Image& b, const s
                            double threshold);
 
 // Absolute difference of R, G, B times gain, as a picture.
-image::Image differencePicture(const image::Image& a, const image::Image& b, double gain);
+image::Image differenceImage(const image::Image& a, const image::Image& b, double gain);
 
 }  // namespace malus::render

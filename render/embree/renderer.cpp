@@ -61,11 +61,11 @@ std::vector<std::string> Renderer::methods() const { return render::methodNames(
 
 std::uint32_t Renderer::maxDepth(std::string_view /*method*/) const { return pack::kMaxDepth; }
 
-render::Picture Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
+render::RenderResult Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
   const render::MethodInfo& info = render::methodNamed(name);
   const Method& method = buildFor(name, render::compiledEffects(*impl_->source, parameters), parameters.checkNumerics);
 
-  render::Picture picture;
+  render::RenderResult picture;
   picture.width = parameters.region.width;
   picture.height = parameters.region.height;
   picture.channels = render::hasStokes(info, parameters) ? render::kStokesChannels : render::kColourChannels;

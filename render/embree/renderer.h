@@ -23,7 +23,7 @@ class Renderer final : public render::Renderer {
   std::string device() const override;
   std::vector<std::string> methods() const override;
   std::uint32_t maxDepth(std::string_view method) const override;
-  render::Picture render(std::string_view method, const render::RenderParameters& parameters) override;
+  render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
 
  private:
   struct Impl;

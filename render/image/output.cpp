@@ -9,7 +9,7 @@
 
 namespace malus::render {
 
-image::Image toImage(const Picture& picture, const pack::Pack& pack, const RenderParameters& parameters,
+image::Image toImage(const RenderResult& picture, const pack::Pack& pack, const RenderParameters& parameters,
                      const std::string& renderer, const std::string& method) {
   image::Image result;
   result.width = static_cast<int>(picture.width);
@@ -71,7 +71,7 @@ std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureE
   return bytes;
 }
 
-void writePicture(const std::filesystem::path& path, const image::Image& image, double exposureEv) {
+void writeImage(const std::filesystem::path& path, const image::Image& image, double exposureEv) {
   const std::string extension = path.extension().string();
   if (extension == ".exr")
     image::writeExr(path, image);

@@ -7,15 +7,15 @@
 
 #include "bake/pack/reader.h"
 #include "meshprep/base/image.h"
-#include "render/scene/picture.h"
 #include "render/scene/render_parameters.h"
+#include "render/scene/render_result.h"
 
 namespace malus::render {
 
 // Channels R, G, B (behind the filter) and, where the picture has them, S0.R ... S3.B; the attributes
 // worldToCamera and malus:scene, pack, renderer, method, device, depth, samples, analyser, region,
 // verticalFovDegrees.
-image::Image toImage(const Picture& picture, const pack::Pack& pack, const RenderParameters& parameters,
+image::Image toImage(const RenderResult& picture, const pack::Pack& pack, const RenderParameters& parameters,
                      const std::string& renderer, const std::string& method);
 
 // 8-bit sRGB of linear radiance: times 2^exposureEv, linear up to 0.7, then an exponential shoulder that
@@ -23,6 +23,6 @@ image::Image toImage(const Picture& picture, const pack::Pack& pack, const Rende
 std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureEv);
 
 // By the extension of path: .exr or .png. Throws Error for another.
-void writePicture(const std::filesystem::path& path, const image::Image& image, double exposureEv);
+void writeImage(const std::filesystem::path& path, const image::Image& image, double exposureEv);
 
 }  // namespace malus::render

@@ -323,10 +323,10 @@ std::string Renderer::device() const { return fmt::format("double precision on {
 
 std::uint32_t Renderer::maxDepth(std::string_view /*method*/) const { return pack::kMaxDepth; }
 
-render::Picture Renderer::render(std::string_view /*method*/, const render::RenderParameters& parameters) {
+render::RenderResult Renderer::render(std::string_view /*method*/, const render::RenderParameters& parameters) {
   const pack::Scene& scene = impl_->scene;
   const auto start = Clock::now();
-  render::Picture picture;
+  render::RenderResult picture;
   picture.width = parameters.region.width;
   picture.height = parameters.region.height;
   picture.channels = render::kStokesChannels;
@@ -379,7 +379,7 @@ render::Picture Renderer::render(std::string_view /*method*/, const render::Rend
   return picture;
 }
 
-render::Picture render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads) {
+render::RenderResult render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads) {
   return Renderer(scene, threads).render("", parameters);
 }
 

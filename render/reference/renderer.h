@@ -22,7 +22,7 @@ class Renderer final : public render::Renderer {
   std::string device() const override;
   std::vector<std::string> methods() const override { return {}; }
   std::uint32_t maxDepth(std::string_view method) const override;
-  render::Picture render(std::string_view method, const render::RenderParameters& parameters) override;
+  render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
 
  private:
   struct Impl;
@@ -30,6 +30,6 @@ class Renderer final : public render::Renderer {
 };
 
 // One image by a renderer made for it.
-render::Picture render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads);
+render::RenderResult render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads);
 
 }  // namespace malus::reference

@@ -25,7 +25,7 @@ std::string withoutPolarization(const MethodInfo& method, bool linear, bool circ
 }  // namespace
 
 EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::string& method, const pack::Scene& scene,
-                            const bake::PictureRequest& request) {
+                            const bake::ImageRequest& request) {
   EffectsChoice choice;
   choice.method = method;
   const std::vector<pack::Effect> effects = bake::findEffects(scene, request);

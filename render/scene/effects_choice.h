@@ -23,6 +23,6 @@ struct EffectsChoice {
 // light cannot show: `stokes` and its like by `fresnel`, or by `stokes-linear` where only circular light cannot;
 // `importance` by `fresnel-iterative`. Both are exact then.
 EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::string& method, const pack::Scene& scene,
-                            const bake::PictureRequest& request);
+                            const bake::ImageRequest& request);
 
 }  // namespace malus::render

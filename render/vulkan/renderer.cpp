@@ -182,7 +182,7 @@ struct Renderer::Impl {
   }
 
   const Pipeline& pipelineFor(const Variant& variant, std::uint32_t recursion);
-  render::Picture trace(const Variant& variant, const render::RenderParameters& parameters);
+  render::RenderResult trace(const Variant& variant, const render::RenderParameters& parameters);
   gpu::Faults faultsOf(const Variant& variant, const render::RenderParameters& parameters);
 
   Instance instance;
@@ -227,13 +227,13 @@ const Pipeline& Renderer::Impl::pipelineFor(const Variant& variant, std::uint32_
   return *pipeline;
 }
 
-render::Picture Renderer::Impl::trace(const Variant& variant, const render::RenderParameters& parameters) {
+render::RenderResult Renderer::Impl::trace(const Variant& variant, const render::RenderParameters& parameters) {
   const auto preparing = Clock::now();
   // Beside the interactions: the camera ray, and a shadow ray from the last hit. A loop does not recurse.
   const std::uint32_t recursion = variant.stackSize > 0 ? 1 : parameters.depth + 2;
   const bool fresh = !pipelines.contains({variant, recursion});
   const Pipeline& pipeline = pipelineFor(variant, recursion);
-  render::Picture picture;
+  render::RenderResult picture;
   picture.width = parameters.region.width;
   picture.height = parameters.region.height;
   picture.channels = render::hasStokes(render::methodNamed(variant.method), parameters) ? render::kStokesChannels
@@ -303,7 +303,7 @@ gpu::Faults Renderer::Impl::faultsOf(const Variant& variant, const render::Rende
   return found;
 }
 
-render::Picture Renderer::render(std::string_view method, const render::RenderParameters& parameters) {
+render::RenderResult Renderer::render(std::string_view method, const render::RenderParameters& parameters) {
   const bool isIterative = render::methodNamed(method).isIterative;
   if (isIterative && !impl_->device.hasRayQueries())
     throw Error("--method", fmt::format("device '{}' has no ray queries", impl_->device.physical().name),
@@ -312,7 +312,7 @@ render::Picture Renderer::render(std::string_view method, const render::RenderPa
     throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", impl_->device.physical().name),
                 fmt::format("at most {}", maxDepth(method)), fmt::format("{}", parameters.depth));
   Variant variant = variantFor(impl_->scene, method, parameters);
-  render::Picture picture = impl_->trace(variant, parameters);
+  render::RenderResult picture = impl_->trace(variant, parameters);
   picture.device = device();
   if (parameters.checkNumerics) {
     variant.checkNumerics = true;

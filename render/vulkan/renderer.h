@@ -34,7 +34,7 @@ class Renderer final : public render::Renderer {
   // method: one of shaders/methods or shaders/iterative. Pipelines are made at the first use of a method and kept.
   // traceMs is the device's own time of the trace alone. Throws Error: a depth past the device's recursion limit, a
   // message of the validation layers.
-  render::Picture render(std::string_view method, const render::RenderParameters& parameters) override;
+  render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
 
   // Rays of a picture, from a variant that counts; not timed.
   std::uint64_t countRays(std::string_view method, const render::RenderParameters& parameters) override;

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Colours = std::array<double, 3>;
-using render::Picture;
+using render::RenderResult;
 
 // What a scene is held to beside being sound. Pixels count as off where a component of a Stokes vector differs by more
 // than `threshold`; edges and magnified roundings explain `outliers` of them.
@@ -78,14 +78,14 @@ render::RenderParameters checkedView(const pack::Scene& scene) {
   return parameters;
 }
 
-void expectSound(const Picture& picture, const pack::Scene& scene, const std::string& what) {
+void expectSound(const RenderResult& picture, const pack::Scene& scene, const std::string& what) {
   EXPECT_EQ(picture.faults.count, 0u) << what << ": " << describe(picture.faults, scene);
   for (const float v : picture.pixels) ASSERT_TRUE(std::isfinite(v)) << what;
 }
 
 // Reference and both renderers' stokes pictures, each rendered and checked once.
 struct Pictures {
-  Picture reference, embree, vulkan;
+  RenderResult reference, embree, vulkan;
 };
 const Pictures& picturesOf(const std::string& name) {
   static std::map<std::string, Pictures> all;
@@ -106,15 +106,15 @@ const Pictures& picturesOf(const std::string& name) {
 }
 
 // S0..S3 of a pixel, per colour.
-std::array<Colours, 4> stokesAt(const Picture& p, std::size_t x, std::size_t y) {
+std::array<Colours, 4> stokesAt(const RenderResult& p, std::size_t x, std::size_t y) {
   std::array<Colours, 4> s{};
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t c = 0; c < 3; ++c) s[k][c] = p.pixels[(y * p.width + x) * p.channels + 3 + 3 * k + c];
   return s;
 }
-std::array<Colours, 4> centreOf(const Picture& p) { return stokesAt(p, p.width / 2, p.height / 2); }
+std::array<Colours, 4> centreOf(const RenderResult& p) { return stokesAt(p, p.width / 2, p.height / 2); }
 
-std::size_t pixelsOff(const Picture& a, const Picture& b, double threshold, double& largest) {
+std::size_t pixelsOff(const RenderResult& a, const RenderResult& b, double threshold, double& largest) {
   std::size_t off = 0;
   largest = 0;
   for (std::size_t y = 0; y < a.height; ++y)
@@ -134,7 +134,7 @@ class HardScenes : public testing::TestWithParam<std::string> {};
 TEST_P(HardScenes, RenderersAgreeWithTheReference) {
   const Pictures& p = picturesOf(GetParam());
   const Expected& expected = scenes().at(GetParam());
-  const auto expectClose = [&](const Picture& a, const char* what) {
+  const auto expectClose = [&](const RenderResult& a, const char* what) {
     ASSERT_EQ(a.pixels.size(), p.reference.pixels.size()) << what;
     double largest = 0;
     EXPECT_LE(pixelsOff(a, p.reference, expected.threshold, largest), expected.outliers)
@@ -162,10 +162,10 @@ TEST_P(HardScenes, AutoEqualsAll) {
   vulkan::Renderer vulkan(scene, {});
   for (const render::Analyser& analyser : {render::kNoFilter, render::linearPolarizer(30)}) {
     parameters.analyser = analyser;
-    const bake::PictureRequest request{parameters.depth, analyser, false, false};
+    const bake::ImageRequest request{parameters.depth, analyser, false, false};
     for (const std::string method : {"stokes", "importance"}) {
       const std::string cheaper = render::chooseEffects({"auto"}, method, scene, request).method;
-      const auto expectEqual = [&](const Picture& a, const Picture& b, const char* what) {
+      const auto expectEqual = [&](const RenderResult& a, const RenderResult& b, const char* what) {
         double largest = 0;
         for (std::size_t i = 0; i < std::size_t{a.width} * a.height; ++i)
           for (std::size_t c = 0; c < 3; ++c)
@@ -174,9 +174,9 @@ TEST_P(HardScenes, AutoEqualsAll) {
         EXPECT_LT(largest, 4e-6) << what << ": " << cheaper << " in place of " << method;
       };
       parameters.everyEffect = true;
-      const Picture all = embree.render(method, parameters);
+      const RenderResult all = embree.render(method, parameters);
       const bool onVulkan = expected.vulkanCanDoIt || method == "importance";
-      const Picture allVulkan = onVulkan ? vulkan.render(method, parameters) : Picture();
+      const RenderResult allVulkan = onVulkan ? vulkan.render(method, parameters) : RenderResult();
       parameters.everyEffect = false;
       expectEqual(embree.render(cheaper, parameters), all, "embree");
       if (onVulkan) expectEqual(vulkan.render(cheaper, parameters), allVulkan, "vulkan");
@@ -191,9 +191,9 @@ TEST_P(HardScenes, EveryMethodIsTheSameInEveryBuild) {
   render::RenderParameters parameters = render::defaultParameters(scene);
   for (const std::string& method : render::methodNames()) {
     parameters.everyEffect = false;
-    const Picture some = renderer.render(method, parameters);
+    const RenderResult some = renderer.render(method, parameters);
     parameters.everyEffect = true;
-    const Picture all = renderer.render(method, parameters);
+    const RenderResult all = renderer.render(method, parameters);
     double largest = 0;
     for (std::size_t i = 0; i < all.pixels.size(); ++i)
       largest = std::max(largest, std::abs(static_cast<double>(all.pixels[i] - some.pixels[i])));
@@ -211,8 +211,8 @@ TEST_P(HardScenes, ImportanceIsTheIntensityOfTheReference) {
   for (const render::Analyser& analyser : {render::kNoFilter, render::linearPolarizer(30),
                                            render::behindWavePlate(render::linearPolarizer(75), {20, 90})}) {
     parameters.analyser = analyser;
-    const Picture truth = reference::render(scene, parameters, 0);
-    const auto expectClose = [&](const Picture& p, const char* what) {
+    const RenderResult truth = reference::render(scene, parameters, 0);
+    const auto expectClose = [&](const RenderResult& p, const char* what) {
       expectSound(p, scene, what);
       std::size_t off = 0;
       for (std::size_t i = 0; i < std::size_t{p.width} * p.height; ++i) {
@@ -234,9 +234,9 @@ TEST_P(HardScenes, ImportanceGivesTheStokesVectorsOfTheReference) {
   const pack::Scene& scene = packOf(GetParam()).scene;
   render::RenderParameters parameters = checkedView(scene);
   parameters.stokes = true;
-  const Picture picture = embree::Renderer(scene, 0).render("importance", parameters);
+  const RenderResult picture = embree::Renderer(scene, 0).render("importance", parameters);
   expectSound(picture, scene, GetParam() + ", importance");
-  const Picture& truth = picturesOf(GetParam()).reference;
+  const RenderResult& truth = picturesOf(GetParam()).reference;
   ASSERT_EQ(picture.pixels.size(), truth.pixels.size());
   double largest = 0;
   EXPECT_LE(pixelsOff(picture, truth, expected.threshold, largest), expected.outliers) << largest;
@@ -316,15 +316,15 @@ TEST(HardScene, AutoIsExactWherePolarizationCannotShow) {
          {pack::MaterialKind::metal, pack::MaterialKind::paint, pack::MaterialKind::mirrorGlass}) {
       const pack::Scene scene = withoutMutualSight(flat, kind);
       const render::RenderParameters parameters = render::defaultParameters(scene);
-      const bake::PictureRequest request{parameters.depth, parameters.analyser, false, false};
+      const bake::ImageRequest request{parameters.depth, parameters.analyser, false, false};
       SCOPED_TRACE(testing::Message() << (flat ? "flat " : "ball ") << pack::materialKindName(kind));
       EXPECT_EQ(render::chooseEffects({"auto"}, "stokes", scene, request).method, "fresnel");
       EXPECT_EQ(render::chooseEffects({"auto"}, "importance", scene, request).method, "fresnel-iterative");
-      const Picture truth = reference::render(scene, parameters, 0);
+      const RenderResult truth = reference::render(scene, parameters, 0);
       embree::Renderer embree(scene, 0);
       vulkan::Renderer vulkan(scene, {});
       for (const char* method : {"fresnel", "fresnel-iterative"})
-        for (const Picture& p : {embree.render(method, parameters), vulkan.render(method, parameters)}) {
+        for (const RenderResult& p : {embree.render(method, parameters), vulkan.render(method, parameters)}) {
           std::size_t off = 0;
           double sum = 0;
           for (std::size_t i = 0; i < std::size_t{p.width} * p.height; ++i)
@@ -343,7 +343,7 @@ TEST(HardScene, AutoIsExactWherePolarizationCannotShow) {
 void expectCentre(const std::string& name, const std::vector<Colours>& stokes, double tolerance = 2e-6) {
   const Pictures& p = picturesOf(name);
   const Expected& expected = scenes().at(name);
-  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan}) {
+  for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan}) {
     if (picture == &p.vulkan && !expected.vulkanCanDoIt) continue;
     const char* what = picture == &p.reference ? "reference" : picture == &p.embree ? "embree" : "vulkan";
     const auto centre = centreOf(*picture);
@@ -356,7 +356,7 @@ Colours grey(double v) { return {v, v, v}; }
 
 TEST(HardScene, CrossedBrewsterMirrorsAreDark) {
   const Pictures& p = picturesOf("brewster-pair");
-  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan}) {
+  for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan}) {
     const double parallel = stokesAt(*picture, 8, 33)[0][1];
     EXPECT_NEAR(parallel, 0.010941, 5e-6);
     const Colours dark = centreOf(*picture)[0];
@@ -400,7 +400,7 @@ TEST(HardScene, ChainsOfMirrors) {
     // To its limit it goes, and agrees.
     render::RenderParameters parameters = checkedView(scene);
     parameters.depth = renderer.maxDepth("stokes");
-    const Picture a = renderer.render("stokes", parameters), b = reference::render(scene, parameters, 0);
+    const RenderResult a = renderer.render("stokes", parameters), b = reference::render(scene, parameters, 0);
     expectSound(a, scene, "vulkan at its limit");
     double largest = 0;
     EXPECT_EQ(pixelsOff(a, b, 1e-4, largest), 0u) << largest;
@@ -419,7 +419,7 @@ TEST(HardScene, GlassAndMedia) {
 TEST(HardScene, NoRayLeaksThroughAnEdgeMetFromInside) {
   // The middle column, whose rays meet the edge itself, reads the panel or nothing, never the sky.
   const Pictures& p = picturesOf("into-the-edge");
-  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan})
+  for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan})
     for (std::size_t y = 0; y < picture->height; ++y) {
       const auto s = stokesAt(*picture, picture->width / 2, y), beside = stokesAt(*picture, picture->width / 2 + 2, y);
       for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(s[0][c], beside[0][c], 1e-3) << "row " << y;
@@ -440,7 +440,7 @@ TEST(HardScene, SizeAndPlaceDoNotShow) {
 
 TEST(HardScene, SliversDoNotShow) {
   const Pictures& p = picturesOf("slivers");
-  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan}) {
+  for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan}) {
     const std::size_t y = picture->height / 2;
     for (std::size_t x = 8; x + 8 < picture->width; ++x) {
       const double above = stokesAt(*picture, x, y - 1)[0][1], below = stokesAt(*picture, x, y + 1)[0][1];
@@ -453,7 +453,7 @@ TEST(HardScene, SliversDoNotShow) {
 
 TEST(HardScene, CoincidentFacesStayWithinBounds) {
   const Pictures& p = picturesOf("touching-bodies");
-  for (const Picture* picture : {&p.reference, &p.embree, &p.vulkan})
+  for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan})
     for (std::size_t y = 0; y < picture->height; ++y)
       for (std::size_t x = 0; x < picture->width; ++x) {
         const Colours s0 = stokesAt(*picture, x, y)[0];

@@ -87,7 +87,7 @@ struct Counts {
 // Pixels whose green S0 is not `expected`.
 Counts off(const pack::Scene& scene, double expected) {
   const render::RenderParameters parameters = render::defaultParameters(scene);
-  const auto count = [&](const render::Picture& p) {
+  const auto count = [&](const render::RenderResult& p) {
     std::size_t n = 0;
     for (std::size_t i = 0; i < std::size_t{kCells} * kCells; ++i)
       if (std::abs(p.pixels[i * p.channels + 4] - expected) > 1e-3) ++n;

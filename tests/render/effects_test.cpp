@@ -13,7 +13,7 @@
 #include "bake/bake.h"
 #include "bake/effects/effects.h"
 #include "bake/scene_file/scene_file.h"
-#include "render/compare/picture_error.h"
+#include "render/compare/image_error.h"
 #include "render/embree/renderer.h"
 #include "render/reference/renderer.h"
 #include "render/scene/effects_choice.h"
@@ -27,24 +27,24 @@ namespace {
 namespace fs = std::filesystem;
 using pack::Material;
 using pack::MaterialKind;
-using render::Picture;
 using render::RenderParameters;
+using render::RenderResult;
 
 // S0..S3 of one colour of a pixel.
 using Stokes = std::array<double, 4>;
-Stokes stokesAt(const Picture& p, std::size_t pixel, std::size_t colour) {
+Stokes stokesAt(const RenderResult& p, std::size_t pixel, std::size_t colour) {
   Stokes s{};
   for (std::size_t k = 0; k < 4; ++k) s[k] = p.pixels[pixel * p.channels + 3 + 3 * k + colour];
   return s;
 }
 
 // The picture by every renderer that has Stokes vectors; the reference comes first.
-std::map<std::string, Picture> everywhere(const pack::Scene& scene) {
+std::map<std::string, RenderResult> everywhere(const pack::Scene& scene) {
   RenderParameters parameters = render::defaultParameters(scene);
   parameters.stokes = true;
   embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
-  std::map<std::string, Picture> pictures;
+  std::map<std::string, RenderResult> pictures;
   for (const char* method : {"stokes", "importance"})
     pictures[std::string("vulkan ") + method] = vulkan.render(method, parameters);
   parameters.checkNumerics = true;
@@ -302,7 +302,7 @@ class EffectScenes : public testing::TestWithParam<std::string> {};
 
 TEST_P(EffectScenes, RenderersAgreeWithTheReference) {
   const auto pictures = everywhere(sceneNamed(GetParam()));
-  const Picture& truth = pictures.at("reference");
+  const RenderResult& truth = pictures.at("reference");
   for (const auto& [name, picture] : pictures) {
     ASSERT_EQ(picture.pixels.size(), truth.pixels.size());
     std::size_t off = 0;
@@ -323,14 +323,14 @@ TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
     EXPECT_EQ(bake::isOn(scene.effects, other.effect), name == GetParam()) << other.effect;
   // Without it the picture is another.
   const RenderParameters parameters = render::defaultParameters(scene);
-  const Picture truth = reference::render(scene, parameters, 0),
-                without = reference::render(bake::withoutEffects(scene, {expected.effect}), parameters, 0);
-  EXPECT_GT(render::pictureError(without, truth, 0).relRms, expected.leastChange);
+  const RenderResult truth = reference::render(scene, parameters, 0),
+                     without = reference::render(bake::withoutEffects(scene, {expected.effect}), parameters, 0);
+  EXPECT_GT(render::imageError(without, truth, 0).relRms, expected.leastChange);
   // What is forced off is warned of.
   std::vector<std::string> kept;
   for (const pack::Effect& e : scene.effects)
     if (e.name != expected.effect) kept.push_back(e.name);
-  const bake::PictureRequest request{parameters.depth, parameters.analyser, false, false};
+  const bake::ImageRequest request{parameters.depth, parameters.analyser, false, false};
   const auto choice = render::chooseEffects(kept, "stokes", scene, request);
   ASSERT_EQ(choice.off, std::vector<std::string>{expected.effect});
   ASSERT_EQ(choice.warnings.size(), 1u);
@@ -345,9 +345,9 @@ TEST_P(EffectScenes, AutoEqualsAll) {
   RenderParameters parameters = render::defaultParameters(scene);
   for (const char* method : {"stokes", "importance", "sp"}) {
     parameters.everyEffect = false;
-    const Picture some = vulkan.render(method, parameters);
+    const RenderResult some = vulkan.render(method, parameters);
     parameters.everyEffect = true;
-    const Picture all = vulkan.render(method, parameters);
+    const RenderResult all = vulkan.render(method, parameters);
     double largest = 0;
     for (std::size_t i = 0; i < all.pixels.size(); ++i)
       largest = std::max(largest, static_cast<double>(std::abs(all.pixels[i] - some.pixels[i])));
@@ -361,7 +361,7 @@ TEST_P(EffectScenes, ToleranceBoundsTheError) {
   const pack::Scene& scene = sceneNamed(GetParam());
   embree::Renderer embree(scene, 0);
   RenderParameters parameters = render::defaultParameters(scene);
-  const Picture exact = embree.render("importance", parameters);
+  const RenderResult exact = embree.render("importance", parameters);
   // The brightest source, which a picture may show in mirrors alone; a Rayleigh sky is up to 1.5 times its mean.
   double most = *std::max_element(exact.pixels.begin(), exact.pixels.end());
   for (int c = 0; c < 3; ++c) {
@@ -371,7 +371,7 @@ TEST_P(EffectScenes, ToleranceBoundsTheError) {
   std::uint64_t rays = exact.cost.rays;
   for (const double tolerance : {1e-6, 1e-4, 1e-3}) {
     parameters.tolerance = tolerance;
-    const Picture picture = embree.render("importance", parameters);
+    const RenderResult picture = embree.render("importance", parameters);
     EXPECT_LE(picture.cost.rays, rays);
     rays = picture.cost.rays;
     double largest = 0;

@@ -54,7 +54,7 @@ render::RenderParameters smallView(const pack::Scene& scene) {
   return parameters;
 }
 
-image::Image asImage(const pack::Pack& pack, const render::Picture& picture, const std::string& renderer,
+image::Image asImage(const pack::Pack& pack, const render::RenderResult& picture, const std::string& renderer,
                      const std::string& method) {
   image::Image image = toImage(picture, pack, smallView(pack.scene), renderer, method);
   // Devices and packs differ in their names only.
@@ -90,7 +90,7 @@ TEST_P(Scenes, EqualTheStoredPictures) {
     if (update) {
       fs::create_directories(stored.parent_path());
       image::Image image = rendered(pack, method == "reference" ? "reference" : "embree", method);
-      render::writePicture(stored, image, 0);
+      render::writeImage(stored, image, 0);
       ADD_FAILURE() << stored << " was written: look at it, commit it by itself, and run again without the variable";
       continue;
     }
@@ -121,7 +121,7 @@ TEST_P(Scenes, EveryValueIsOneThatLightCanHave) {
   const pack::Scene& scene = packOf(GetParam()).scene;
   render::RenderParameters parameters = smallView(scene);
   parameters.checkNumerics = true;
-  const auto expectSound = [&](const render::Picture& picture, const std::string& what) {
+  const auto expectSound = [&](const render::RenderResult& picture, const std::string& what) {
     EXPECT_EQ(picture.faults.count, 0u) << what << ": " << describe(picture.faults, scene);
   };
   expectSound(reference::render(scene, parameters, 0), "reference");

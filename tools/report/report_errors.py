@@ -1,4 +1,4 @@
-"""Location and size of the error of an image, with the measure of render/compare/picture_error.h."""
+"""Location and size of the error of an image, with the measure of render/compare/image_error.h."""
 import numpy
 
 kOff = 0.01  # relative error of a colour above which a pixel counts as wrong

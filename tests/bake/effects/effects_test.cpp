@@ -154,7 +154,7 @@ TEST(Effects, PolarizedSourcesAreTheFirstOfTwoDiattenuators) {
   auto scene = sceneOf({display}, 4);
   EXPECT_TRUE(effectsOf(scene).at("polarized-emitters"));
   EXPECT_FALSE(effectsOf(scene).at("linear-polarization"));  // seen by itself
-  PictureRequest request;
+  ImageRequest request;
   request.depth = 4;
   request.analyser = {0.5, 0.5, 0, 0};
   EXPECT_TRUE(isOn(findEffects(scene, request), "linear-polarization"));  // behind a filter
@@ -320,7 +320,7 @@ TEST(Effects, InterfacesThatCannotSeeEachOtherNeedNoPolarization) {
   const pack::Scene alone = cubes(MaterialKind::metal, {cubeAt({0, 0, 0})});
   EXPECT_FALSE(linear(alone));
   EXPECT_FALSE(effectsOf(alone).at("circular-polarization"));
-  PictureRequest request;
+  ImageRequest request;
   request.depth = 8;
   EXPECT_EQ(polarizationErrorBound(alone, request), glm::dvec3(0.0));
   // Two of them, an open one, one that the eye is in, one of clear glass: they do.
@@ -334,7 +334,7 @@ TEST(Effects, InterfacesThatCannotSeeEachOtherNeedNoPolarization) {
 
 TEST(Effects, APictureAsksForMore) {
   const pack::Scene gold = cubes(MaterialKind::metal, {cubeAt({0, 0, 0})});
-  PictureRequest request;
+  ImageRequest request;
   request.depth = 8;
   const auto on = [&](const pack::Scene& scene, const char* name) { return isOn(findEffects(scene, request), name); };
   EXPECT_FALSE(on(gold, "linear-polarization") || on(gold, "filter"));
@@ -356,7 +356,7 @@ TEST(Effects, APictureAsksForMore) {
 
 TEST(Effects, BoundIsTheFormula) {
   // Two glass mirrors: D reaches 1, (2 * 2 + 0)/2 - 1. Three: 3. Gold by colour: D of .05/.21/.52.
-  PictureRequest request;
+  ImageRequest request;
   for (const auto& [depth, bound] : {std::pair(1u, 0.0), {2u, 1.0}, {3u, 3.0}}) {
     request.depth = depth;
     EXPECT_NEAR(polarizationErrorBound(sceneOf({material(MaterialKind::mirrorGlass)}, depth), request).y, bound, 1e-9);

@@ -11,8 +11,8 @@
 namespace malus::render {
 namespace {
 
-Picture picture(unsigned a, unsigned b, unsigned c, unsigned k) {
-  Picture p;
+RenderResult picture(unsigned a, unsigned b, unsigned c, unsigned k) {
+  RenderResult p;
   p.width = 96;
   p.height = 64;
   for (unsigned y = 0; y < p.height; ++y)
@@ -21,13 +21,13 @@ Picture picture(unsigned a, unsigned b, unsigned c, unsigned k) {
         p.pixels.push_back(static_cast<float>((x * a + y * b + channel * c + x * y / k) % 64) / 64);
   return p;
 }
-Picture scaled(Picture p, float factor) {
+RenderResult scaled(RenderResult p, float factor) {
   for (float& v : p.pixels) v = std::min(v * factor, 1.0f);
   return p;
 }
 
 TEST(Flip, EqualsTheAuthorsProgram) {
-  const Picture reference = picture(1, 2, 20, 37);
+  const RenderResult reference = picture(1, 2, 20, 37);
   // Theirs is in float.
   constexpr double kRounding = 2e-5;
   EXPECT_NEAR(meanFlip(picture(1, 2, 24, 37), reference, 0), 0.4636969566345215, kRounding);
@@ -39,11 +39,11 @@ TEST(Flip, EqualsTheAuthorsProgram) {
 }
 
 TEST(Flip, NothingIsSeenWhereNothingDiffers) {
-  const Picture p = picture(1, 2, 20, 37);
+  const RenderResult p = picture(1, 2, 20, 37);
   EXPECT_EQ(meanFlip(p, p, 0), 0);
   // What the display cuts off nobody sees; with less exposure it is not cut off.
   EXPECT_EQ(meanFlip(scaled(p, 0), scaled(p, 0), 5), 0);
-  Picture bright = p, brighter = p;
+  RenderResult bright = p, brighter = p;
   for (float& v : bright.pixels) v = 2;
   for (float& v : brighter.pixels) v = 5;
   EXPECT_EQ(meanFlip(brighter, bright, 0), 0);
@@ -51,7 +51,7 @@ TEST(Flip, NothingIsSeenWhereNothingDiffers) {
 }
 
 TEST(Flip, RefusesOtherSizes) {
-  Picture p = picture(1, 2, 20, 37);
+  RenderResult p = picture(1, 2, 20, 37);
   p.width = 48;
   EXPECT_THROW(meanFlip(p, picture(1, 2, 20, 37), 0), Error);
 }

@@ -67,7 +67,7 @@ TEST(ImageDifference, RefusesWhatCannotBeCompared) {
 TEST(ImageDifference, PictureShowsTheAmplifiedDifference) {
   image::Image a = flat(2, 1, 1), b = a;
   b.pixels[3] = 0.75f;
-  const image::Image d = differencePicture(a, b, 10);
+  const image::Image d = differenceImage(a, b, 10);
   EXPECT_FLOAT_EQ(d.pixels[3], 2.5f);
   EXPECT_EQ(d.pixels[0], 0);
 }

@@ -18,8 +18,8 @@ std::string bytesOf(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Picture stokesPicture() {
-  Picture picture;
+RenderResult stokesPicture() {
+  RenderResult picture;
   picture.width = 3;
   picture.height = 2;
   picture.channels = kStokesChannels;
@@ -42,7 +42,7 @@ image::Image someImage() {
 
 TEST(Output, ExrKeepsChannelsAndMetadata) {
   const fs::path path = fs::path(testing::TempDir()) / "output_test.exr";
-  writePicture(path, someImage(), 0);
+  writeImage(path, someImage(), 0);
   const image::Image back = image::read(path);
   ASSERT_EQ(back.width, 3);
   ASSERT_EQ(back.height, 2);
@@ -71,8 +71,8 @@ TEST(Output, EqualPicturesAreEqualFiles) {
   for (const char* extension : {"exr", "png"}) {
     const fs::path a = folder / (std::string("equal_a.") + extension),
                    b = folder / (std::string("equal_b.") + extension);
-    writePicture(a, someImage(), 1);
-    writePicture(b, someImage(), 1);
+    writeImage(a, someImage(), 1);
+    writeImage(b, someImage(), 1);
     EXPECT_EQ(bytesOf(a), bytesOf(b)) << extension;
     EXPECT_FALSE(bytesOf(a).empty());
   }
@@ -95,13 +95,13 @@ TEST(Output, ToneCurveIsMonotonicAndMeetsSrgb) {
 }
 
 TEST(Output, RefusesOtherExtensions) {
-  EXPECT_THROW(writePicture("picture.jpg", someImage(), 0), Error);
-  EXPECT_THROW(writePicture("picture", someImage(), 0), Error);
+  EXPECT_THROW(writeImage("picture.jpg", someImage(), 0), Error);
+  EXPECT_THROW(writeImage("picture", someImage(), 0), Error);
 }
 
 TEST(Output, NoPartIsLeftWhereTheFolderIsMissing) {
   const fs::path folder = fs::path(testing::TempDir()) / "not-there";
-  EXPECT_THROW(writePicture(folder / "a.exr", someImage(), 0), Error);
+  EXPECT_THROW(writeImage(folder / "a.exr", someImage(), 0), Error);
   EXPECT_FALSE(fs::exists(folder));
 }
 

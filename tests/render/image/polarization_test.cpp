@@ -56,7 +56,7 @@ double green(const pack::Scene& scene, const render::Analyser& analyser, const c
                                             : embree::Renderer(scene, 1).render(method, parameters).pixels[1];
 }
 
-image::Image imageOf(const pack::Scene& scene, const render::Picture& picture) {
+image::Image imageOf(const pack::Scene& scene, const render::RenderResult& picture) {
   pack::Pack pack;
   pack.scene = scene;
   return render::toImage(picture, pack, render::defaultParameters(scene), "embree", "stokes");

@@ -30,11 +30,11 @@ Powers fresnel(double cosine, double n1, double n2) {
 
 // Stokes vector of the green channel of the one pixel.
 glm::dvec4 reference(const pack::Scene& scene) {
-  const render::Picture p = reference::render(scene, render::defaultParameters(scene), 1);
+  const render::RenderResult p = reference::render(scene, render::defaultParameters(scene), 1);
   return {p.pixels[4], p.pixels[7], p.pixels[10], p.pixels[13]};
 }
 glm::dvec4 embreeStokes(const pack::Scene& scene) {
-  const render::Picture p = embree::Renderer(scene, 1).render("stokes", render::defaultParameters(scene));
+  const render::RenderResult p = embree::Renderer(scene, 1).render("stokes", render::defaultParameters(scene));
   return {p.pixels[4], p.pixels[7], p.pixels[10], p.pixels[13]};
 }
 double embreeColour(const pack::Scene& scene, const char* method) {
@@ -224,7 +224,7 @@ TEST(ClosedForms, LoopsEqualTheirRecursions) {
     parameters.analyser = analyser;
     for (const auto& [loop, recursive] :
          {std::pair("schlick-iterative", "schlick"), {"fresnel-iterative", "fresnel"}, {"importance", "stokes"}}) {
-      const render::Picture a = renderer.render(loop, parameters), b = renderer.render(recursive, parameters);
+      const render::RenderResult a = renderer.render(loop, parameters), b = renderer.render(recursive, parameters);
       double sum = 0;
       for (std::size_t i = 0; i < 24u * 24u; ++i)
         for (std::size_t c = 0; c < 3; ++c) {

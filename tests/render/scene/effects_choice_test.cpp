@@ -23,15 +23,15 @@ pack::Scene mirrors(bool two) {
   test::look(scene, {0, 1, 3}, {0, 0, 0});
   return scene;
 }
-bake::PictureRequest intensityAt(std::uint32_t depth) {
-  bake::PictureRequest request;
+bake::ImageRequest intensityAt(std::uint32_t depth) {
+  bake::ImageRequest request;
   request.depth = depth;
   return request;
 }
 
 TEST(EffectsChoice, AutoTakesTheCheapestExactMethod) {
   const pack::Scene one = mirrors(false), two = mirrors(true);
-  const auto chosen = [](const char* method, const pack::Scene& scene, const bake::PictureRequest& request) {
+  const auto chosen = [](const char* method, const pack::Scene& scene, const bake::ImageRequest& request) {
     return chooseEffects({"auto"}, method, scene, request).method;
   };
   // One mirror bounce of unpolarized light needs no polarization.
@@ -49,7 +49,7 @@ TEST(EffectsChoice, AutoTakesTheCheapestExactMethod) {
   EXPECT_EQ(chosen("stokes", two, intensityAt(3)), "stokes-linear");
   EXPECT_EQ(chosen("stokes", two, intensityAt(1)), "fresnel");
   // Who asks for Stokes vectors gets them.
-  bake::PictureRequest stokes = intensityAt(6);
+  bake::ImageRequest stokes = intensityAt(6);
   stokes.linearStokes = stokes.circularStokes = true;
   EXPECT_EQ(chosen("stokes", two, stokes), "stokes");
   EXPECT_EQ(chosen("stokes", one, stokes), "stokes-linear") << "one bounce of unpolarized light has no S3";

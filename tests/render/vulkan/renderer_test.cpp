@@ -53,7 +53,7 @@ TEST(VulkanRenderer, EqualsEmbreeInEveryMethod) {
   embree::Renderer other(scene, 0);
   std::uint64_t rays = 0;
   for (const std::string& method : render::methodNames()) {
-    const render::Picture a = renderer.render(method, parameters), b = other.render(method, parameters);
+    const render::RenderResult a = renderer.render(method, parameters), b = other.render(method, parameters);
     ASSERT_EQ(a.pixels.size(), b.pixels.size()) << method;
     std::size_t outliers = 0;
     double sum = 0;
@@ -76,9 +76,9 @@ TEST(VulkanRenderer, RegionIsAPartOfThePicture) {
   const pack::Scene scene = everything();
   Renderer renderer(scene, {});
   render::RenderParameters parameters = render::defaultParameters(scene);
-  const render::Picture whole = renderer.render("fresnel", parameters);
+  const render::RenderResult whole = renderer.render("fresnel", parameters);
   parameters.region = {10, 7, 20, 11};
-  const render::Picture part = renderer.render("fresnel", parameters);
+  const render::RenderResult part = renderer.render("fresnel", parameters);
   ASSERT_EQ(part.width, 20u);
   for (std::size_t y = 0; y < 11; ++y)
     for (std::size_t x = 0; x < 20 * 3; ++x)

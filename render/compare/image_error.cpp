@@ -1,4 +1,4 @@
-#include "render/compare/picture_error.h"
+#include "render/compare/image_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace malus::render {
 
-PictureError pictureError(const Picture& picture, const Picture& reference, double exposureEv) {
+ImageError imageError(const RenderResult& picture, const RenderResult& reference, double exposureEv) {
   if (picture.width != reference.width || picture.height != reference.height)
     throw Error("", "pictures differ in size", fmt::format("{} x {}", reference.width, reference.height),
                 fmt::format("{} x {}", picture.width, picture.height));
@@ -21,7 +21,7 @@ PictureError pictureError(const Picture& picture, const Picture& reference, doub
     for (std::size_t c = 0; c < 3; ++c) total += reference.pixels[i * reference.channels + c];
   const double floor = 1e-3 * total / (3 * static_cast<double>(count));
 
-  PictureError error;
+  ImageError error;
   double sum = 0, squares = 0, referenceSquares = 0, energy = 0;
   std::size_t off = 0;
   for (std::size_t i = 0; i < count; ++i) {

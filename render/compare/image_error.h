@@ -1,11 +1,11 @@
 // How wrong a method's picture is, against the reference of the same view.
 #pragma once
 
-#include "render/scene/picture.h"
+#include "render/scene/render_result.h"
 
 namespace malus::render {
 
-struct PictureError {
+struct ImageError {
   double meanAbs = 0;  // over pixels and colours, in radiance
   double maxAbs = 0;
   double relRms = 0;             // root of the sum of squared differences over the sum of squared reference values
@@ -17,6 +17,6 @@ struct PictureError {
 
 // Colours behind the filter. exposureEv: of the display, for FLIP. A non-finite value in the
 // picture makes meanAbs, maxAbs and relRms infinite. Throws Error where the sizes differ.
-PictureError pictureError(const Picture& picture, const Picture& reference, double exposureEv);
+ImageError imageError(const RenderResult& picture, const RenderResult& reference, double exposureEv);
 
 }  // namespace malus::render

@@ -25,7 +25,7 @@ struct Cost {
   std::uint64_t rays = 0;  // camera, specular and shadow rays; 0 where they were not counted
 };
 
-struct Picture {
+struct RenderResult {
   std::uint32_t width = 0, height = 0;
   std::size_t channels = kColourChannels;
   std::vector<float> pixels;

@@ -1,5 +1,7 @@
-// The acceleration structures of a scene: one bottom level with a geometry per mesh, one instance.
+// The acceleration structures of a scene: a bottom level with one geometry per mesh, and one instance of it.
 #pragma once
+
+#include <vector>
 
 #include "render/scene/render_scene.h"
 #include "render/vulkan/buffer.h"
@@ -8,23 +10,27 @@ namespace malus::vulkan {
 
 class Acceleration {
  public:
-  // positions, triangles: the scene's arrays on the device, usable as build input. Throws Error.
+  // device: must outlive the structures. positions, triangles: the scene's arrays on the device, with
+  // VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR. Throws Error.
   Acceleration(const Device& device, const render::RenderScene& scene, const Buffer& positions,
                const Buffer& triangles);
-  ~Acceleration();
-  Acceleration(const Acceleration&) = delete;
-  Acceleration& operator=(const Acceleration&) = delete;
 
-  VkAccelerationStructureKHR top() const { return top_; }
+  VkAccelerationStructureKHR top() const { return top_.structure.get(); }
 
  private:
-  VkAccelerationStructureKHR build(VkAccelerationStructureBuildGeometryInfoKHR& info,
-                                   const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges,
-                                   Buffer& storage);
+  struct Level {
+    Buffer storage;
+    Owned<VkAccelerationStructureKHR> structure;  // destroyed before its storage
+  };
+  // geometries: with ranges[i] primitives in geometries[i].
+  static Level build(const Device& device, VkAccelerationStructureTypeKHR type,
+                     const std::vector<VkAccelerationStructureGeometryKHR>& geometries,
+                     const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges);
+  static Level buildBottom(const Device& device, const render::RenderScene& scene, const Buffer& positions,
+                           const Buffer& triangles);
+  static Level buildTop(const Device& device, VkAccelerationStructureKHR bottom);
 
-  const Device& device_;
-  Buffer bottomStorage_, topStorage_;
-  VkAccelerationStructureKHR bottom_ = VK_NULL_HANDLE, top_ = VK_NULL_HANDLE;
+  Level bottom_, top_;
 };
 
 }  // namespace malus::vulkan

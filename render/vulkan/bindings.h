@@ -1,34 +1,42 @@
-// What every stage sees of the scene, as shaders/stages/bindings.glsl numbers it.
+// The descriptor set that every stage of a pipeline sees: one descriptor for each row of shaders/gpu/bindings.def.
 #pragma once
 
 #include <cstdint>
 
-#include "render/vulkan/device.h"
+#include "render/vulkan/buffer.h"
 
 namespace malus::vulkan {
 
-enum Binding : std::uint32_t {
-  kTlas,
-  kPixels,
-  kFrame,
-  kMaterials,
-  kLights,
-  kMeshes,
-  kTriangles,
-  kPositions,
-  kNormals,
-  kTexels,
-  kCounter,
-  kFaults,
-  kExtras,
-  kTextures,
-  kTextureTexels,
-  kBindings
+// Binding numbers, by the names of the rows.
+enum class Binding : std::uint32_t {
+#define MALUS_ACCELERATION_STRUCTURE(number, name) name = number,
+#define MALUS_PIXEL_BUFFER(number, name, element) name = number,
+#define MALUS_SCENE_BUFFER(number, name, element, usage) name = number,
+#define MALUS_HOST_BUFFER(number, name, type, access) name = number,
+#include "shaders/gpu/bindings.def"
 };
 
-VkDescriptorType typeOf(Binding binding);
+// device: must outlive the layout. Throws Error.
+Owned<VkDescriptorSetLayout> createBindingsLayout(const Device& device);
 
-// The caller destroys it. Throws Error.
-VkDescriptorSetLayout createBindingsLayout(const Device& device);
+class Bindings {
+ public:
+  // device: must outlive the set. Throws Error.
+  explicit Bindings(const Device& device);
+
+  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  const VkDescriptorSet& set() const { return set_; }
+
+  // The buffer and the structure must outlive their use by commands. Throws Error if the buffer is larger than the
+  // device can bind.
+  void bind(Binding binding, const Buffer& buffer);
+  void bind(Binding binding, VkAccelerationStructureKHR structure);
+
+ private:
+  const Device& device_;
+  Owned<VkDescriptorSetLayout> layout_;
+  Owned<VkDescriptorPool> pool_;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;  // freed with its pool
+};
 
 }  // namespace malus::vulkan

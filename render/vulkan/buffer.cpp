@@ -1,82 +1,75 @@
 #include "render/vulkan/buffer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
-#include <utility>
 
-#include "render/vulkan/check.h"
+#include <fmt/format.h>
 
 namespace malus::vulkan {
 
-Buffer::Buffer(const Device& device, VkDeviceSize sizeBytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags memory)
+Buffer::Buffer(const Device& device, std::string_view purpose, VkDeviceSize sizeBytes, VkBufferUsageFlags usage,
+               VkMemoryPropertyFlags memory)
     : device_(&device), sizeBytes_(std::max<VkDeviceSize>(sizeBytes, 16)) {
+  const auto step = [&](const char* function) {
+    return fmt::format("{} ({}, {} bytes)", function, purpose, sizeBytes_);
+  };
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = sizeBytes_;
   info.usage = usage;
-  check(vkCreateBuffer(device.get(), &info, nullptr, &buffer_), "vkCreateBuffer");
-  VkMemoryRequirements needs;
-  vkGetBufferMemoryRequirements(device.get(), buffer_, &needs);
+  buffer_ = create(device.get(), vkCreateBuffer, info, vkDestroyBuffer, step("vkCreateBuffer"));
+
+  VkMemoryRequirements requirements;
+  vkGetBufferMemoryRequirements(device.get(), get(), &requirements);
   VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
   flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
   VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0) allocate.pNext = &flags;
-  allocate.allocationSize = needs.size;
-  try {
-    allocate.memoryTypeIndex = device.memoryType(needs.memoryTypeBits, memory);
-    check(vkAllocateMemory(device.get(), &allocate, nullptr, &memory_), "vkAllocateMemory");
-    check(vkBindBufferMemory(device.get(), buffer_, memory_, 0), "vkBindBufferMemory");
-  } catch (...) {
-    if (memory_) vkFreeMemory(device.get(), memory_, nullptr);
-    vkDestroyBuffer(device.get(), buffer_, nullptr);
-    throw;
-  }
-}
-
-Buffer::~Buffer() {
-  if (buffer_) vkDestroyBuffer(device_->get(), buffer_, nullptr);
-  if (memory_) vkFreeMemory(device_->get(), memory_, nullptr);
-}
-
-Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
-
-Buffer& Buffer::operator=(Buffer&& other) noexcept {
-  std::swap(device_, other.device_);
-  std::swap(buffer_, other.buffer_);
-  std::swap(memory_, other.memory_);
-  std::swap(sizeBytes_, other.sizeBytes_);
-  return *this;
+  allocate.allocationSize = requirements.size;
+  allocate.memoryTypeIndex = device.findMemoryType(requirements.memoryTypeBits, memory);
+  memory_ = create(device.get(), vkAllocateMemory, allocate, vkFreeMemory, step("vkAllocateMemory"));
+  check(vkBindBufferMemory(device.get(), get(), memory_.get(), 0), step("vkBindBufferMemory"));
 }
 
 VkDeviceAddress Buffer::address() const {
   VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
-  info.buffer = buffer_;
-  return device_->getBufferDeviceAddress(device_->get(), &info);
+  info.buffer = get();
+  return device_->functions().getBufferDeviceAddress(device_->get(), &info);
 }
 
 void Buffer::write(std::span<const std::byte> bytes) {
+  assert(bytes.size() <= sizeBytes_);
   void* to = nullptr;
-  check(vkMapMemory(device_->get(), memory_, 0, VK_WHOLE_SIZE, 0, &to), "vkMapMemory");
+  check(vkMapMemory(device_->get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &to), "vkMapMemory");
   std::memcpy(to, bytes.data(), bytes.size());
-  vkUnmapMemory(device_->get(), memory_);
+  vkUnmapMemory(device_->get(), memory_.get());
 }
 
 void Buffer::read(std::span<std::byte> bytes) const {
+  assert(bytes.size() <= sizeBytes_);
   void* from = nullptr;
-  check(vkMapMemory(device_->get(), memory_, 0, VK_WHOLE_SIZE, 0, &from), "vkMapMemory");
+  check(vkMapMemory(device_->get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &from), "vkMapMemory");
   std::memcpy(bytes.data(), from, bytes.size());
-  vkUnmapMemory(device_->get(), memory_);
+  vkUnmapMemory(device_->get(), memory_.get());
 }
 
-Buffer uploaded(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage) {
-  Buffer result(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-  if (bytes.empty()) return result;
-  Buffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                 VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+void copyToBuffer(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
+                  const Buffer& destination) {
+  if (bytes.empty()) return;
+  const std::string step = fmt::format("upload of {}", purpose);
+  Buffer staging(device, step, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kHostMemory);
   staging.write(bytes);
-  device.submit([&](VkCommandBuffer commands) {
+  device.submit(step, [&](VkCommandBuffer commands) {
     const VkBufferCopy copy{0, 0, bytes.size()};
-    vkCmdCopyBuffer(commands, staging.get(), result.get(), 1, &copy);
+    vkCmdCopyBuffer(commands, staging.get(), destination.get(), 1, &copy);
   });
+}
+
+Buffer upload(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
+              VkBufferUsageFlags usage) {
+  Buffer result(device, purpose, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  copyToBuffer(device, purpose, bytes, result);
   return result;
 }
 

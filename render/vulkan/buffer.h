@@ -1,35 +1,47 @@
-// A buffer with its memory.
+// Buffers with their memory.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <string_view>
 
 #include "render/vulkan/device.h"
 
 namespace malus::vulkan {
 
+inline constexpr VkMemoryPropertyFlags kHostMemory =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
 class Buffer {
  public:
   Buffer() = default;
-  // sizeBytes of 0 makes a small buffer, so that every binding has one. Throws Error: out of memory.
-  Buffer(const Device& device, VkDeviceSize sizeBytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags memory);
-  ~Buffer();
-  Buffer(Buffer&& other) noexcept;
-  Buffer& operator=(Buffer&& other) noexcept;
+  // device: must outlive the buffer. purpose: for messages, such as "normals". A size of 0 bytes is raised to 16, so
+  // that the buffer can be bound. Throws Error: out of memory.
+  Buffer(const Device& device, std::string_view purpose, VkDeviceSize sizeBytes, VkBufferUsageFlags usage,
+         VkMemoryPropertyFlags memory);
 
-  VkBuffer get() const { return buffer_; }
+  VkBuffer get() const { return buffer_.get(); }
   VkDeviceSize sizeBytes() const { return sizeBytes_; }
-  VkDeviceAddress address() const;               // needs VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT
-  void write(std::span<const std::byte> bytes);  // host-visible buffers
-  void read(std::span<std::byte> bytes) const;   // host-visible buffers
+  // Needs VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
+  VkDeviceAddress address() const;
+  // Both need host-visible memory, and at most sizeBytes() bytes. Throw Error.
+  void write(std::span<const std::byte> bytes);
+  void read(std::span<std::byte> bytes) const;
 
  private:
   const Device* device_ = nullptr;
-  VkBuffer buffer_ = VK_NULL_HANDLE;
-  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  Owned<VkDeviceMemory> memory_;
+  Owned<VkBuffer> buffer_;  // destroyed before its memory
   VkDeviceSize sizeBytes_ = 0;
 };
 
-// Device-local buffer with these contents, by way of a host-visible one.
-Buffer uploaded(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
+// Copies bytes into a buffer with VK_BUFFER_USAGE_TRANSFER_DST_BIT through a host-visible buffer, and waits. Throws
+// Error.
+void copyToBuffer(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
+                  const Buffer& destination);
+
+// Makes a device-local buffer with these contents. Throws Error.
+Buffer upload(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
+              VkBufferUsageFlags usage);
 
 }  // namespace malus::vulkan

@@ -1,4 +1,4 @@
-// Turns a failed Vulkan call into an Error that names it.
+// Results of Vulkan calls as errors.
 #pragma once
 
 #include <string>
@@ -8,7 +8,11 @@
 
 namespace malus::vulkan {
 
-void check(VkResult result, std::string_view call);  // throws Error unless VK_SUCCESS
-std::string nameOf(VkResult result);
+// Throws Error unless result is VK_SUCCESS. step: the call and, in brackets, its purpose, such as
+// "vkAllocateMemory (normals, 48 bytes)".
+void check(VkResult result, std::string_view step);
+
+// "out of device memory"; "VkResult -1000" for values without a text.
+std::string resultName(VkResult result);
 
 }  // namespace malus::vulkan

@@ -1,74 +1,65 @@
-// A ray-tracing device: choosing one, its queue, and the extension functions that the loader does not export.
+// A device for ray tracing with one queue, and commands on that queue.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include <vulkan/vulkan.h>
 
+#include "render/vulkan/device_functions.h"
 #include "render/vulkan/instance.h"
+#include "render/vulkan/owned.h"
+#include "render/vulkan/physical_device.h"
 
 namespace malus::vulkan {
 
-struct PhysicalDevice {
-  VkPhysicalDevice handle = VK_NULL_HANDLE;
-  std::string name;
-  std::string driver;   // "llvmpipe Mesa 25.0.7"
-  std::string problem;  // why it cannot be used; empty: it can
-  VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
-};
-
-std::vector<PhysicalDevice> describeDevices(const Instance& instance);
-
 class Device {
  public:
-  // wanted: number or part of a name, "" for MALUS_DEVICE or else the best (a discrete GPU before an
-  // integrated one before a CPU). statistics: also what its compiler tells about pipelines, where it does.
-  // Throws Error: none, an unknown one, one without ray tracing.
+  // instance: must outlive the device. wanted: as for choosePhysicalDevice(). statistics: enables the driver's
+  // statistics of pipelines where it has them. Throws Error: no usable device, a failed call.
   Device(const Instance& instance, const std::string& wanted, bool statistics = false);
-  ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  VkDevice get() const { return device_; }
+  VkDevice get() const { return device_.get(); }
+  const DeviceFunctions& functions() const { return functions_; }
   const PhysicalDevice& physical() const { return physical_; }
   const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rayTracing() const { return rayTracing_; }
   VkDeviceSize maxStorageBufferBytes() const { return maxStorageBufferBytes_; }
-  std::uint32_t scratchAlignment() const { return scratchAlignment_; }
-  double timestampPeriodNs() const { return timestampPeriodNs_; }  // 0: the queue has no timestamps
-  bool hasRayQueries() const { return rayQueries_; }
-  bool hasStatistics() const { return getPipelineExecutableStatistics != nullptr; }
-  std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const;
+  std::uint32_t scratchAlignment() const { return scratchAlignment_; }  // bytes
+  double timestampPeriodNs() const { return timestampPeriodNs_; }       // 0: the queue has no timestamps
+  bool hasRayQueries() const { return hasRayQueries_; }
+  bool hasStatistics() const { return functions_.getPipelineExecutableStatistics != nullptr; }
 
-  // Records commands, runs them and waits.
-  void submit(const std::function<void(VkCommandBuffer)>& record) const;
+  // Most specular interactions of a recursive method: the camera ray, and the shadow ray of the last hit, use two
+  // levels of the recursion limit.
+  std::uint32_t maxDepth() const;
+  // Throws Error if a recursive method cannot reach this depth.
+  void requireDepth(std::uint32_t depth) const;
 
-  PFN_vkGetBufferDeviceAddress getBufferDeviceAddress = nullptr;
-  PFN_vkCreateAccelerationStructureKHR createAccelerationStructure = nullptr;
-  PFN_vkDestroyAccelerationStructureKHR destroyAccelerationStructure = nullptr;
-  PFN_vkGetAccelerationStructureBuildSizesKHR getAccelerationStructureBuildSizes = nullptr;
-  PFN_vkGetAccelerationStructureDeviceAddressKHR getAccelerationStructureDeviceAddress = nullptr;
-  PFN_vkCmdBuildAccelerationStructuresKHR cmdBuildAccelerationStructures = nullptr;
-  PFN_vkCreateRayTracingPipelinesKHR createRayTracingPipelines = nullptr;
-  PFN_vkGetRayTracingShaderGroupHandlesKHR getRayTracingShaderGroupHandles = nullptr;
-  PFN_vkCmdTraceRaysKHR cmdTraceRays = nullptr;
-  PFN_vkGetRayTracingShaderGroupStackSizeKHR getRayTracingShaderGroupStackSize = nullptr;
-  PFN_vkGetPipelineExecutablePropertiesKHR getPipelineExecutableProperties = nullptr;  // null without statistics
-  PFN_vkGetPipelineExecutableStatisticsKHR getPipelineExecutableStatistics = nullptr;
+  // Index of a memory type among the allowed ones (a bit mask) with all wanted properties. Throws Error: none.
+  std::uint32_t findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const;
+
+  // Records commands, submits them and waits for their end. purpose: for messages. Throws Error.
+  void submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const;
 
  private:
+  void readProperties();
+  std::uint32_t findQueueFamily();
+  void createDevice(std::uint32_t queueFamily, bool statistics);
+
   PhysicalDevice physical_;
   VkPhysicalDeviceMemoryProperties memory_{};
   VkPhysicalDeviceRayTracingPipelinePropertiesKHR rayTracing_{};
   VkDeviceSize maxStorageBufferBytes_ = 0;
   std::uint32_t scratchAlignment_ = 1;
   double timestampPeriodNs_ = 0;
-  bool rayQueries_ = false;
-  VkDevice device_ = VK_NULL_HANDLE;
+  bool hasRayQueries_ = false;
+  OwnedDevice device_;
+  DeviceFunctions functions_;
   VkQueue queue_ = VK_NULL_HANDLE;
-  VkCommandPool pool_ = VK_NULL_HANDLE;
+  Owned<VkCommandPool> pool_;
 };
 
 }  // namespace malus::vulkan

@@ -13,7 +13,9 @@ namespace malus::vulkan {
 
 namespace {
 
-EShLanguage languageOf(Stage stage) {
+constexpr const char* kReport = "valid GLSL; this is an error in malus or in a method that was added to it";
+
+EShLanguage shaderLanguage(Stage stage) {
   switch (stage) {
     case Stage::raygen:
       return EShLangRayGen;
@@ -27,7 +29,7 @@ EShLanguage languageOf(Stage stage) {
   return EShLangCompute;
 }
 
-// Includes come from the embedded sources; paths are those of the repository.
+// Includes by their paths in the repository.
 class Includer : public glslang::TShader::Includer {
  public:
   explicit Includer(const Include& include) : include_(include) {}
@@ -53,7 +55,7 @@ std::vector<std::uint32_t> compileGlsl(const std::string& text, const std::strin
                                        std::string_view name, const Include& include) {
   static std::once_flag initialized;
   std::call_once(initialized, [] { glslang::InitializeProcess(); });
-  const EShLanguage language = languageOf(stage);
+  const EShLanguage language = shaderLanguage(stage);
   glslang::TShader shader(language);
   const char* const strings[] = {text.c_str()};
   shader.setStrings(strings, 1);
@@ -64,10 +66,10 @@ std::vector<std::uint32_t> compileGlsl(const std::string& text, const std::strin
   Includer includer(include);
   constexpr auto kMessages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
   if (!shader.parse(GetDefaultResources(), 460, false, kMessages, includer))
-    throw Error(name, "shader does not compile", "", shader.getInfoLog());
+    throw Error(name, "the shader does not compile", kReport, shader.getInfoLog());
   glslang::TProgram program;
   program.addShader(&shader);
-  if (!program.link(kMessages)) throw Error(name, "shader does not link", "", program.getInfoLog());
+  if (!program.link(kMessages)) throw Error(name, "the shader does not link", kReport, program.getInfoLog());
   std::vector<std::uint32_t> spirv;
   glslang::GlslangToSpv(*program.getIntermediate(language), spirv);
   return spirv;

@@ -1,6 +1,6 @@
-// What the methods cost on a GPU that is not here: Mesa's RADV driver compiles their pipelines for a family
-// of GPUs on its null device, which runs nothing, and tells what its compiler found. The same numbers on
-// every machine with the same Mesa and glslang. They are a compiler's static estimate, never a time.
+// Estimated cost of the methods on AMD GPUs that this machine does not have: on its null device, Mesa's RADV driver
+// compiles pipelines for a family of GPUs, without running them, and reports statistics of its compiler. They are equal
+// on all machines with the same Mesa and glslang, and they are static estimates, not times.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,15 @@
 
 namespace malus::vulkan {
 
-// family: as RADV names it ("navi21", "navi31"). depth: most specular interactions. The driver reads the
-// family when it is loaded, so a child process, this same program with the hidden subcommand of
-// gpuModelMain, does the work. Throws Error: an unknown family or one without ray tracing, no radeon
-// driver, a pack that cannot be read, an unknown method, a child that failed.
+// family: RADV's name ("navi21", "navi31"). depth: most specular interactions. The driver reads the family when it is
+// loaded, so the work is done by a child process: this program with the hidden subcommand of gpuModelMain(). Throws
+// Error: an unknown family or one without ray tracing, no radeon driver, an unreadable pack, an unknown method, a child
+// process that failed.
 std::vector<PipelineStatistics> gpuModel(const std::filesystem::path& pack, const std::string& family,
                                          const std::vector<std::string>& methods, std::uint32_t depth);
 
-// What the child does: one line of JSON on stdout, the list of what toJson() makes. Throws Error.
-void gpuModelChild(const std::filesystem::path& pack, const std::vector<std::string>& methods, std::uint32_t depth);
-
-// To be called first in main() of every program that calls gpuModel(): whether this process is the child,
-// which has then done its work and shall return 0 from main().
+// Must be called first in main() of every program that calls gpuModel(). True: this process is the child, its work is
+// done, and main() must return 0.
 bool gpuModelMain(int argc, char** argv);
 
 }  // namespace malus::vulkan

@@ -3,64 +3,51 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
-#include "render/vulkan/check.h"
 
 namespace malus::vulkan {
-
-std::string nameOf(VkResult result) {
-  switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY:
-      return "out of host memory";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-      return "out of device memory";
-    case VK_ERROR_INITIALIZATION_FAILED:
-      return "initialization failed";
-    case VK_ERROR_DEVICE_LOST:
-      return "device lost";
-    case VK_ERROR_LAYER_NOT_PRESENT:
-      return "layer not present";
-    case VK_ERROR_EXTENSION_NOT_PRESENT:
-      return "extension not present";
-    case VK_ERROR_FEATURE_NOT_PRESENT:
-      return "feature not present";
-    case VK_ERROR_INCOMPATIBLE_DRIVER:
-      return "incompatible driver";
-    default:
-      return fmt::format("VkResult {}", static_cast<int>(result));
-  }
-}
-
-void check(VkResult result, std::string_view call) {
-  if (result != VK_SUCCESS) throw Error("Vulkan", fmt::format("{} failed", call), "", nameOf(result));
-}
 
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
   static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage ? data->pMessage
                                                                                 : "message without text");
   return VK_FALSE;
 }
 
+// More threads than cores balance lavapipe's uneven tiles: fewer than 16 were slower on two cores. By default a value
+// of the user's environment is kept.
+void setLavapipeThreads(unsigned threads) {
+  const unsigned number = threads > 0 ? threads : std::clamp(std::thread::hardware_concurrency(), 16u, 32u);
+  ::setenv("LP_NUM_THREADS", fmt::format("{}", number).c_str(), threads > 0 ? 1 : 0);
+}
+
+void checkInstance(VkResult result) {
+  if (result == VK_ERROR_LAYER_NOT_PRESENT)
+    throw Error("MALUS_VALIDATION", "the validation layers are not installed",
+                "package vulkan-validationlayers, or the variable unset");
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+    throw Error("Vulkan", "no driver found",
+                "a Vulkan driver; install one, such as mesa-vulkan-drivers 24.3 or later, or use --backend embree");
+  check(result, "vkCreateInstance");
+}
+
+template <typename Function>
+Function load(VkInstance instance, const char* name) {
+  return reinterpret_cast<Function>(vkGetInstanceProcAddr(instance, name));
+}
+
 }  // namespace
 
 Instance::Instance(unsigned threads) {
-  // lavapipe reads its number of threads when the instance is made. More threads than cores balance its
-  // uneven tiles; fewer than 16 were measured to be slower on two cores.
-  if (threads > 0)
-    ::setenv("LP_NUM_THREADS", fmt::format("{}", threads).c_str(), 1);
-  else
-    ::setenv("LP_NUM_THREADS", fmt::format("{}", std::clamp(std::thread::hardware_concurrency(), 16u, 32u)).c_str(), 0);
-
+  setLavapipeThreads(threads);
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "malus";
   application.apiVersion = VK_API_VERSION_1_2;
@@ -70,7 +57,7 @@ Instance::Instance(unsigned threads) {
   messenger.messageSeverity =
       VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
-  messenger.pfnUserCallback = onMessage;
+  messenger.pfnUserCallback = keepMessage;
   messenger.pUserData = &messages_;
   const char* const layers[] = {kValidationLayer};
   const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
@@ -81,33 +68,21 @@ Instance::Instance(unsigned threads) {
     info.ppEnabledExtensionNames = extensions;
     info.pNext = &messenger;
   }
-  const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
-  if (result == VK_ERROR_LAYER_NOT_PRESENT)
-    throw Error("MALUS_VALIDATION", "the validation layer is not installed", "package vulkan-validationlayers");
-  if (result != VK_SUCCESS)
-    throw Error("Vulkan", "no driver", "one such as Mesa's lavapipe (mesa-vulkan-drivers 24.3 or later)",
-                nameOf(result));
-  if (validate) {
-    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
-    check(create(instance_, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
-  }
-}
-
-Instance::~Instance() {
-  if (messenger_) {
-    const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
-    destroy(instance_, messenger_, nullptr);
-  }
-  if (instance_) vkDestroyInstance(instance_, nullptr);
+  VkInstance instance = VK_NULL_HANDLE;
+  checkInstance(vkCreateInstance(&info, nullptr, &instance));
+  instance_.reset(instance);
+  if (validate)
+    messenger_ =
+        create(instance, load<PFN_vkCreateDebugUtilsMessengerEXT>(instance, "vkCreateDebugUtilsMessengerEXT"),
+               messenger, load<PFN_vkDestroyDebugUtilsMessengerEXT>(instance, "vkDestroyDebugUtilsMessengerEXT"),
+               "vkCreateDebugUtilsMessengerEXT");
 }
 
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
   std::uint32_t count = 0;
-  check(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "vkEnumeratePhysicalDevices");
+  check(vkEnumeratePhysicalDevices(get(), &count, nullptr), "vkEnumeratePhysicalDevices");
   std::vector<VkPhysicalDevice> devices(count);
-  if (count > 0) check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "vkEnumeratePhysicalDevices");
+  if (count > 0) check(vkEnumeratePhysicalDevices(get(), &count, devices.data()), "vkEnumeratePhysicalDevices");
   devices.resize(count);
   return devices;
 }

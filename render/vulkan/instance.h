@@ -1,5 +1,5 @@
-// The Vulkan instance, with the validation layers where MALUS_VALIDATION is set: then every message of
-// theirs is kept, and one is enough for render() to fail.
+// The Vulkan instance. If the environment variable MALUS_VALIDATION is set, it enables the validation layers and keeps
+// their messages.
 #pragma once
 
 #include <string>
@@ -7,27 +7,28 @@
 
 #include <vulkan/vulkan.h>
 
+#include "render/vulkan/owned.h"
+
 namespace malus::vulkan {
 
 class Instance {
  public:
-  // threads: of lavapipe, 0 for its best. Throws Error: no Vulkan loader or driver, no validation layer
-  // where it was asked for.
+  // threads: of lavapipe, 0 for a number by the cores of this machine; it sets LP_NUM_THREADS, which lavapipe reads
+  // when the instance is created. Throws Error: no Vulkan driver; with MALUS_VALIDATION, no validation layers.
   explicit Instance(unsigned threads);
-  ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  VkInstance get() const { return instance_; }
+  VkInstance get() const { return instance_.get(); }
   std::vector<VkPhysicalDevice> physicalDevices() const;
-  bool validating() const { return messenger_ != VK_NULL_HANDLE; }
-  // Throws Error with the first message of the validation layers, if there was one.
+  bool isValidating() const { return static_cast<bool>(messenger_); }
+  // Throws Error with the first message of the validation layers, if there is one.
   void requireNoMessages() const;
 
  private:
-  VkInstance instance_ = VK_NULL_HANDLE;
-  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::vector<std::string> messages_;
+  OwnedInstance instance_;
+  OwnedChild<VkInstance, VkDebugUtilsMessengerEXT> messenger_;
 };
 
 }  // namespace malus::vulkan

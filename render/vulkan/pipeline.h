@@ -1,37 +1,32 @@
-// A ray-tracing pipeline of one variant and its shader binding table.
+// A ray-tracing pipeline of one variant.
 #pragma once
 
-#include "render/scene/render_scene.h"
-#include "render/vulkan/buffer.h"
+#include <cstdint>
+
+#include "render/vulkan/device.h"
 #include "render/vulkan/variant.h"
 
 namespace malus::vulkan {
 
+// Levels of recursion for a depth (most specular interactions): a recursive method adds the camera ray and a shadow ray
+// from the last hit; an iterative method traces from its ray generation shader only.
+std::uint32_t requiredRecursion(const Variant& variant, std::uint32_t depth);
+
+VkShaderStageFlagBits shaderStage(Stage stage);
+
 class Pipeline {
  public:
-  // recursion: deepest nesting of traces, shadow rays included. The table has one hit record a mesh: the
-  // group of its material's kind. Throws Error.
-  Pipeline(const Device& device, const Variant& variant, const render::RenderScene& scene,
-           VkDescriptorSetLayout bindings, std::uint32_t recursion);
-  // Without a table: it is compiled and cannot trace. Its groups are those of stageSources(), in order.
+  // device, bindings: must outlive the pipeline. recursion: deepest nesting of traces, shadow rays included. Its shader
+  // groups are those of stageSources(), in order. Throws Error.
   Pipeline(const Device& device, const Variant& variant, VkDescriptorSetLayout bindings, std::uint32_t recursion,
-           VkPipelineCreateFlags flags);
-  ~Pipeline();
-  Pipeline(const Pipeline&) = delete;
-  Pipeline& operator=(const Pipeline&) = delete;
+           VkPipelineCreateFlags flags = 0);
 
-  VkPipelineLayout layout() const { return layout_; }
-  void trace(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) const;
-  VkPipeline get() const { return pipeline_; }
+  VkPipeline get() const { return pipeline_.get(); }
+  VkPipelineLayout layout() const { return layout_.get(); }
 
  private:
-  void createTable(const render::RenderScene& scene, const std::vector<StageSource>& groups);
-
-  const Device& device_;
-  VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  VkPipeline pipeline_ = VK_NULL_HANDLE;
-  Buffer table_;
-  VkStridedDeviceAddressRegionKHR raygen_{}, miss_{}, hit_{}, callable_{};
+  Owned<VkPipelineLayout> layout_;
+  Owned<VkPipeline> pipeline_;
 };
 
 }  // namespace malus::vulkan

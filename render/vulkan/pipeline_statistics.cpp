@@ -21,8 +21,8 @@ namespace {
 
 using Number = std::optional<std::uint64_t>;
 
-// A number's name in JSON (within its object, where it is in one) and in RADV. Other drivers' numbers are in
-// `values` alone: under a similar name they may mean something else.
+// A number: its name in JSON, inside `object` unless that is empty, and its name in RADV. Numbers of other drivers are
+// only in `values`: a similar name may have another meaning.
 struct Field {
   Number StageStatistics::*member;
   const char* object;
@@ -49,7 +49,7 @@ void fillFields(StageStatistics& stage) {
       stage.*field.member = found->second;
 }
 
-// A stage of stageSources() for people: "shaders/stages/paint.rchit" is "closest hit: paint".
+// "closest hit: paint" for the stage "shaders/stages/paint.rchit".
 std::string stageName(const StageSource& source) {
   const std::string_view path = source.path;
   const std::size_t begin = path.rfind('/') + 1;
@@ -58,12 +58,7 @@ std::string stageName(const StageSource& source) {
   return fmt::format("{}: {}", source.stage == Stage::miss ? "miss" : "closest hit", name);
 }
 
-VkShaderStageFlags flagsOf(Stage stage) {
-  if (stage == Stage::raygen) return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
-  return stage == Stage::miss ? VK_SHADER_STAGE_MISS_BIT_KHR : VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
-}
-
-std::uint64_t valueOf(const VkPipelineExecutableStatisticKHR& s) {
+std::uint64_t toInteger(const VkPipelineExecutableStatisticKHR& s) {
   switch (s.format) {
     case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_BOOL32_KHR:
       return s.value.b32;
@@ -76,37 +71,36 @@ std::uint64_t valueOf(const VkPipelineExecutableStatisticKHR& s) {
   }
 }
 
-// The executable's statistics by the driver's names. Hashes differ from build to build of a driver and say
-// nothing about cost.
-std::map<std::string, std::uint64_t> valuesOf(const Device& device, VkPipeline pipeline, std::uint32_t executable) {
+// The statistics of an executable by the driver's names. Leaves out hashes, which differ between builds of a driver and
+// do not describe cost.
+std::map<std::string, std::uint64_t> readValues(const Device& device, VkPipeline pipeline, std::uint32_t executable) {
   VkPipelineExecutableInfoKHR info{VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR};
   info.pipeline = pipeline;
   info.executableIndex = executable;
   std::uint32_t count = 0;
-  check(device.getPipelineExecutableStatistics(device.get(), &info, &count, nullptr),
+  check(device.functions().getPipelineExecutableStatistics(device.get(), &info, &count, nullptr),
         "vkGetPipelineExecutableStatisticsKHR");
   std::vector<VkPipelineExecutableStatisticKHR> list(count, {VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR});
-  check(device.getPipelineExecutableStatistics(device.get(), &info, &count, list.data()),
+  check(device.functions().getPipelineExecutableStatistics(device.get(), &info, &count, list.data()),
         "vkGetPipelineExecutableStatisticsKHR");
   std::map<std::string, std::uint64_t> values;
   for (const VkPipelineExecutableStatisticKHR& s : list) {
     const std::string name = s.name;
-    if (name.find("hash") == std::string::npos && name.find("Hash") == std::string::npos) values[name] = valueOf(s);
+    if (name.find("hash") == std::string::npos && name.find("Hash") == std::string::npos) values[name] = toInteger(s);
   }
   return values;
 }
 
-// Drivers name all closest-hit shaders alike, and list them in the order in which the pipeline was given
-// them. An executable that is none of the pipeline's shaders, such as the traversal that RADV adds as an
-// intersection shader, comes last.
-std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline, const Variant& variant) {
+// Assigns executables to stages by order: drivers give all closest-hit shaders the same name, and list them in the
+// order of the pipeline. Executables without a stage, such as RADV's traversal (an intersection shader), are last.
+std::vector<StageStatistics> stageStatistics(const Device& device, VkPipeline pipeline, const Variant& variant) {
   VkPipelineInfoKHR info{VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR};
   info.pipeline = pipeline;
   std::uint32_t count = 0;
-  check(device.getPipelineExecutableProperties(device.get(), &info, &count, nullptr),
+  check(device.functions().getPipelineExecutableProperties(device.get(), &info, &count, nullptr),
         "vkGetPipelineExecutablePropertiesKHR");
   std::vector<VkPipelineExecutablePropertiesKHR> list(count, {VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_PROPERTIES_KHR});
-  check(device.getPipelineExecutableProperties(device.get(), &info, &count, list.data()),
+  check(device.functions().getPipelineExecutableProperties(device.get(), &info, &count, list.data()),
         "vkGetPipelineExecutablePropertiesKHR");
 
   const std::vector<StageSource> sources = stageSources(variant);
@@ -114,9 +108,9 @@ std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline,
   std::size_t next = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     StageStatistics stage;
-    stage.values = valuesOf(device, pipeline, i);
+    stage.values = readValues(device, pipeline, i);
     fillFields(stage);
-    if (next < sources.size() && list[i].stages == flagsOf(sources[next].stage)) {
+    if (next < sources.size() && list[i].stages == static_cast<VkShaderStageFlags>(shaderStage(sources[next].stage))) {
       stage.stage = stageName(sources[next]);
       ++next;
       stages.push_back(std::move(stage));
@@ -129,46 +123,42 @@ std::vector<StageStatistics> stagesOf(const Device& device, VkPipeline pipeline,
   return stages;
 }
 
-nlohmann::json jsonOf(const Number& number) { return number ? nlohmann::json(*number) : nlohmann::json(nullptr); }
+// Bytes of the stack that each shader group keeps across its traces.
+std::map<std::string, std::uint32_t> groupStackBytes(const Device& device, VkPipeline pipeline,
+                                                     const Variant& variant) {
+  std::map<std::string, std::uint32_t> result;
+  std::uint32_t group = 0;
+  for (const StageSource& source : stageSources(variant)) {
+    const VkShaderGroupShaderKHR shader =
+        source.stage == Stage::closestHit ? VK_SHADER_GROUP_SHADER_CLOSEST_HIT_KHR : VK_SHADER_GROUP_SHADER_GENERAL_KHR;
+    result[stageName(source)] = static_cast<std::uint32_t>(
+        device.functions().getRayTracingShaderGroupStackSize(device.get(), pipeline, group++, shader));
+  }
+  return result;
+}
+
+nlohmann::json numberToJson(const Number& number) { return number ? nlohmann::json(*number) : nlohmann::json(nullptr); }
 
 }  // namespace
 
 std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const pack::Scene& scene,
                                                    const std::vector<std::string>& methods, std::uint32_t depth) {
-  // The camera ray and a shadow ray from the last hit come on top of the depth.
-  const std::uint32_t limit = device.rayTracing().maxRayRecursionDepth;
-  if (limit < 2 || depth > limit - 2)
-    throw Error("--depth", fmt::format("device '{}' cannot recurse that deep", device.physical().name),
-                fmt::format("at most {}", limit < 2 ? 0 : limit - 2), fmt::format("{}", depth));
-  struct Layout {
-    const Device& device;
-    VkDescriptorSetLayout handle;
-    ~Layout() { vkDestroyDescriptorSetLayout(device.get(), handle, nullptr); }
-  } const layout{device, createBindingsLayout(device)};
-
+  device.requireDepth(depth);
+  const Owned<VkDescriptorSetLayout> layout = createBindingsLayout(device);
+  render::RenderParameters parameters = render::defaultParameters(scene);
+  parameters.depth = depth;
   std::vector<PipelineStatistics> result;
   for (const std::string& method : methods) {
-    PipelineStatistics s;
+    const Variant variant = variantFor(scene, method, parameters);
+    const Pipeline pipeline(device, variant, layout.get(), requiredRecursion(variant, depth),
+                            VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);
+    PipelineStatistics& s = result.emplace_back();
     s.device = device.physical().name;
     s.driver = device.physical().driver;
     s.method = method;
     s.payloadBytes = render::methodNamed(method).payloadBytes;
-    render::RenderParameters parameters = render::defaultParameters(scene);
-    parameters.depth = depth;
-    const Variant variant = variantFor(scene, method, parameters);
-    const std::vector<StageSource> sources = stageSources(variant);
-    const Pipeline pipeline(device, variant, layout.handle, variant.stackSize > 0 ? 1 : depth + 2,
-                            VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);
-    s.stages = stagesOf(device, pipeline.get(), variant);
-    for (std::uint32_t group = 0; group < sources.size(); ++group) {
-      const StageSource& source = sources[group];
-      const VkDeviceSize bytes = device.getRayTracingShaderGroupStackSize(device.get(), pipeline.get(), group,
-                                                                          source.stage == Stage::closestHit
-                                                                              ? VK_SHADER_GROUP_SHADER_CLOSEST_HIT_KHR
-                                                                              : VK_SHADER_GROUP_SHADER_GENERAL_KHR);
-      s.groupStackBytes[stageName(source)] = static_cast<std::uint32_t>(bytes);
-    }
-    result.push_back(std::move(s));
+    s.stages = stageStatistics(device, pipeline.get(), variant);
+    s.groupStackBytes = groupStackBytes(device, pipeline.get(), variant);
   }
   return result;
 }
@@ -186,7 +176,7 @@ nlohmann::json toJson(const PipelineStatistics& statistics) {
   for (const StageStatistics& s : statistics.stages) {
     nlohmann::json stage = {{"stage", s.stage}, {"values", s.values}};
     for (const Field& field : kFields)
-      (*field.object ? stage[field.object][field.name] : stage[field.name]) = jsonOf(s.*field.member);
+      (*field.object ? stage[field.object][field.name] : stage[field.name]) = numberToJson(s.*field.member);
     stages.push_back(std::move(stage));
   }
   return {{"family", statistics.family},

@@ -1,5 +1,5 @@
-// What a driver's compiler tells about the ray-tracing pipeline of a method, shader by shader: registers,
-// spills, code, and its own static estimate of cost. Never a time.
+// Statistics of a driver's compiler about the ray-tracing pipeline of a method, per shader: registers, spills, code
+// size and a static estimate of cost. None is a measured time.
 #pragma once
 
 #include <cstddef>
@@ -17,45 +17,45 @@ namespace malus::vulkan {
 
 class Device;
 
-// One shader. Numbers that a driver does not tell are empty.
+// One shader. Numbers that a driver does not report are empty.
 struct StageStatistics {
   std::string stage;  // "ray generation", "miss: environment", "closest hit: paint", "traversal"
-  std::map<std::string, std::uint64_t> values;  // all that the driver tells, by its names, but for hashes
+  std::map<std::string, std::uint64_t> values;  // all of the driver's, by its names, except hashes
 
-  // Those of RADV by names that mean one thing.
-  std::optional<std::uint64_t> vectorRegisters, scalarRegisters;                // a lane's, a wave's
+  // Those of RADV.
+  std::optional<std::uint64_t> vectorRegisters, scalarRegisters;                // per lane, per wave
   std::optional<std::uint64_t> spilledVectorRegisters, spilledScalarRegisters;  // registers moved to memory
-  std::optional<std::uint64_t> ldsBytes, codeBytes, scratchBytes;               // LDS: memory that a workgroup shares
+  std::optional<std::uint64_t> ldsBytes, codeBytes, scratchBytes;               // LDS: memory shared by a workgroup
   std::optional<std::uint64_t> instructions;
-  std::optional<std::uint64_t> latency;            // cycles from start to end of one wave, as the compiler guesses
-  std::optional<std::uint64_t> inverseThroughput;  // cycles that a wave takes from the others, likewise
-  std::optional<std::uint64_t> wavesPerSimd;       // at most that many in flight at once
+  std::optional<std::uint64_t> latency;            // estimated cycles from start to end of one wave
+  std::optional<std::uint64_t> inverseThroughput;  // estimated cycles that one wave keeps the others from running
+  std::optional<std::uint64_t> wavesPerSimd;       // largest number in flight at once
 };
 
 struct PipelineStatistics {
-  std::string family;                                    // of a null device: "navi21"; else empty
-  std::string device, driver;                            // "AMD Radeon ...", "radv Mesa 25.0.7"
-  std::string method;                                    //
-  std::size_t payloadBytes = 0;                          // of what a ray brings back
+  std::string family;          // of a null device, such as "navi21"; otherwise empty
+  std::string device, driver;  // "AMD Radeon ...", "radv Mesa 25.0.7"
+  std::string method;
+  std::size_t payloadBytes = 0;                          // of a ray's payload
   std::vector<StageStatistics> stages;                   // in the order of stageSources(), then the traversal
-  std::map<std::string, std::uint32_t> groupStackBytes;  // of each stage: what a call keeps across its traces
+  std::map<std::string, std::uint32_t> groupStackBytes;  // by stage: kept across its traces
 };
 
-// Compiles the methods' pipelines for what a scene calls for; runs nothing. depth: most specular
-// interactions. Throws Error: an unknown method, a depth past the device's recursion limit, a failed
-// compilation.
+// Compiles the methods' pipelines for the effects of a scene, without running them. depth: most specular interactions.
+// Throws Error: an unknown method, a depth over the device's recursion limit, a failed compilation.
 std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const pack::Scene& scene,
                                                    const std::vector<std::string>& methods, std::uint32_t depth);
 
-// The same on a real device (wanted: as in Device); empty where its driver tells nothing. Throws Error.
+// The same on a device of this machine (wanted: as for Device); empty if its driver reports no statistics. Throws
+// Error.
 std::vector<PipelineStatistics> deviceStatistics(const pack::Scene& scene, const std::vector<std::string>& methods,
                                                  std::uint32_t depth, const std::string& wanted);
 
 // {family, device, driver, method, payloadBytes, stages: [{stage, registers: {vector, scalar},
 // spills: {vector, scalar}, lds, codeSize, scratch, instructions, latency, inverseThroughput, wavesPerSimd,
-// values: {by the driver's names}}], stackBytes: {stage: bytes}}; null: the driver does not tell.
+// values: {by the driver's names}}], stackBytes: {stage: bytes}}; null: not reported by the driver.
 nlohmann::json toJson(const PipelineStatistics& statistics);
-// Throws nlohmann::json::exception unless it is toJson's.
+// The inverse of toJson(). Throws nlohmann::json::exception for other JSON.
 PipelineStatistics statisticsFromJson(const nlohmann::json& json);
 
 }  // namespace malus::vulkan

@@ -1,6 +1,7 @@
-// The Vulkan renderer: a ray-tracing pipeline with true recursion, on a GPU or on lavapipe.
+// The Vulkan renderer: a ray-tracing pipeline with true recursion, on a GPU or, with lavapipe, on the CPU.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,31 +13,30 @@
 namespace malus::vulkan {
 
 struct Options {
-  std::string device;    // number or part of a name; "" for the best
-  unsigned threads = 0;  // of lavapipe; 0 for its best
+  std::string device;    // number or part of a name (choosePhysicalDevice()); empty: the best
+  unsigned threads = 0;  // of lavapipe; 0: chosen by the number of cores
 };
 
 struct DeviceDescription {
   std::string name;
   std::string driver;
-  std::string problem;  // empty: it can be used
+  std::string problem;  // empty: usable
 };
+// All devices, in the order of their numbers for Options::device. Throws Error: no Vulkan driver.
 std::vector<DeviceDescription> devices();
 
 class Renderer final : public render::Renderer {
  public:
-  // Builds the acceleration structure and uploads the scene, which must outlive the renderer. Throws Error:
-  // no device, one without ray tracing, out of memory.
+  // Uploads the scene, which must outlive the renderer, and builds its acceleration structures. Throws Error: no usable
+  // device, out of memory, a scene too large for the device.
   Renderer(const pack::Scene& scene, const Options& options);
   Renderer(pack::Scene&& scene, const Options& options) = delete;
   ~Renderer() override;
 
-  // method: one of shaders/methods or shaders/iterative. Pipelines are made at the first use of a method and kept.
-  // traceMs is the device's own time of the trace alone. Throws Error: a depth past the device's recursion limit, a
-  // message of the validation layers.
+  // Compiles a method at its first use. Cost::traceMs is measured by the device's clock where it has one. Throws Error
+  // also if the validation layers report a message. After an Error the renderer can be used again.
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
-
-  // Rays of a picture, from a variant that counts; not timed.
+  // By a variant of the shaders that counts; not timed.
   std::uint64_t countRays(std::string_view method, const render::RenderParameters& parameters) override;
 
   render::Backend backend() const override { return render::Backend::vulkan; }

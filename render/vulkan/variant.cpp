@@ -15,6 +15,8 @@ using shaders::Effect;
 
 bool has(const Variant& variant, Effect effect) { return (variant.effects & shaders::bitOf(effect)) != 0; }
 
+bool isIterative(const Variant& variant) { return variant.stackSize > 0; }
+
 Variant variantFor(const pack::Scene& scene, std::string_view method, const render::RenderParameters& parameters) {
   Variant variant;
   variant.method = method;
@@ -31,7 +33,7 @@ std::string preamble(const Variant& variant) {
       "#extension GL_EXT_ray_tracing : require\n"
       "#extension GL_EXT_scalar_block_layout : require\n"
       "#extension GL_GOOGLE_include_directive : require\n";
-  if (variant.stackSize > 0)
+  if (isIterative(variant))
     text += fmt::format("#extension GL_EXT_ray_query : require\n#define MALUS_PATH_STACK_SIZE {}\n", variant.stackSize);
   text += fmt::format("#define MALUS_METHOD \"{}\"\n", variant.method);
   for (std::size_t i = 0; i < shaders::kEffectMacros.size(); ++i)
@@ -43,7 +45,7 @@ std::string preamble(const Variant& variant) {
 }
 
 std::vector<StageSource> stageSources(const Variant& variant) {
-  if (variant.stackSize > 0) return {{"shaders/stages/camera_path.rgen", Stage::raygen}};
+  if (isIterative(variant)) return {{"shaders/stages/camera_path.rgen", Stage::raygen}};
   std::vector<StageSource> sources = {{"shaders/stages/raygen.rgen", Stage::raygen},
                                       {"shaders/stages/environment.rmiss", Stage::miss}};
   if (has(variant, Effect::kPointLights) && has(variant, Effect::kShadows))
@@ -60,7 +62,7 @@ std::string_view includedSource(const Variant& variant, std::string_view path) {
   if (path != "shaders/methods/selected.h") return shaders::source(path);
   std::string file = variant.method;
   std::replace(file.begin(), file.end(), '-', '_');
-  return shaders::source(fmt::format("shaders/{}/{}.h", variant.stackSize > 0 ? "iterative" : "methods", file));
+  return shaders::source(fmt::format("shaders/{}/{}.h", isIterative(variant) ? "iterative" : "methods", file));
 }
 
 std::string stageText(const StageSource& source) {

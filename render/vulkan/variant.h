@@ -1,5 +1,5 @@
-// A variant of the shaders: the method, and which effects the scene calls for. Named by a set of macros
-// that glslang gets as a preamble; what a macro leaves out costs nothing.
+// Variants of the shaders: a method, and the effects that an image needs. A variant is a set of macros in a preamble,
+// so that effects it leaves out are not compiled.
 #pragma once
 
 #include <cstdint>
@@ -17,36 +17,37 @@ namespace malus::vulkan {
 struct Variant {
   std::string method = "fresnel";
   std::uint32_t effects = shaders::kEveryEffect;  // bits of shaders::Effect
-  bool fourAnalysers = false;                     // of a loop: Stokes vectors
+  bool fourAnalysers = false;                     // iterative: Stokes vectors, not only colours
   bool countRays = false;
   bool checkNumerics = false;
-  std::uint32_t stackSize = 0;  // of a loop: ways that may wait; 0 for a recursive method
+  std::uint32_t stackSize = 0;  // iterative: paths that can wait on the stack; recursive: 0
   auto operator<=>(const Variant&) const = default;
 };
 
-// What the picture calls for.
+// The variant for an image by a method, with the effects that the image needs. Throws Error: an unknown method.
 Variant variantFor(const pack::Scene& scene, std::string_view method, const render::RenderParameters& parameters);
 bool has(const Variant& variant, shaders::Effect effect);
+bool isIterative(const Variant& variant);
 
-// #version, extensions and macros of the variant.
+// Extensions and macros of the variant, in GLSL.
 std::string preamble(const Variant& variant);
 
 enum class Stage { raygen, miss, closestHit, compute };
 
-// One shader of the pipeline: its file, and the stage.
+// One shader of a pipeline.
 struct StageSource {
-  std::string_view path;
+  std::string_view path;  // of its file in the repository
   Stage stage;
   std::uint32_t kind = 0;  // of a closest hit: gpu::SurfaceKind
 };
-// Ray generation, environment miss, shadow miss where there are shadows, then a closest hit for every gpu::SurfaceKind
-// that the variant has, in order; of a loop ray generation alone.
+// Recursive: ray generation, the environment's miss shader, the shadow's where the variant has shadows, and a
+// closest-hit shader for each gpu::SurfaceKind of the variant, in order. Iterative: ray generation only.
 std::vector<StageSource> stageSources(const Variant& variant);
 
-// Text of a file by its path, "shaders/methods/selected.h" being the variant's method.
+// Text of a shader file by its path; empty: no such file. "shaders/methods/selected.h" is the variant's method.
 std::string_view includedSource(const Variant& variant, std::string_view path);
 
-// The whole text of a stage: language, optics, method, then the stage's file, as #include lines.
+// The source of a stage: #version, and an #include of each file in order, the stage's last.
 std::string stageText(const StageSource& source);
 
 }  // namespace malus::vulkan

@@ -170,7 +170,7 @@ void compare(const ComputeDevice& device) {
 TEST(GlslValuesTest, FloatAndDoubleEqualCpp) {
   ASSERT_NE(std::getenv("MALUS_VALIDATION"), nullptr) << "ctest sets it";
   const vulkan::Instance instance(0);
-  ASSERT_TRUE(instance.validating());
+  ASSERT_TRUE(instance.isValidating());
   {
     const ComputeDevice device(instance);
     compare<Single>(device);

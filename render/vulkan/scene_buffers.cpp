@@ -1,0 +1,55 @@
+#include "render/vulkan/scene_buffers.h"
+
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace malus::vulkan {
+
+namespace {
+
+// The values of the column `usage`.
+namespace usages {
+constexpr VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+constexpr VkBufferUsageFlags geometry = storage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                                        VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+}  // namespace usages
+
+// The types of the column `element`, by their names in GLSL.
+namespace elements {
+using namespace gpu;  // NOLINT(google-build-using-namespace)
+using glm::uvec3;
+
+#define MALUS_ACCELERATION_STRUCTURE(number, name)
+#define MALUS_PIXEL_BUFFER(number, name, element)
+#define MALUS_SCENE_BUFFER(number, name, element, usage) \
+  static_assert(std::is_same_v<decltype(render::RenderScene::name), std::vector<element>>);
+#define MALUS_HOST_BUFFER(number, name, type, access)
+#include "shaders/gpu/bindings.def"
+}  // namespace elements
+
+template <typename T>
+Buffer uploadArray(const Device& device, std::string_view name, const std::vector<T>& values,
+                   VkBufferUsageFlags usage) {
+  return upload(device, name, std::as_bytes(std::span(values)), usage);
+}
+
+}  // namespace
+
+SceneBuffers::SceneBuffers(const Device& device, const render::RenderScene& scene) {
+#define MALUS_ACCELERATION_STRUCTURE(number, name)
+#define MALUS_PIXEL_BUFFER(number, name, element)
+#define MALUS_SCENE_BUFFER(number, name, element, usage) name = uploadArray(device, #name, scene.name, usages::usage);
+#define MALUS_HOST_BUFFER(number, name, type, access)
+#include "shaders/gpu/bindings.def"
+}
+
+void SceneBuffers::bind(Bindings& bindings) const {
+#define MALUS_ACCELERATION_STRUCTURE(number, name)
+#define MALUS_PIXEL_BUFFER(number, name, element)
+#define MALUS_SCENE_BUFFER(number, name, element, usage) bindings.bind(Binding::name, name);
+#define MALUS_HOST_BUFFER(number, name, type, access)
+#include "shaders/gpu/bindings.def"
+}
+
+}  // namespace malus::vulkan

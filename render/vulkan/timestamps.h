@@ -1,0 +1,25 @@
+// Device time between two points of a command buffer.
+#pragma once
+
+#include <optional>
+
+#include "render/vulkan/device.h"
+
+namespace malus::vulkan {
+
+class Timestamps {
+ public:
+  // device: must outlive the timestamps. Throws Error.
+  explicit Timestamps(const Device& device);
+
+  void begin(VkCommandBuffer commands) const;
+  void end(VkCommandBuffer commands) const;
+  // Waits for both. Empty: the device has no timestamps. Throws Error.
+  std::optional<double> readMs() const;
+
+ private:
+  const Device& device_;
+  Owned<VkQueryPool> pool_;
+};
+
+}  // namespace malus::vulkan

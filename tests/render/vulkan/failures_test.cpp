@@ -1,0 +1,91 @@
+// Makes every Vulkan call of a render that can fail do so once.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/base/error.h"
+#include "render/vulkan/renderer.h"
+#include "tests/render/test_scene.h"
+#include "tests/render/vulkan/vulkan_calls.h"
+
+namespace malus::vulkan {
+namespace {
+
+// A metal square with a point light: a trace with a shadow ray, and few shaders to compile.
+pack::Scene makeScene() {
+  pack::Scene scene = test::emptyScene(1);
+  scene.width = scene.height = 4;
+  scene.environment.radiance = {0.2, 0.3, 0.5};
+  const auto gold = test::addMaterial(scene, test::metal({0.18, 0.54, 1.33}, {3.4, 2.2, 1.9}));
+  test::addSquare(scene, gold, {0, 0, 0}, {0, 0, 1}, 1);
+  scene.lights.push_back({{1, 1.5, 2}, {6, 6, 6}});
+  test::look(scene, {0, 0, 4}, {0, 0, 0});
+  return scene;
+}
+
+struct Attempt {
+  std::vector<float> pixels;                    // of the last render; empty if there is none
+  std::optional<std::string> constructorError;  // messages
+  std::optional<std::string> renderError;
+};
+
+// Makes a renderer and renders; if the first render fails, renders again with the same renderer.
+Attempt attempt(const pack::Scene& scene) {
+  Attempt result;
+  std::optional<Renderer> renderer;
+  try {
+    renderer.emplace(scene, Options{});
+  } catch (const Error& error) {
+    result.constructorError = error.what();
+    return result;
+  }
+  const render::RenderParameters parameters = render::defaultParameters(scene);
+  try {
+    result.pixels = renderer->render("fresnel", parameters).pixels;
+  } catch (const Error& error) {
+    result.renderError = error.what();
+    result.pixels = renderer->render("fresnel", parameters).pixels;
+  }
+  return result;
+}
+
+TEST(VulkanFailures, EachIsReportedAndLeaksNothing) {
+  const pack::Scene scene = makeScene();
+  test::watchVulkanCalls(0);
+  const Attempt expected = attempt(scene);
+  ASSERT_FALSE(expected.pixels.empty());
+  EXPECT_TRUE(test::vulkanCalls().live.empty());
+  EXPECT_TRUE(test::vulkanCalls().messages.empty());
+  EXPECT_TRUE(test::vulkanCalls().unwatched.empty()) << test::vulkanCalls().unwatched.front();
+  const std::size_t total = test::vulkanCalls().fallible;
+
+  std::size_t inConstructor = 0, inRender = 0;
+  for (std::size_t failAt = 1; failAt <= total; ++failAt) {
+    test::watchVulkanCalls(failAt);
+    const Attempt found = attempt(scene);
+    const test::VulkanCalls calls = test::vulkanCalls();
+    SCOPED_TRACE("call " + std::to_string(failAt) + ", " + calls.failed);
+    ASSERT_FALSE(calls.failed.empty());
+    ASSERT_TRUE(found.constructorError || found.renderError);
+    const std::string& message = found.constructorError ? *found.constructorError : *found.renderError;
+    EXPECT_NE(message.find(calls.failed), std::string::npos) << message;
+    EXPECT_NE(message.find("out of device memory"), std::string::npos) << message;
+    EXPECT_NE(message.find("--device"), std::string::npos) << message;
+    EXPECT_TRUE(calls.live.empty()) << calls.live.begin()->first << ": " << calls.live.begin()->second;
+    EXPECT_TRUE(calls.messages.empty()) << calls.messages.front();
+    if (found.renderError) {
+      EXPECT_EQ(found.pixels, expected.pixels);
+    }
+    ++(found.constructorError ? inConstructor : inRender);
+  }
+  EXPECT_GT(inConstructor, 50u);
+  EXPECT_GT(inRender, 20u);
+
+  test::watchVulkanCalls(0);
+  EXPECT_EQ(attempt(scene).pixels, expected.pixels);
+}
+
+}  // namespace
+}  // namespace malus::vulkan

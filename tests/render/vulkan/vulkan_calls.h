@@ -1,0 +1,25 @@
+// Watches the Vulkan calls of the program that this file is linked into: it defines the functions of the loader that
+// create, destroy or can fail, forwards them to the loader, and counts. One of them can be made to fail.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace malus::test {
+
+// Sets all counts to 0. failAt: 1 for the first call that can fail, 2 for the second, ...; 0: none fails. The call that
+// fails returns VK_ERROR_OUT_OF_DEVICE_MEMORY; only vkQueueWaitIdle is forwarded before.
+void watchVulkanCalls(std::size_t failAt);
+
+struct VulkanCalls {
+  std::size_t fallible = 0;            // calls that could fail
+  std::string failed;                  // function that was made to fail; empty: none
+  std::map<std::string, int> live;     // objects alive, by the function that creates them; only those not 0
+  std::vector<std::string> messages;   // of the validation layers
+  std::vector<std::string> unwatched;  // functions that create objects and are not watched
+};
+VulkanCalls vulkanCalls();
+
+}  // namespace malus::test

@@ -1,4 +1,4 @@
-// A ray that leaves the scene.
+// Shades a ray that meets no surface.
 #include "shaders/stages/bindings.glsl"
 #include "shaders/surfaces/recursive.h"
 #include "shaders/stages/faults.glsl"

@@ -1,4 +1,5 @@
-// A hit, from the geometry that every stage sees. origin, d: the ray; the rest as the device names them.
+// Makes a hit. geometry, primitive, barycentric: as Vulkan reports them; geometry is the index of the mesh. origin, d:
+// the ray. depth: specular interactions left.
 Hit makeHitFromMesh(uint geometry, uint primitive, vec2 barycentric, vec3 origin, vec3 d, float depth) {
   Mesh mesh = meshes[geometry];
   uvec3 corner = triangles[mesh.firstTriangle + primitive] + mesh.firstVertex;

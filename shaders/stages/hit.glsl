@@ -1,4 +1,4 @@
-// Common to the closest-hit stages: the hit, from the instance's geometry.
+// Common to the closest-hit stages: the hit, and the payload that the stage returns.
 #include "shaders/stages/bindings.glsl"
 #include "shaders/surfaces/recursive.h"
 #include "shaders/stages/trace.glsl"
@@ -10,5 +10,5 @@ hitAttributeEXT vec2 barycentric;
 
 Hit loadHit() {
   return makeHitFromMesh(gl_GeometryIndexEXT, gl_PrimitiveID, barycentric, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT,
-               payloadDepth(result));
+                         payloadDepth(result));
 }

@@ -1,4 +1,4 @@
-// Rays that a stage sends: what shaders/surfaces calls traceRay and visible.
+// The rays that shaders/surfaces/hooks.h declares, by recursive traces. Miss shader 0 is the environment, 1 the shadow's.
 layout(location = 1) rayPayloadEXT Payload childPayload;
 layout(location = 2) rayPayloadEXT uint shadowPayload;
 

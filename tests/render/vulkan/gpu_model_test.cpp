@@ -1,4 +1,4 @@
-// The GPU model compiles on Mesa's null device and needs no GPU; without the radeon driver these tests fail.
+// The GPU model compiles on Mesa's null device, without a GPU. These tests fail without the radeon driver.
 #include "render/vulkan/gpu_model.h"
 
 #include <algorithm>
@@ -47,10 +47,10 @@ class GpuModel : public testing::Test {
   }
   static void TearDownTestSuite() { fs::remove(path_); }
 
-  // All methods, compiled once a family and test program.
+  // All methods, compiled once per family in this program.
   static const std::vector<PipelineStatistics>& all(const std::string& family) {
-    static std::map<std::string, std::vector<PipelineStatistics>> kept;
-    std::vector<PipelineStatistics>& result = kept[family];
+    static std::map<std::string, std::vector<PipelineStatistics>> cache;
+    std::vector<PipelineStatistics>& result = cache[family];
     if (result.empty()) result = gpuModel(path_, family, render::methodNames(), kDepth);
     return result;
   }
@@ -59,15 +59,16 @@ class GpuModel : public testing::Test {
 };
 fs::path GpuModel::path_;
 
-json jsonOf(const std::vector<PipelineStatistics>& list) {
+json listToJson(const std::vector<PipelineStatistics>& list) {
   json result = json::array();
   for (const PipelineStatistics& s : list) result.push_back(toJson(s));
   return result;
 }
 
-// What a change of the shaders must not change unseen: per stage [instructions, inverse throughput, vector
-// registers, scalar registers, spilled vector registers, spilled scalar registers, stack bytes].
-json goldenOf(const PipelineStatistics& s) {
+// The numbers that gpu_model_golden.json contains, so that a change of the shaders cannot change them unnoticed. Per
+// stage [instructions, inverse throughput, vector registers, scalar registers, spilled vector registers, spilled scalar
+// registers, stack bytes].
+json goldenNumbers(const PipelineStatistics& s) {
   json result;
   for (const StageStatistics& stage : s.stages) {
     json& row = result[stage.stage];
@@ -80,7 +81,7 @@ json goldenOf(const PipelineStatistics& s) {
   return result;
 }
 
-// What the numbers depend on beside the shaders: "Mesa 25.0.7, glslang 12.0.0", without the package's number.
+// The versions that the numbers depend on, without the package's revision: "Mesa 25.0.7, glslang 12.0.0".
 std::string compilers(const PipelineStatistics& s) {
   std::string mesa = s.driver.substr(std::min(s.driver.size(), s.driver.find("Mesa")));
   if (const std::size_t space = mesa.find(' '); space != std::string::npos)
@@ -88,12 +89,12 @@ std::string compilers(const PipelineStatistics& s) {
   return mesa + ", " + glslangVersion();
 }
 
-TEST_F(GpuModel, TheSameTwice) {
+TEST_F(GpuModel, IsDeterministic) {
   for (const char* family : kFamilies)
-    EXPECT_EQ(jsonOf(all(family)), jsonOf(gpuModel(path_, family, render::methodNames(), kDepth))) << family;
+    EXPECT_EQ(listToJson(all(family)), listToJson(gpuModel(path_, family, render::methodNames(), kDepth))) << family;
 }
 
-TEST_F(GpuModel, EveryMethodAndStage) {
+TEST_F(GpuModel, ReportsEveryMethodAndStage) {
   for (const char* family : kFamilies) {
     const auto& list = all(family);
     ASSERT_EQ(list.size(), render::methods().size());
@@ -118,11 +119,11 @@ TEST_F(GpuModel, EveryMethodAndStage) {
                     stage.ldsBytes && stage.scratchBytes)
             << stage.stage;
       }
-      if (render::methods()[i].isIterative) {  // one shader with the traversal inlined
+      if (render::methods()[i].isIterative) {  // one shader, which includes the traversal
         EXPECT_EQ(names, std::vector<std::string>{"ray generation"});
         continue;
       }
-      // What the pack does not have is not compiled.
+      // Only the kinds of surface in the pack are compiled.
       const std::vector<std::string> expected = {"ray generation",     "miss: environment",  "miss: shadow",
                                                  "closest hit: paint", "closest hit: metal", "traversal"};
       EXPECT_EQ(names, expected);
@@ -130,8 +131,8 @@ TEST_F(GpuModel, EveryMethodAndStage) {
   }
 }
 
-// A stage that traces keeps its child's payload, and what it needs after the trace, on its stack. Under paint
-// nothing is spilled that would hide the payload (RADV rounds a stack up to 16 bytes).
+// The stack of a stage that traces contains the payload of its ray and the values that it needs after the trace. The
+// stack of paint contains no spilled registers, which would hide the payload. RADV rounds stacks up to 16 bytes.
 TEST_F(GpuModel, StacksGrowWithPayloads) {
   for (const char* family : kFamilies) {
     std::map<std::size_t, std::set<std::uint32_t>> stacks;  // by payload
@@ -151,7 +152,7 @@ TEST_F(GpuModel, StacksGrowWithPayloads) {
   }
 }
 
-TEST_F(GpuModel, JsonKeepsEverything) {
+TEST_F(GpuModel, JsonRoundTripIsExact) {
   for (const PipelineStatistics& s : all("navi31")) {
     const json first = toJson(s);
     EXPECT_EQ(first, toJson(statisticsFromJson(json::parse(first.dump()))));
@@ -160,7 +161,7 @@ TEST_F(GpuModel, JsonKeepsEverything) {
   }
 }
 
-// MALUS_GPU_MODEL_OUT=FILE writes the file as it would have to be, for a person to compare.
+// MALUS_GPU_MODEL_OUT=FILE writes the golden file with the numbers found, for review.
 TEST_F(GpuModel, EqualsTheGoldenNumbers) {
   std::ifstream in(MALUS_GPU_MODEL_GOLDEN);
   ASSERT_TRUE(in) << MALUS_GPU_MODEL_GOLDEN;
@@ -168,11 +169,11 @@ TEST_F(GpuModel, EqualsTheGoldenNumbers) {
   const std::string key = compilers(all("navi21").front());
   json found;
   for (const char* family : kFamilies)
-    for (const PipelineStatistics& s : all(family)) found[family][s.method] = goldenOf(s);
+    for (const PipelineStatistics& s : all(family)) found[family][s.method] = goldenNumbers(s);
   if (const char* file = std::getenv("MALUS_GPU_MODEL_OUT")) {
     json updated = golden;
     updated[key] = found;
-    // One line a stage.
+    // One line per stage.
     std::string text = "{";
     const char* comma = "\n";
     for (const auto& [compiler, families] : updated.items()) {
@@ -195,13 +196,13 @@ TEST_F(GpuModel, EqualsTheGoldenNumbers) {
     std::ofstream(file) << text << "\n}\n";
   }
   if (!golden.contains(key)) {
-    fmt::print("no golden numbers of {} in {}: only sameness and sanity are tested\n", key, MALUS_GPU_MODEL_GOLDEN);
+    fmt::print("no golden numbers for {} in {}; only determinism and ranges are tested\n", key, MALUS_GPU_MODEL_GOLDEN);
     return;
   }
   for (const char* family : kFamilies)
     for (const std::string& method : render::methodNames()) {
       if (!golden.at(key).at(family).contains(method)) {
-        fmt::print("no golden numbers of {} on {}: only sameness and sanity are tested\n", method, family);
+        fmt::print("no golden numbers for {} on {}; only determinism and ranges are tested\n", method, family);
         continue;
       }
       for (const auto& [stage, row] : found.at(family).at(method).items())
@@ -209,8 +210,8 @@ TEST_F(GpuModel, EqualsTheGoldenNumbers) {
     }
 }
 
-std::string messageOf(const fs::path& pack, const std::string& family, const std::vector<std::string>& methods,
-                      std::uint32_t depth) {
+std::string errorMessage(const fs::path& pack, const std::string& family, const std::vector<std::string>& methods,
+                         std::uint32_t depth) {
   try {
     gpuModel(pack, family, methods, depth);
   } catch (const Error& error) {
@@ -219,20 +220,20 @@ std::string messageOf(const fs::path& pack, const std::string& family, const std
   return "no error";
 }
 
-TEST_F(GpuModel, SaysWhatIsWrong) {
+TEST_F(GpuModel, ReportsErrors) {
   for (const char* family : {"", "navi99", "NAVI21", "navi21 --help", "../navi21"})
-    EXPECT_NE(messageOf(path_, family, {"fresnel"}, 4).find("unknown family"), std::string::npos)
-        << family << ": " << messageOf(path_, family, {"fresnel"}, 4);
-  EXPECT_NE(messageOf(path_, "tahiti", {"fresnel"}, 4).find("no ray tracing"), std::string::npos)
-      << messageOf(path_, "tahiti", {"fresnel"}, 4);
-  EXPECT_NE(messageOf("/nowhere/at-all.pack", "navi21", {"fresnel"}, 4).find("/nowhere/at-all.pack"),
+    EXPECT_NE(errorMessage(path_, family, {"fresnel"}, 4).find("unknown family"), std::string::npos)
+        << family << ": " << errorMessage(path_, family, {"fresnel"}, 4);
+  EXPECT_NE(errorMessage(path_, "tahiti", {"fresnel"}, 4).find("no ray tracing"), std::string::npos)
+      << errorMessage(path_, "tahiti", {"fresnel"}, 4);
+  EXPECT_NE(errorMessage("/nowhere/at-all.pack", "navi21", {"fresnel"}, 4).find("/nowhere/at-all.pack"),
             std::string::npos);
-  EXPECT_NE(messageOf(path_, "navi21", {"no-such"}, 4).find("no-such"), std::string::npos);
-  EXPECT_NE(messageOf(path_, "navi21", {"fresnel"}, 1000).find("recurse"), std::string::npos);
+  EXPECT_NE(errorMessage(path_, "navi21", {"no-such"}, 4).find("no-such"), std::string::npos);
+  EXPECT_NE(errorMessage(path_, "navi21", {"fresnel"}, 1000).find("--depth"), std::string::npos);
   EXPECT_TRUE(gpuModel(path_, "navi21", {}, 4).empty());
 }
 
-// Whatever the user's environment asks of drivers, the child has its own.
+// The child process does not inherit the variables that select or change drivers.
 TEST_F(GpuModel, IgnoresTheEnvironment) {
   ::setenv("RADV_FORCE_FAMILY", "navi33", 1);
   ::setenv("VK_DRIVER_FILES", "/nowhere.json", 1);
@@ -242,11 +243,11 @@ TEST_F(GpuModel, IgnoresTheEnvironment) {
   const auto same = std::find_if(all("navi21").begin(), all("navi21").end(),
                                  [](const PipelineStatistics& s) { return s.method == "stokes"; });
   ASSERT_NE(same, all("navi21").end());
-  EXPECT_EQ(jsonOf(list), jsonOf({*same}));
+  EXPECT_EQ(listToJson(list), listToJson({*same}));
 }
 
-// lavapipe tells nothing about its pipelines; another driver that does has to name all stages.
-TEST_F(GpuModel, RealDevice) {
+// lavapipe reports no statistics. A driver that does must name all stages.
+TEST_F(GpuModel, StatisticsOfThisMachinesDevice) {
   pack::Scene scene = test::emptyScene(4);
   const auto list = deviceStatistics(scene, {"schlick", "stokes"}, 4, "");
   if (list.empty()) return;

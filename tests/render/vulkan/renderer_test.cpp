@@ -16,8 +16,8 @@ namespace {
 
 using pack::MaterialKind;
 
-// Every kind of surface: a paint floor, a glass pane, a metal wall, a lambert wall, an emitter, a light.
-pack::Scene everything() {
+// A paint floor, a glass pane, a metal wall, a lambert wall, an emitter and a point light.
+pack::Scene makeScene() {
   pack::Scene scene = test::emptyScene(4);
   scene.width = 48;
   scene.height = 32;
@@ -47,7 +47,7 @@ pack::Scene everything() {
 }
 
 TEST(VulkanRenderer, EqualsEmbreeInEveryMethod) {
-  const pack::Scene scene = everything();
+  const pack::Scene scene = makeScene();
   const render::RenderParameters parameters = render::defaultParameters(scene);
   Renderer renderer(scene, {});
   embree::Renderer other(scene, 0);
@@ -62,8 +62,8 @@ TEST(VulkanRenderer, EqualsEmbreeInEveryMethod) {
       sum += b.pixels[i];
       if (std::abs(a.pixels[i] - b.pixels[i]) > 1e-4f * (1 + std::abs(b.pixels[i]))) ++outliers;
     }
-    EXPECT_GT(sum, 1) << method;  // something is seen
-    // An edge may fall to either side; nothing else differs by more than rounding.
+    EXPECT_GT(sum, 1) << method;  // the image is not black
+    // Rays at edges may hit either side. All other pixels differ by rounding only.
     EXPECT_LE(outliers, a.pixels.size() / 200) << method;
     EXPECT_GT(a.cost.traceMs, 0) << method;
     rays = b.cost.rays;
@@ -72,8 +72,8 @@ TEST(VulkanRenderer, EqualsEmbreeInEveryMethod) {
               0.002 * static_cast<double>(rays));
 }
 
-TEST(VulkanRenderer, RegionIsAPartOfThePicture) {
-  const pack::Scene scene = everything();
+TEST(VulkanRenderer, RegionIsAPartOfTheImage) {
+  const pack::Scene scene = makeScene();
   Renderer renderer(scene, {});
   render::RenderParameters parameters = render::defaultParameters(scene);
   const render::RenderResult whole = renderer.render("fresnel", parameters);
@@ -85,21 +85,21 @@ TEST(VulkanRenderer, RegionIsAPartOfThePicture) {
       ASSERT_EQ(part.pixels[y * 60 + x], whole.pixels[(y + 7) * scene.width * 3 + 30 + x]);
 }
 
-TEST(VulkanRenderer, DepthPastTheRecursionLimitIsRefused) {
-  const pack::Scene scene = everything();
+TEST(VulkanRenderer, DepthOverTheRecursionLimitIsRejected) {
+  const pack::Scene scene = makeScene();
   Renderer renderer(scene, {});
   render::RenderParameters parameters = render::defaultParameters(scene);
   parameters.depth = renderer.maxDepth("stokes") + 1;
   EXPECT_THROW(renderer.render("fresnel", parameters), Error);
-  // A loop does not recurse.
+  // An iterative method does not recurse.
   parameters.region = {0, 0, 2, 2};
   EXPECT_NO_THROW(renderer.render("fresnel-iterative", parameters));
   parameters.depth = 12;
   EXPECT_NO_THROW(renderer.render("fresnel", parameters));
 }
 
-TEST(VulkanRenderer, UnknownDeviceIsRefused) {
-  const pack::Scene scene = everything();
+TEST(VulkanRenderer, UnknownDeviceIsRejected) {
+  const pack::Scene scene = makeScene();
   EXPECT_THROW(Renderer(scene, {"no such device", 0}), Error);
   EXPECT_THROW(Renderer(scene, {"99", 0}), Error);
 }

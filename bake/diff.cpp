@@ -51,10 +51,7 @@ std::map<std::string, json> leavesOf(const pack::Pack& pack) {
   document.erase("packHash");
   document["meshes"] = keyed(document["meshes"]);
   for (json& mesh : document["meshes"]) mesh.erase("file"), mesh.erase("map");
-  json effects = json::array();
-  for (const pack::Effect& e : pack.scene.effects)
-    effects.push_back({{"name", e.name}, {"on", e.on}, {"reason", e.reason}});
-  document["effects"] = std::move(effects);
+  document["effects"] = effectsJson(pack.scene.effects);
   document["provenance"] = provenanceJson(pack.scene);
   for (std::size_t i = 0; i < pack.compression.size(); ++i)
     document["encoding"][pack.scene.meshes[i].name] = pack.compression[i];

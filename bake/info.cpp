@@ -58,7 +58,7 @@ std::vector<pack::Effect> effectsOf(const pack::Scene& scene) {
 
 json infoJson(const pack::Pack& pack, double tolerance) {
   const pack::Scene& scene = pack.scene;
-  json meshes = json::array(), materials = json::array(), effects = json::array(), sections = json::array();
+  json meshes = json::array(), materials = json::array(), sections = json::array();
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const pack::Mesh& m = scene.meshes[i];
     meshes.push_back({{"name", m.name},
@@ -70,13 +70,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                       {"normalBits", pack.encodings.known() ? json(pack.encodings.meshes[i].normalBits) : json()},
                       {"errors", pack.encodings.known() ? errorsOf(pack.encodings.meshes[i].deviation) : json()}});
   }
-  for (const pack::Material& m : scene.materials)
-    materials.push_back({{"name", m.name},
-                         {"type", pack::materialKindName(m.kind)},
-                         {"eta", {m.eta.x, m.eta.y, m.eta.z}},
-                         {"k", {m.k.x, m.k.y, m.k.z}}});
-  for (const pack::Effect& e : effectsOf(scene))
-    effects.push_back({{"name", e.name}, {"on", e.on}, {"reason", e.reason}});
+  for (const pack::Material& m : scene.materials) materials.push_back(materialJson(m));
   for (const pack::Section& s : pack.sections)
     sections.push_back({{"id", s.id},
                         {"version", s.version},
@@ -99,7 +93,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
           {"meshes", meshes},
           {"materials", materials},
           {"lights", scene.lights.size()},
-          {"effects", effects},
+          {"effects", effectsJson(effectsOf(scene))},
           {"polarizationErrorBound", {bound.x, bound.y, bound.z}},
           {"deepestBounce", {{"tolerance", tolerance}, {"bounce", deepestBounce(scene, scene.depth, tolerance)}}},
           {"sections", sections},

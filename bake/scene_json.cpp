@@ -1,6 +1,14 @@
 #include "bake/scene_json.h"
 
+#include <array>
+#include <string_view>
+#include <utility>
+
 #include <fmt/format.h>
+
+#include "bake/pack/field_io.h"
+#include "bake/pack/material_fields.h"
+#include "bake/pack/record_fields.h"
 
 namespace malus::bake {
 using nlohmann::json;
@@ -9,34 +17,86 @@ namespace {
 
 json vectorJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-json materialJson(const pack::Material& m) {
-  json highlight;
-  if (m.highlightStrength > 0) highlight = {{"strength", m.highlightStrength}, {"exponent", m.highlightExponent}};
-  json result = {{"name", m.name},
-                 {"type", pack::materialKindName(m.kind)},
-                 {"eta", vectorJson(m.eta)},
-                 {"k", vectorJson(m.k)},
-                 {"outsideEta", m.outsideEta},
-                 {"albedo", vectorJson(m.albedo)},
-                 {"radiance", vectorJson(m.radiance)},
-                 {"highlight", highlight}};
-  if (m.isPlain()) return result;
-  const auto map = [](std::int32_t index) { return index < 0 ? json() : json(index); };
-  result["absorption"] = vectorJson(m.absorption);
-  result["outsideAbsorption"] = vectorJson(m.outsideAbsorption);
-  result["coating"] = {{"eta", vectorJson(m.coating.eta)}, {"thicknessNm", m.coating.thicknessNm}};
-  result["roughness"] = m.roughness;
-  result["axis"] = vectorJson(m.axis);
-  result["polarization"] = m.polarization;
-  result["along"] = vectorJson(m.transmittanceParallel);
-  result["across"] = vectorJson(m.transmittanceCrossed);
-  result["retardanceDegrees"] = vectorJson(m.retardanceDegrees);
-  result["maps"] = {{"albedo", map(m.maps.albedo)},        {"eta", map(m.maps.eta)},    {"k", map(m.maps.k)},
-                    {"origin", vectorJson(m.maps.origin)}, {"u", vectorJson(m.maps.u)}, {"v", vectorJson(m.maps.v)}};
+// Writes each field of a record under its name; "coating.eta" into the object "coating".
+class JsonWriter {
+ public:
+  explicit JsonWriter(json& object, pack::FieldFilter filter = {}) : object_(object), filter_(filter) {}
+
+  template <class T>
+  void operator()(const pack::Field& field, const T& value) {
+    if (!filter_.takes(field)) return;
+    json* target = &object_;
+    std::string_view name = field.name;
+    if (const auto dot = name.find('.'); dot != std::string_view::npos) {
+      target = &object_[std::string(name.substr(0, dot))];
+      name.remove_prefix(dot + 1);
+    }
+    (*target)[std::string(name)] = valueJson(field, value);
+  }
+
+ private:
+  static json valueJson(const pack::Field&, const glm::dvec3& v) { return vectorJson(v); }
+  static json valueJson(const pack::Field&, const std::array<glm::dvec3, 9>& list) {
+    json result = json::array();
+    for (const glm::dvec3& v : list) result.push_back(vectorJson(v));
+    return result;
+  }
+  static json valueJson(const pack::Field&, pack::MaterialKind kind) { return pack::materialKindName(kind); }
+  static json valueJson(const pack::Field& field, std::int32_t value) {
+    return field.isTexture && value < 0 ? json() : json(value);
+  }
+  template <class T>
+  static json valueJson(const pack::Field&, const T& value) {
+    return value;
+  }
+
+  json& object_;
+  pack::FieldFilter filter_;
+};
+
+json environmentJson(const pack::Environment& e) {
+  json result;
+  pack::visitEnvironment(JsonWriter(result), e);
+  if (e.hasSun()) pack::visitSky(JsonWriter(result), e);
+  if (e.size == 0) {
+    result.erase("size");
+  } else {
+    result.erase("radiance");
+    result["image"] = kEnvironmentFile;
+  }
   return result;
 }
 
+json meshesJson(const pack::Pack& pack) {
+  json meshes = json::array();
+  for (std::size_t i = 0; i < pack.scene.meshes.size(); ++i) {
+    const pack::Mesh& mesh = pack.scene.meshes[i];
+    meshes.push_back({{"name", mesh.name},
+                      {"file", meshFile(i)},
+                      {"material", pack.scene.materials[mesh.material].name},
+                      {"sheet", mesh.sheet},
+                      {"vertices", mesh.positions.size()},
+                      {"triangles", mesh.triangles.size()}});
+    if (pack.hasSourceMap()) meshes.back()["map"] = mapFile(i);
+  }
+  return meshes;
+}
+
 }  // namespace
+
+json materialJson(const pack::Material& m) {
+  json result;
+  pack::visitMaterial(JsonWriter(result, {pack::kMaterials}), m);
+  if (m.highlightStrength == 0) result["highlight"] = nullptr;
+  if (!m.isPlain()) pack::visitMaterial(JsonWriter(result, {pack::kSurfaces, pack::newestSurfaceVersion()}), m);
+  return result;
+}
+
+json effectsJson(const std::vector<pack::Effect>& effects) {
+  json result = json::array();
+  for (const pack::Effect& e : effects) pack::visitEffect(JsonWriter(result.emplace_back()), e);
+  return result;
+}
 
 json provenanceJson(const pack::Scene& scene) {
   constexpr int kMaxNesting = 32;
@@ -51,57 +111,28 @@ std::string textureFile(std::size_t index) { return fmt::format("textures/{:03}.
 
 json sceneJson(const pack::Pack& pack) {
   const pack::Scene& scene = pack.scene;
-  json meshes = json::array(), materials = json::array(), lights = json::array();
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    const pack::Mesh& mesh = scene.meshes[i];
-    meshes.push_back({{"name", mesh.name},
-                      {"file", meshFile(i)},
-                      {"material", scene.materials[mesh.material].name},
-                      {"sheet", mesh.sheet},
-                      {"vertices", mesh.positions.size()},
-                      {"triangles", mesh.triangles.size()}});
-    if (pack.hasSourceMap()) meshes.back()["map"] = mapFile(i);
+  json document, materials = json::array(), lights = json::array(), textures = json::array();
+  pack::visitMeta(JsonWriter(document), scene);
+  document.erase("width");
+  document.erase("height");
+  document["resolution"] = {scene.width, scene.height};
+  document["packHash"] = fmt::format("{:016x}", pack.hash);
+  pack::visitCamera(JsonWriter(document["camera"]), scene.camera);
+  document["environment"] = environmentJson(scene.environment);
+  for (const pack::PointLight& light : scene.lights) {
+    lights.push_back({{"type", "point"}});
+    pack::visitLight(JsonWriter(lights.back()), light);
   }
   for (const pack::Material& m : scene.materials) materials.push_back(materialJson(m));
-  for (const pack::PointLight& light : scene.lights)
-    lights.push_back(
-        {{"type", "point"}, {"position", vectorJson(light.position)}, {"intensity", vectorJson(light.intensity)}});
-
-  json textures = json::array();
-  for (std::size_t i = 0; i < scene.textures.size(); ++i)
-    textures.push_back({{"name", scene.textures[i].name}, {"file", textureFile(i)}});
-
-  const pack::Environment& e = scene.environment;
-  json environment = {{"diffuseFill", e.ambientIrradiance}, {"irradiance", json::array()}};
-  for (const glm::dvec3& c : e.irradiance) environment["irradiance"].push_back(vectorJson(c));
-  if (e.hasSun()) environment["sky"] = {{"sun", vectorJson(e.sun)}, {"maxDegree", e.skyDegree}};
-  if (e.size == 0) {
-    environment["radiance"] = vectorJson(e.radiance);
-  } else {
-    environment["image"] = kEnvironmentFile;
-    environment["size"] = e.size;
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    textures.push_back({{"file", textureFile(i)}});
+    pack::visitTexture(JsonWriter(textures.back()), scene.textures[i]);
   }
-
-  const pack::Camera& c = scene.camera;
-  return {{"name", scene.name},
-          {"title", scene.title},
-          {"packHash", fmt::format("{:016x}", pack.hash)},
-          {"origin", vectorJson(scene.origin)},
-          {"resolution", {scene.width, scene.height}},
-          {"depth", scene.depth},
-          {"exposureEv", scene.exposureEv},
-          {"camera",
-           {{"position", vectorJson(c.position)},
-            {"right", vectorJson(c.right)},
-            {"up", vectorJson(c.up)},
-            {"forward", vectorJson(c.forward)},
-            {"verticalFovDegrees", c.verticalFovDegrees},
-            {"mediumEta", c.mediumEta}}},
-          {"environment", environment},
-          {"lights", lights},
-          {"materials", materials},
-          {"textures", textures},
-          {"meshes", meshes}};
+  document["lights"] = std::move(lights);
+  document["materials"] = std::move(materials);
+  document["textures"] = std::move(textures);
+  document["meshes"] = meshesJson(pack);
+  return document;
 }
 
 }  // namespace malus::bake

@@ -24,15 +24,9 @@ std::span<const std::byte> ByteReader::raw(std::uint64_t size) {
   return part;
 }
 
-double ByteReader::f64() {
+double ByteReader::f64(std::string_view what) {
   const double value = std::bit_cast<double>(u64());
-  if (!std::isfinite(value)) fail("number is not finite", "a finite number", fmt::format("{}", value));
-  return value;
-}
-
-double ByteReader::f64Between(double low, double high, std::string_view what) {
-  const double value = f64();
-  if (value < low || value > high) fail(what, fmt::format("{:g} to {:g}", low, high), fmt::format("{:g}", value));
+  if (!std::isfinite(value)) fail(fmt::format("{} is not finite", what), "a finite number", fmt::format("{}", value));
   return value;
 }
 
@@ -41,9 +35,10 @@ glm::dvec3 ByteReader::dvec3() {
   return {x, y, z};
 }
 
-glm::dvec3 ByteReader::dvec3Between(double low, double high, std::string_view what) {
-  const double x = f64Between(low, high, what), y = f64Between(low, high, what), z = f64Between(low, high, what);
-  return {x, y, z};
+void ByteReader::requireUnit(const glm::dvec3& v, std::string_view what) const {
+  const double squared = v.x * v.x + v.y * v.y + v.z * v.z;
+  if (std::abs(squared - 1) > 1e-9)
+    fail(what, "a unit vector", fmt::format("a vector of length {:g}", std::sqrt(squared)));
 }
 
 std::uint32_t ByteReader::u32AtMost(std::uint32_t high, std::string_view what) {
@@ -58,10 +53,12 @@ std::string ByteReader::text(std::uint32_t maxLength) {
   return {reinterpret_cast<const char*>(source.data()), source.size()};
 }
 
-std::uint32_t ByteReader::count(std::size_t recordBytes, std::string_view what) {
+std::uint32_t ByteReader::count(std::size_t recordBytes, std::uint32_t most, std::string_view what) {
   const std::uint32_t value = u32();
+  if (value > most) fail(what, fmt::format("at most {}", most), fmt::format("{}", value));
   if (value > left() / recordBytes)
-    fail(what, fmt::format("at most {} for the {} bytes left", left() / recordBytes, left()), fmt::format("{}", value));
+    fail(what, fmt::format("at most {} in the remaining {} bytes", left() / recordBytes, left()),
+         fmt::format("{}", value));
   return value;
 }
 

@@ -1,5 +1,5 @@
-// Little-endian numbers to and from bytes, each bounds-checked: the reader throws Error with the path and
-// the byte at which something else was expected.
+// Little-endian numbers to and from bytes. The reader checks every access and throws Error with the file, the section
+// and the byte.
 #pragma once
 
 #include <bit>
@@ -42,7 +42,7 @@ class ByteWriter {
 
 class ByteReader {
  public:
-  // bytes: what is read; base: their offset in the file, for messages; where: the file's path.
+  // bytes: a section; base: its offset in the file, for messages; where: file and section, for messages.
   ByteReader(std::span<const std::byte> bytes, std::uint64_t base, std::string_view where)
       : bytes_(bytes), base_(base), where_(where) {}
 
@@ -50,17 +50,16 @@ class ByteReader {
   std::uint32_t u32() { return integer<std::uint32_t>(); }
   std::uint64_t u64() { return integer<std::uint64_t>(); }
   float f32() { return std::bit_cast<float>(u32()); }
-  double f64();  // finite
-  double f64Between(double low, double high, std::string_view what);
+  double f64(std::string_view what = "number");  // finite
   glm::dvec3 dvec3();
-  glm::dvec3 dvec3Between(double low, double high, std::string_view what);
   std::uint32_t u32AtMost(std::uint32_t high, std::string_view what);
   std::string text(std::uint32_t maxLength = 65536);
   std::span<const std::byte> raw(std::uint64_t size);
   std::uint64_t left() const { return bytes_.size() - at_; }
-  // A count of records of at least recordBytes each: no more than the bytes that are left can hold.
-  std::uint32_t count(std::size_t recordBytes, std::string_view what);
-  void end();  // everything was read
+  // A count of records of at least recordBytes each: at most `most`, and no more than the remaining bytes can contain.
+  std::uint32_t count(std::size_t recordBytes, std::uint32_t most, std::string_view what);
+  void requireUnit(const glm::dvec3& v, std::string_view what) const;  // a unit vector within 1e-9
+  void end();                                                          // everything was read
   [[noreturn]] void fail(std::string_view problem, std::string_view expected, std::string_view found) const;
 
  private:

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace malus::pack {
@@ -18,10 +19,15 @@ inline constexpr std::size_t kAlignment = 16;
 inline constexpr std::uint32_t kMaxSections = 64;
 inline constexpr std::uint32_t kOptional = 1;  // flag: a reader that does not know the section skips it
 
-// Bounds of the schema. Geometry beyond them does not fit the renderers' 32-bit indices.
+// Bounds of the schema. Geometry beyond them does not fit the renderers' 32-bit indices; squares of larger lengths and
+// radiances overflow a float.
+inline constexpr double kMaxLength = 1e15;          // metres
+inline constexpr double kMaxLight = 1e15;           // radiance, intensity, irradiance
+inline constexpr double kMaxUnitComponent = 1.001;  // of a unit vector before its length is checked
 inline constexpr std::uint32_t kMaxMeshes = 65536;
 inline constexpr std::uint32_t kMaxMaterials = 4096;
 inline constexpr std::uint32_t kMaxLights = 4096;
+inline constexpr std::uint32_t kMaxEffects = 4096;
 inline constexpr std::uint32_t kMaxVertices = 1u << 28;
 inline constexpr std::uint32_t kMaxTriangles = 1u << 28;
 inline constexpr double kMaxCoordinate = 1e9;  // metres; the squared area of a face still fits a float
@@ -34,6 +40,7 @@ inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 28;  // of all t
 inline constexpr double kMaxAbsorption = 1e9;                        // 1/m
 inline constexpr double kMaxThicknessNm = 1e5;
 inline constexpr double kMaxRetardanceDegrees = 1e5;
+inline constexpr std::uint32_t kMaxProvenanceBytes = 1u << 24;
 
 struct Section {
   std::string id;  // four letters
@@ -52,14 +59,46 @@ inline constexpr const char* kCamera = "CAMR";
 inline constexpr const char* kEnvironment = "ENVR";
 inline constexpr const char* kLights = "LGHT";
 inline constexpr const char* kMaterials = "MATL";
-inline constexpr const char* kSurfaces = "SRFX";  // there where a material is not plain
-inline constexpr const char* kTextures = "TEXR";  // there where it has textures
-inline constexpr const char* kSky = "SKYP";       // there where the sky is polarized
+inline constexpr const char* kSurfaces = "SRFX";
+inline constexpr const char* kTextures = "TEXR";
+inline constexpr const char* kSky = "SKYP";
 inline constexpr const char* kMeshes = "MESH";
 inline constexpr const char* kGeometry = "GEOM";
-inline constexpr const char* kEncodings = "ENCD";   // optional
-inline constexpr const char* kSourceMap = "SMAP";   // optional; there where it was asked for
-inline constexpr const char* kEffects = "EFCT";     // optional
-inline constexpr const char* kProvenance = "PROV";  // optional
+inline constexpr const char* kEncodings = "ENCD";
+inline constexpr const char* kSourceMap = "SMAP";
+inline constexpr const char* kEffects = "EFCT";
+inline constexpr const char* kProvenance = "PROV";
+
+struct SectionInfo {
+  const char* id;
+  bool isRequired;       // every pack has it
+  std::uint32_t flags;   // of its entry in the table
+  const char* contents;  // one line for bake/FORMAT.md
+};
+
+// All sections that this malus knows, in the order of a written pack.
+inline constexpr auto kKnownSections = std::to_array<SectionInfo>({
+    {kMeta, true, 0, "names, image size, depth, exposure"},
+    {kCamera, true, 0, "camera"},
+    {kEnvironment, true, 0, "light from infinity"},
+    {kLights, true, 0, "point lights"},
+    {kMaterials, true, 0, "materials"},
+    {kSurfaces, false, 0, "properties that few materials have; written if a material has one"},
+    {kTextures, false, 0, "textures; written if a material has one"},
+    {kSky, false, 0, "polarization of the sky; written if it is polarized"},
+    {kMeshes, true, 0, "table of meshes"},
+    {kGeometry, true, 0, "geometry of the meshes"},
+    {kEncodings, false, kOptional, "bits and errors of the encoded meshes"},
+    {kSourceMap, false, kOptional, "map to the source files; written on request"},
+    {kEffects, false, kOptional, "effects that the scene needs"},
+    {kProvenance, false, kOptional, "versions, settings and hashes of the sources, as JSON"},
+});
+
+// nullptr: unknown.
+constexpr const SectionInfo* findSectionInfo(std::string_view id) {
+  for (const SectionInfo& info : kKnownSections)
+    if (id == info.id) return &info;
+  return nullptr;
+}
 
 }  // namespace malus::pack

@@ -6,55 +6,78 @@
 
 #include <fmt/format.h>
 
+#include "bake/pack/field_io.h"
+#include "bake/pack/record_fields.h"
 #include "meshprep/base/error.h"
 #include "meshprep/compress/draco_mesh.h"
 
 namespace malus::pack {
 
+namespace {
+
+void checkEntry(const ByteReader& r, const MeshEntry& entry, std::size_t materials, std::size_t geometryBytes,
+                std::uint64_t end) {
+  if (entry.material >= materials)
+    r.fail(fmt::format("material of mesh '{}' is out of range", entry.name),
+           fmt::format("an index below {}", materials), fmt::format("{}", entry.material));
+  // Meshes are in order and do not overlap: no byte is decoded twice, so a small file cannot claim the same mesh many
+  // times.
+  if (entry.offset % kAlignment != 0 || entry.offset < end || entry.offset > geometryBytes ||
+      entry.sizeBytes > geometryBytes - entry.offset)
+    r.fail(fmt::format("geometry of mesh '{}'", entry.name),
+           fmt::format("bytes from {} on within the {} of section GEOM", end, geometryBytes),
+           fmt::format("offset {}, size {}", entry.offset, entry.sizeBytes));
+}
+
+Mesh decodeMesh(const ByteReader& r, const MeshEntry& entry, std::span<const std::byte> bytes, std::string_view where) {
+  compress::TriangleMesh decoded =
+      compress::decode(bytes, {entry.vertices, entry.triangles}, fmt::format("{}, mesh '{}'", where, entry.name));
+  const bool hasNormals = (entry.flags & kNormalsFlag) != 0;
+  if (decoded.normals.empty() == hasNormals)
+    r.fail(fmt::format("normals of mesh '{}'", entry.name), hasNormals ? "normals, by its flags" : "none, by its flags",
+           hasNormals ? "none" : "normals");
+  for (const glm::vec3& p : decoded.positions) {
+    const float farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (farthest > static_cast<float>(kMaxCoordinate))
+      r.fail(fmt::format("positions of mesh '{}'", entry.name),
+             fmt::format("coordinates within {:g} m of the scene's origin", kMaxCoordinate),
+             fmt::format("{:g} m", farthest));
+  }
+  Mesh mesh;
+  mesh.name = entry.name;
+  mesh.material = entry.material;
+  mesh.sheet = (entry.flags & kOpenSurfaceFlag) != 0;
+  mesh.positions = std::move(decoded.positions);
+  mesh.normals = std::move(decoded.normals);
+  mesh.triangles = std::move(decoded.triangles);
+  return mesh;
+}
+
+}  // namespace
+
 void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::uint64_t geometryOffset, std::string_view where,
                 Pack& pack) {
-  const std::uint32_t count = r.count(40, "number of meshes");
-  if (count > kMaxMeshes) r.fail("number of meshes", fmt::format("at most {}", kMaxMeshes), fmt::format("{}", count));
+  FieldSizes sizes;
+  const MeshEntry any{};
+  visitMeshEntry(sizes, any);
+  const std::uint32_t count = r.count(sizes.bytes(), kMaxMeshes, "number of meshes");
   if (count == 0) r.fail("number of meshes", "at least 1", "0");
   std::uint64_t vertices = 0, triangles = 0, end = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    Mesh mesh;
-    mesh.name = r.text();
-    mesh.material = r.u32();
-    if (mesh.material >= pack.scene.materials.size())
-      r.fail("material of a mesh", fmt::format("an index below {}", pack.scene.materials.size()),
-             fmt::format("{}", mesh.material));
-    const std::uint32_t flags = r.u32AtMost(3, "flags of a mesh");
-    mesh.sheet = (flags & 1) != 0;
-    const compress::Limits limits{r.u32AtMost(kMaxVertices, "vertices of a mesh"),
-                                  r.u32AtMost(kMaxTriangles, "triangles of a mesh")};
-    const std::uint32_t method = r.u32AtMost(1, "encoding of a mesh");
-    const std::uint64_t offset = r.u64(), size = r.u64();
-    // In order and apart: no byte is decoded twice, so a small file cannot claim the same mesh many times.
-    if (offset % kAlignment != 0 || offset < end || offset > geometry.size() || size > geometry.size() - offset)
-      r.fail(fmt::format("geometry of mesh '{}'", mesh.name),
-             fmt::format("bytes from {} on within the {} of section GEOM", end, geometry.size()),
-             fmt::format("offset {}, size {}", offset, size));
-    end = offset + size;
-    vertices += limits.vertices;
-    triangles += limits.triangles;
+    MeshEntry entry;
+    visitMeshEntry(FieldReader(r), entry);
+    checkEntry(r, entry, pack.scene.materials.size(), geometry.size(), end);
+    end = entry.offset + entry.sizeBytes;
+    vertices += entry.vertices;
+    triangles += entry.triangles;
     if (vertices > kMaxVertices || triangles > kMaxTriangles)
-      r.fail("geometry is too large", "at most 2^28 vertices and triangles", "more");
-    compress::TriangleMesh decoded =
-        compress::decode(geometry.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size)), limits,
-                         fmt::format("{}, mesh '{}'", where, mesh.name));
-    if (decoded.normals.empty() != ((flags & 2) == 0))
-      r.fail(fmt::format("normals of mesh '{}'", mesh.name), "as the table says", "otherwise");
-    for (const glm::vec3& p : decoded.positions)
-      if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > static_cast<float>(kMaxCoordinate))
-        r.fail(fmt::format("positions of mesh '{}'", mesh.name),
-               fmt::format("coordinates within {:g} m of the scene's origin", kMaxCoordinate), "others");
-    mesh.positions = std::move(decoded.positions);
-    mesh.normals = std::move(decoded.normals);
-    mesh.triangles = std::move(decoded.triangles);
-    pack.geometry.push_back({geometryOffset + offset, size});
-    pack.compression.emplace_back(method == 1 ? "edgebreaker" : "sequential");
-    pack.scene.meshes.push_back(std::move(mesh));
+      r.fail("geometry is too large", "at most 2^28 vertices and triangles in all meshes",
+             fmt::format("{} vertices and {} triangles", vertices, triangles));
+    const auto bytes =
+        geometry.subspan(static_cast<std::size_t>(entry.offset), static_cast<std::size_t>(entry.sizeBytes));
+    pack.scene.meshes.push_back(decodeMesh(r, entry, bytes, where));
+    pack.geometry.push_back({geometryOffset + entry.offset, entry.sizeBytes});
+    pack.compression.emplace_back(entry.isEdgebreaker == 1 ? "edgebreaker" : "sequential");
   }
   r.end();
 }

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "bake/pack/field_io.h"
 #include "bake/pack/format.h"
+#include "bake/pack/record_fields.h"
 #include "meshprep/base/error.h"
 #include "meshprep/compress/bounds.h"
 
@@ -127,14 +129,15 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
 
     // Step 3: written down.
     geometry.padTo(kAlignment);
-    table.text(mesh.name);
-    table.u32(mesh.material);
-    table.u32((mesh.sheet ? 1u : 0u) | (mesh.normals.empty() ? 0u : 2u));
-    table.u32(static_cast<std::uint32_t>(result.vertices));
-    table.u32(static_cast<std::uint32_t>(result.triangles));
-    table.u32(report.method == "edgebreaker" ? 1 : 0);
-    table.u64(geometry.size());
-    table.u64(result.bytes.size());
+    const MeshEntry entry{mesh.name,
+                          mesh.material,
+                          (mesh.sheet ? kOpenSurfaceFlag : 0) | (mesh.normals.empty() ? 0 : kNormalsFlag),
+                          static_cast<std::uint32_t>(result.vertices),
+                          static_cast<std::uint32_t>(result.triangles),
+                          report.method == "edgebreaker" ? 1u : 0u,
+                          geometry.size(),
+                          result.bytes.size()};
+    visitMeshEntry(FieldWriter(table), entry);
     geometry.raw(result.bytes);
     for (const std::uint32_t v : result.sourceVertices) map.u32(v);
     for (const std::uint32_t f : result.sourceFaces) map.u32(f);

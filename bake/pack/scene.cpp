@@ -2,11 +2,6 @@
 
 namespace malus::pack {
 
-bool Material::isPlain() const {
-  return !isPolarizingElement(kind) && absorption == glm::dvec3(0.0) && outsideAbsorption == glm::dvec3(0.0) &&
-         coating.thicknessNm == 0 && roughness == 0 && polarization == 0 && !maps.any();
-}
-
 std::uint64_t Scene::vertexCount() const {
   std::uint64_t count = 0;
   for (const Mesh& mesh : meshes) count += mesh.positions.size();

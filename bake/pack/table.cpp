@@ -1,13 +1,12 @@
 #include "bake/pack/table.h"
 
-#include <algorithm>
 #include <cstring>
-#include <iterator>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "bake/pack/bytes.h"
+#include "bake/pack/material_fields.h"
 #include "meshprep/base/error.h"
 
 namespace malus::pack {
@@ -21,18 +20,51 @@ std::string idText(std::span<const std::byte> bytes) {
   return id;
 }
 
+// Newest version of a known section that this malus reads.
+std::uint32_t newestVersion(std::string_view id) { return id == kSurfaces ? newestSurfaceVersion() : 1; }
+
 void requireKnown(std::span<const Section> sections, std::string_view where) {
-  static const char* const kKnown[] = {kMeta, kCamera, kEnvironment, kLights,    kMaterials, kSurfaces, kTextures,
-                                       kSky,  kMeshes, kGeometry,    kEncodings, kSourceMap, kEffects,  kProvenance};
   for (const Section& section : sections) {
-    const bool known =
-        std::any_of(std::begin(kKnown), std::end(kKnown), [&](const char* id) { return section.id == id; });
-    if (!known && (section.flags & kOptional) == 0)
-      throw Error(where, fmt::format("section {} is required and unknown to this malus", section.id), "a newer malus");
-    if (known && section.version != 1)
-      throw Error(where, fmt::format("section {} has an unknown version", section.id), "1",
+    if (findSectionInfo(section.id) == nullptr) {
+      if ((section.flags & kOptional) == 0)
+        throw Error(where, fmt::format("section {} is required and unknown to this malus", section.id),
+                    "a newer malus");
+      continue;
+    }
+    const std::uint32_t newest = newestVersion(section.id);
+    if (section.version == 0 || section.version > newest)
+      throw Error(where, fmt::format("section {} has an unknown version", section.id), fmt::format("1 to {}", newest),
                   fmt::format("{}", section.version));
   }
+}
+
+// Reads one entry and checks its place in the file. end: that of the section before, or of the table.
+Section readEntry(ByteReader& reader, std::span<const std::byte> bytes, std::uint64_t end) {
+  Section section;
+  section.id = idText(reader.raw(4));
+  section.version = reader.u32();
+  section.flags = reader.u32();
+  reader.u32();
+  section.offset = reader.u64();
+  section.sizeBytes = reader.u64();
+  section.hash = reader.u64();
+  if (section.offset % kAlignment != 0 || section.offset < end || section.offset > bytes.size() ||
+      section.sizeBytes > bytes.size() - section.offset)
+    reader.fail(fmt::format("section {} is outside the file or overlaps another", section.id),
+                fmt::format("a multiple of {} from {} on, within {} bytes", kAlignment, end, bytes.size()),
+                fmt::format("offset {}, size {}", section.offset, section.sizeBytes));
+  return section;
+}
+
+// Checks the padding before a section, which is zero, so that every bit of the file has a meaning, and its hash.
+void checkBytes(std::span<const std::byte> bytes, const Section& section, std::uint64_t end, std::string_view where) {
+  for (std::uint64_t at = end; at < section.offset; ++at)
+    if (bytes[static_cast<std::size_t>(at)] != std::byte{0})
+      throw Error(fmt::format("{}, byte {}", where, at), "padding is damaged", "zero");
+  if (section.hash !=
+      hashOf(bytes.subspan(static_cast<std::size_t>(section.offset), static_cast<std::size_t>(section.sizeBytes))))
+    throw Error(fmt::format("{}, byte {}", where, section.offset), fmt::format("section {} is damaged", section.id),
+                "a matching hash", "another");
 }
 
 }  // namespace
@@ -64,28 +96,9 @@ void readTable(std::span<const std::byte> bytes, std::string_view where, Pack& p
   ByteReader reader(table, kHeaderBytes, where);
   std::uint64_t end = kHeaderBytes + tableBytes;
   for (std::uint32_t i = 0; i < count; ++i) {
-    Section section;
-    section.id = idText(reader.raw(4));
-    section.version = reader.u32();
-    section.flags = reader.u32();
-    reader.u32();
-    section.offset = reader.u64();
-    section.sizeBytes = reader.u64();
-    section.hash = reader.u64();
-    if (section.offset % kAlignment != 0 || section.offset < end || section.offset > bytes.size() ||
-        section.sizeBytes > bytes.size() - section.offset)
-      reader.fail(fmt::format("section {} lies outside the file or over another", section.id),
-                  "an offset past the last section",
-                  fmt::format("offset {}, size {}", section.offset, section.sizeBytes));
-    // Padding is zero, so that no bit of the file is without meaning.
-    for (std::uint64_t at = end; at < section.offset; ++at)
-      if (bytes[static_cast<std::size_t>(at)] != std::byte{0})
-        throw Error(fmt::format("{}, byte {}", where, at), "padding is damaged", "zero");
+    const Section section = readEntry(reader, bytes, end);
+    checkBytes(bytes, section, end, where);
     end = section.offset + section.sizeBytes;
-    if (section.hash !=
-        hashOf(bytes.subspan(static_cast<std::size_t>(section.offset), static_cast<std::size_t>(section.sizeBytes))))
-      throw Error(fmt::format("{}, byte {}", where, section.offset), fmt::format("section {} is damaged", section.id),
-                  "a matching hash", "another");
     pack.sections.push_back(section);
   }
   if (end != bytes.size())
@@ -93,15 +106,15 @@ void readTable(std::span<const std::byte> bytes, std::string_view where, Pack& p
   requireKnown(pack.sections, where);
 }
 
-std::optional<std::size_t> findSection(std::span<const Section> sections, std::string_view id, bool required,
-                                       std::string_view where) {
-  std::optional<std::size_t> found;
-  for (std::size_t i = 0; i < sections.size(); ++i)
-    if (sections[i].id == id) {
-      if (found) throw Error(where, fmt::format("section {} is there twice", id));
-      found = i;
-    }
-  if (!found && required) throw Error(where, fmt::format("section {} is missing", id));
+const Section* findSection(std::span<const Section> sections, std::string_view id, std::string_view where) {
+  const Section* found = nullptr;
+  for (const Section& section : sections) {
+    if (section.id != id) continue;
+    if (found != nullptr) throw Error(where, fmt::format("section {} occurs twice", id), "each section once");
+    found = &section;
+  }
+  if (found == nullptr && findSectionInfo(id)->isRequired)
+    throw Error(where, fmt::format("section {} is missing", id), "a complete pack");
   return found;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -12,12 +11,12 @@
 
 namespace malus::pack {
 
-// Fills formatVersion, sections and hash. Throws Error: no pack, another version, truncated, damaged, a section that is
-// required and unknown or of an unknown version.
+// Fills formatVersion, sections and hash. Throws Error: not a pack, another version, truncated, damaged, a section that
+// is required and unknown or of an unknown version.
 void readTable(std::span<const std::byte> bytes, std::string_view where, Pack& pack);
 
-// Which section has the id. Throws Error where it is there twice, or missing though required.
-std::optional<std::size_t> findSection(std::span<const Section> sections, std::string_view id, bool required,
-                                       std::string_view where);
+// The section with a known id; nullptr if the pack lacks it. Throws Error if it occurs twice, or is missing although
+// every pack has it.
+const Section* findSection(std::span<const Section> sections, std::string_view id, std::string_view where);
 
 }  // namespace malus::pack

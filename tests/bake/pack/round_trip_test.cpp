@@ -339,7 +339,7 @@ TEST(PackRoundTrip, WhatCannotBeReadBackIsNotWritten) {
   refuse("environment texel", [](Scene& s) { s.environment.texels[3].y = -1; });
   refuse("a position is not finite", [](Scene& s) { s.meshes[1].positions[0].x = INFINITY; });
   refuse("mesh 'sheet'", [](Scene& s) { s.meshes[1].triangles[0].x = 4; });
-  refuse("material of a mesh", [](Scene& s) { s.meshes[1].material = 3; });
+  refuse("material of mesh", [](Scene& s) { s.meshes[1].material = 3; });
   refuse("number of meshes", [](Scene& s) { s.meshes.clear(); });
   refuse("positions of mesh 'sheet'", [](Scene& s) { s.meshes[1].positions[0].x = 1e12f; });
   refuse("albedo", [](Scene& s) { s.materials[1].albedo.y = 1.5; });

@@ -1,0 +1,195 @@
+// The description of every record of a pack but the material (bake/pack/material_fields.h): one row per field, in the
+// order of the bytes. Bulk data (texels, geometry, maps to the source) and rules over several fields are code beside
+// the reader and the writer.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "bake/pack/encodings.h"
+#include "bake/pack/field.h"
+#include "bake/pack/format.h"
+#include "bake/pack/scene.h"
+
+namespace malus::pack {
+
+// META
+template <class Visitor, class... Scenes>
+void visitMeta(Visitor&& visit, Scenes&... s) {
+  visit(Field{.name = "name", .text = "short name"}, s.name...);
+  visit(Field{.name = "title", .text = "one line for people"}, s.title...);
+  visit(Field{.name = "origin",
+              .low = -kMaxLength,
+              .high = kMaxLength,
+              .unit = "m",
+              .text = "origin of every other position, in world space"},
+        s.origin...);
+  visit(Field{.name = "width", .low = 1, .high = kMaxResolution, .unit = "pixels", .text = "width of the image"},
+        s.width...);
+  visit(Field{.name = "height", .low = 1, .high = kMaxResolution, .unit = "pixels", .text = "height of the image"},
+        s.height...);
+  visit(Field{.name = "depth", .high = kMaxDepth, .text = "most specular interactions along a path"}, s.depth...);
+  visit(Field{.name = "exposureEv", .low = -100, .high = 100, .unit = "stops", .text = "display exposure"},
+        s.exposureEv...);
+}
+
+// CAMR
+template <class Visitor, class... Cameras>
+void visitCamera(Visitor&& visit, Cameras&... c) {
+  visit(Field{.name = "position", .low = -kMaxLength, .high = kMaxLength, .unit = "m", .text = "pinhole"},
+        c.position...);
+  visit(Field{.name = "right",
+              .low = -kMaxUnitComponent,
+              .high = kMaxUnitComponent,
+              .text = "the three axes are orthonormal within 1e-9"},
+        c.right...);
+  visit(Field{.name = "up", .low = -kMaxUnitComponent, .high = kMaxUnitComponent, .text = "up in the image"}, c.up...);
+  visit(Field{.name = "forward",
+              .low = -kMaxUnitComponent,
+              .high = kMaxUnitComponent,
+              .text = "into the scene; right-handed: right x up = -forward"},
+        c.forward...);
+  visit(
+      Field{
+          .name = "verticalFovDegrees", .low = 1e-3, .high = 179, .unit = "degrees", .text = "vertical field of view"},
+      c.verticalFovDegrees...);
+  visit(
+      Field{.name = "mediumEta", .low = kMinEta, .high = kMaxEta, .text = "index of the medium that the camera is in"},
+      c.mediumEta...);
+}
+
+// ENVR, then the texels of the map
+template <class Visitor, class... Environments>
+void visitEnvironment(Visitor&& visit, Environments&... e) {
+  visit(Field{.name = "radiance",
+              .high = kMaxLight,
+              .unit = "W/(m^2 sr)",
+              .text = "constant radiance, used if the size is 0"},
+        e.radiance...);
+  visit(Field{.name = "ambientIrradiance",
+              .high = 1e6,
+              .text = "share of the environment's irradiance that reaches diffuse surfaces"},
+        e.ambientIrradiance...);
+  visit(
+      Field{.name = "irradiance",
+            .low = -kMaxLight,
+            .high = kMaxLight,
+            .unit = "W/m^2",
+            .text = "coefficients of 1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2, multiplied by the factors of the clamped "
+                    "cosine (`irradiancePolynomial` in `shaders/optics/environment.h`)"},
+      e.irradiance...);
+  visit(Field{.name = "size",
+              .high = kMaxEnvironmentSize,
+              .unit = "texels",
+              .text = "side of the octahedral map without its border; 0: none"},
+        e.size...);
+}
+
+// SKYP
+template <class Visitor, class... Environments>
+void visitSky(Visitor&& visit, Environments&... e) {
+  visit(Field{.name = "sky.sun",
+              .low = -kMaxUnitComponent,
+              .high = kMaxUnitComponent,
+              .text = "unit vector toward the sun"},
+        e.sun...);
+  visit(Field{.name = "sky.maxDegree", .high = 1, .text = "degree of polarization at 90 degrees from the sun"},
+        e.skyDegree...);
+}
+
+// LGHT, per light
+template <class Visitor, class... Lights>
+void visitLight(Visitor&& visit, Lights&... l) {
+  visit(Field{.name = "position", .low = -kMaxLength, .high = kMaxLength, .unit = "m", .text = "position"},
+        l.position...);
+  visit(Field{.name = "intensity", .high = kMaxLight, .unit = "W/sr", .text = "radiant intensity"}, l.intensity...);
+}
+
+// TEXR, per texture, then its texels
+template <class Visitor, class... Textures>
+void visitTexture(Visitor&& visit, Textures&... t) {
+  visit(Field{.name = "name", .text = "file that it comes from"}, t.name...);
+  visit(Field{.name = "width", .low = 1, .high = kMaxTextureSide, .unit = "texels", .text = "width"}, t.width...);
+  visit(Field{.name = "height", .low = 1, .high = kMaxTextureSide, .unit = "texels", .text = "height"}, t.height...);
+}
+
+// EFCT, per effect
+template <class Visitor, class... Effects>
+void visitEffect(Visitor&& visit, Effects&... e) {
+  visit(Field{.name = "name", .text = "name"}, e.name...);
+  visit(Field{.name = "on", .high = 1, .text = "1: needed by the image"}, e.on...);
+  visit(Field{.name = "reason", .text = "reason, for people"}, e.reason...);
+}
+
+// MESH, per mesh
+struct MeshEntry {
+  std::string name;
+  std::uint32_t material = 0;
+  std::uint32_t flags = 0;  // of kOpenSurfaceFlag, kNormalsFlag
+  std::uint32_t vertices = 0, triangles = 0;
+  std::uint32_t isEdgebreaker = 0;
+  std::uint64_t offset = 0, sizeBytes = 0;  // in GEOM
+};
+inline constexpr std::uint32_t kOpenSurfaceFlag = 1, kNormalsFlag = 2;
+
+template <class Visitor, class... Entries>
+void visitMeshEntry(Visitor&& visit, Entries&... m) {
+  visit(Field{.name = "name", .text = "name"}, m.name...);
+  visit(Field{.name = "material", .high = kMaxMaterials - 1, .text = "index into MATL"}, m.material...);
+  visit(Field{.name = "flags",
+              .high = kOpenSurfaceFlag | kNormalsFlag,
+              .text = "bit 0: open surface that may transmit; bit 1: has normals"},
+        m.flags...);
+  visit(Field{.name = "vertices", .high = kMaxVertices, .text = "at most 2^28 over all meshes"}, m.vertices...);
+  visit(Field{.name = "triangles", .high = kMaxTriangles, .text = "at most 2^28 over all meshes"}, m.triangles...);
+  visit(Field{.name = "encoding", .high = 1, .text = "for information: 0 sequential, 1 edgebreaker"},
+        m.isEdgebreaker...);
+  visit(
+      Field{.name = "offset", .text = "of its Draco data in GEOM: a multiple of 16, past the data of the mesh before"},
+      m.offset...);
+  visit(Field{.name = "sizeBytes", .unit = "bytes", .text = "size of its Draco data"}, m.sizeBytes...);
+}
+
+// ENCD: the grid, then the number of meshes
+template <class Visitor, class... Grids>
+void visitGrid(Visitor&& visit, Grids&... g) {
+  constexpr double kFar = std::numeric_limits<float>::max();
+  visit(Field{.name = "grid.origin", .low = -kFar, .high = kFar, .unit = "m", .text = "corner of the grid, a float"},
+        g.origin...);
+  visit(Field{.name = "grid.range", .high = kFar, .unit = "m", .text = "side of the grid, a float"}, g.range...);
+  visit(Field{.name = "grid.positionBits", .high = compress::kMaxPositionBits, .text = "bits per coordinate"},
+        g.positionBits...);
+}
+
+// ENCD, per mesh
+template <class Visitor, class... Encoded>
+void visitMeshEncoding(Visitor&& visit, Encoded&... m) {
+  constexpr double kMaxDistance = 1e30;
+  visit(Field{.name = "inputHash",
+              .text = "XXH3 of all that the encoder was given: grid, bits, positions, normals and triangles as 32-bit "
+                      "numbers, and the map to the source if it is kept"},
+        m.inputHash...);
+  visit(Field{.name = "normalBits", .high = compress::kMaxNormalBits, .text = "bits of a normal; 0 without normals"},
+        m.normalBits...);
+  visit(Field{.name = "positionMax",
+              .high = kMaxDistance,
+              .unit = "m",
+              .text = "largest distance of a vertex from its source"},
+        m.deviation.positionMax...);
+  visit(Field{.name = "normalMaxDegrees",
+              .high = 180,
+              .unit = "degrees",
+              .text = "largest angle between a normal and its source"},
+        m.deviation.normalMaxDegrees...);
+  visit(Field{.name = "tiltMaxDegrees", .high = 180, .unit = "degrees", .text = "largest tilt of a face that has area"},
+        m.deviation.tiltMaxDegrees...);
+  visit(Field{.name = "tiltFace", .text = "the face with that tilt, counted as before encoding"},
+        m.deviation.tiltFace...);
+  visit(Field{.name = "flipped", .text = "number of flipped faces"}, m.deviation.flipped...);
+  visit(Field{.name = "newDegenerate", .text = "number of faces that lost their area"}, m.deviation.newDegenerate...);
+  visit(Field{.name = "degenerateFace", .text = "the first of them"}, m.deviation.degenerateFace...);
+  visit(Field{.name = "whySequential", .text = "reason for the sequential encoding; empty for edgebreaker"},
+        m.whySequential...);
+}
+
+}  // namespace malus::pack

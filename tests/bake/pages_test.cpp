@@ -1,0 +1,129 @@
+// The tables of bake/FORMAT.md and bake/SCENE.md are those of the descriptions in the code: every field is in the page
+// with its range, and every row of the page is a field. MALUS_UPDATE_PAGES=1 writes the tables (and fails, so that no
+// test run passes by it).
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "bake/pack/field_io.h"
+#include "bake/pack/material_fields.h"
+#include "bake/pack/record_fields.h"
+#include "meshprep/base/atomic_file.h"
+#include "tests/bake/fixtures.h"
+
+namespace malus::bake {
+namespace {
+
+using pack::Field;
+
+const std::filesystem::path kSource = MALUS_SOURCE_DIR;
+
+// "`metal`, `paint`": the kinds of a set.
+std::string kindNames(pack::KindSet kinds) {
+  std::vector<std::string> names;
+  for (const pack::MaterialKindInfo& info : pack::kMaterialKinds)
+    if (pack::contains(kinds, info.kind)) names.push_back(fmt::format("`{}`", info.name));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string boundsText(double low, double high, std::string_view unit) {
+  std::string text = low == 0 && high == 0 ? ""
+                     : low == -high        ? fmt::format("+-{:.9g}", high)
+                                           : fmt::format("{:.9g} to {:.9g}", low, high);
+  if (!unit.empty()) text += fmt::format("{}{}", text.empty() ? "" : " ", unit);
+  return text;
+}
+
+// Rows of a table of bake/FORMAT.md.
+struct FormatTable {
+  pack::FieldFilter filter = {};
+  std::string text = "| type | field | bounds | contents |\n|---|---|---|---|\n";
+
+  template <class T>
+  void operator()(const Field& field, const T& value) {
+    if (!filter.takes(field)) return;
+    std::string bounds = boundsText(field.low, field.high, field.unit);
+    if (field.isTexture) bounds = "0 to the count of `TEXR`";
+    if (field.isZeroForOthers) bounds += fmt::format("; 0 unless {}", kindNames(field.kinds));
+    text += fmt::format("| {} | `{}` | {} | {}{} |\n", pack::fieldType(value).name, field.name, bounds, field.text,
+                        field.since > 1 ? fmt::format(" (from version {})", field.since) : "");
+  }
+};
+
+template <class Record, class Describe>
+std::string formatTable(Describe describe, pack::FieldFilter filter = {}) {
+  FormatTable table{filter};
+  const Record any{};
+  describe(table, any);
+  return table.text;
+}
+
+#define MALUS_DESCRIBED(visit) [](auto& visitor, const auto& record) { pack::visit(visitor, record); }
+
+std::map<std::string, std::string> formatTables() {
+  std::string sections = "| id | required | optional flag | contents |\n|---|---|---|---|\n";
+  for (const pack::SectionInfo& s : pack::kKnownSections)
+    sections += fmt::format("| `{}` | {} | {} | {} |\n", s.id, s.isRequired ? "yes" : "no",
+                            (s.flags & pack::kOptional) != 0 ? "set" : "", s.contents);
+  std::string kinds = "| value | name | contents |\n|---|---|---|\n";
+  for (const pack::MaterialKindInfo& info : pack::kMaterialKinds)
+    kinds += fmt::format("| {} | `{}` | {} |\n", static_cast<std::uint32_t>(info.kind), info.name, info.summary);
+  return {{"sections", sections},
+          {"kinds", kinds},
+          {"META", formatTable<pack::Scene>(MALUS_DESCRIBED(visitMeta))},
+          {"CAMR", formatTable<pack::Camera>(MALUS_DESCRIBED(visitCamera))},
+          {"ENVR", formatTable<pack::Environment>(MALUS_DESCRIBED(visitEnvironment))},
+          {"LGHT", formatTable<pack::PointLight>(MALUS_DESCRIBED(visitLight))},
+          {"MATL", formatTable<pack::Material>(MALUS_DESCRIBED(visitMaterial), {pack::kMaterials})},
+          {"SRFX", formatTable<pack::Material>(MALUS_DESCRIBED(visitMaterial),
+                                               {pack::kSurfaces, pack::newestSurfaceVersion()})},
+          {"TEXR", formatTable<pack::Texture>(MALUS_DESCRIBED(visitTexture))},
+          {"SKYP", formatTable<pack::Environment>(MALUS_DESCRIBED(visitSky))},
+          {"MESH", formatTable<pack::MeshEntry>(MALUS_DESCRIBED(visitMeshEntry))},
+          {"ENCD grid", formatTable<compress::Grid>(MALUS_DESCRIBED(visitGrid))},
+          {"ENCD", formatTable<pack::MeshEncoding>(MALUS_DESCRIBED(visitMeshEncoding))},
+          {"EFCT", formatTable<pack::Effect>(MALUS_DESCRIBED(visitEffect))}};
+}
+
+// The page with the tables in the place of those between its comments "<!-- fields: NAME -->" and "<!-- end -->".
+std::string withTables(const std::string& page, const std::map<std::string, std::string>& tables) {
+  constexpr std::string_view kStart = "<!-- fields: ", kEnd = "<!-- end -->";
+  std::string result;
+  std::map<std::string, int> used;
+  std::size_t at = 0;
+  for (std::size_t start = page.find(kStart); start != std::string::npos; start = page.find(kStart, at)) {
+    const std::size_t close = page.find(" -->\n", start), end = page.find(kEnd, start);
+    if (close == std::string::npos || end == std::string::npos) throw Error("page", "a table has no end");
+    const std::string name = page.substr(start + kStart.size(), close - start - kStart.size());
+    if (!tables.contains(name)) throw Error("page", fmt::format("unknown table '{}'", name));
+    ++used[name];
+    result += page.substr(at, close + 5 - at) + tables.at(name);
+    at = end;
+  }
+  for (const auto& [name, ignored] : tables) EXPECT_EQ(used[name], 1) << "table '" << name << "' of the page";
+  return result + page.substr(at);
+}
+
+void checkPage(const std::filesystem::path& path, const std::map<std::string, std::string>& tables) {
+  const std::string page = readTextFile(path, std::size_t{1} << 24), expected = withTables(page, tables);
+  if (page == expected) return;
+  const char* update = std::getenv("MALUS_UPDATE_PAGES");
+  if (update != nullptr && std::string_view(update) == "1") {
+    std::ofstream stream(path, std::ios::binary);
+    ASSERT_TRUE((stream << expected).flush()) << path;
+    FAIL() << "wrote the tables of " << path << "; run again without MALUS_UPDATE_PAGES";
+  }
+  std::size_t first = 0;
+  while (first < page.size() && first < expected.size() && page[first] == expected[first]) ++first;
+  FAIL() << path << " differs from the description at \"" << page.substr(first, 80) << "\"; expected \""
+         << expected.substr(first, 80) << "\". MALUS_UPDATE_PAGES=1 writes the tables";
+}
+
+TEST(Pages, Format) { checkPage(kSource / "bake/FORMAT.md", formatTables()); }
+
+}  // namespace
+}  // namespace malus::bake

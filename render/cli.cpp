@@ -481,12 +481,10 @@ void listMethods() {
 }
 
 void listDevices() {
-  const std::vector<vulkan::DeviceDescription> devices = vulkan::devices();
-  if (devices.empty())
-    throw Error("Vulkan", "no device", "a driver such as Mesa's lavapipe (mesa-vulkan-drivers 24.3 or later)");
-  for (std::size_t i = 0; i < devices.size(); ++i)
-    fmt::print("{}  {} ({}){}\n", i, devices[i].name, devices[i].driver,
-               devices[i].problem.empty() ? "" : ": " + devices[i].problem);
+  int number = 0;
+  for (const vulkan::DeviceDescription& d : vulkan::devices())
+    fmt::print("{}  {}; driver {}{}{}\n", number++, d.name, d.driver,
+               d.problem.empty() ? "" : "; not usable: " + d.problem, d.isDefault ? "; used by default" : "");
 }
 
 }  // namespace malus::render

@@ -67,15 +67,15 @@ Request makeRequest(const std::string& wanted) {
   return {variable ? variable : "", "MALUS_DEVICE"};
 }
 
-const PhysicalDevice& findRequested(const std::vector<PhysicalDevice>& devices, const Request& request) {
+// Null: no such device.
+const PhysicalDevice* findRequested(const std::vector<PhysicalDevice>& devices, const Request& request) {
   const bool isNumber = request.value.size() < 6 && std::all_of(request.value.begin(), request.value.end(),
                                                                 [](unsigned char c) { return std::isdigit(c) != 0; });
   for (std::size_t i = 0; i < devices.size(); ++i)
     if (isNumber ? std::stoul(request.value) == i
                  : lower(devices[i].name + " " + devices[i].driver).find(lower(request.value)) != std::string::npos)
-      return devices[i];
-  throw Error(request.source, "no such Vulkan device", "a number or part of a name from 'malus --list-devices'",
-              fmt::format("'{}'", request.value));
+      return &devices[i];
+  return nullptr;
 }
 
 const PhysicalDevice& findBest(const std::vector<PhysicalDevice>& devices) {
@@ -113,18 +113,27 @@ std::vector<PhysicalDevice> listPhysicalDevices(const Instance& instance) {
                       fmt::format("{} {}", driver.driverName, driver.driverInfo),
                       findProblem(handle, properties.properties), properties.properties.deviceType});
   }
+  if (result.empty()) throw Error("Vulkan", "no device found", kInstallDriver);
   return result;
+}
+
+const PhysicalDevice* findDefaultDevice(const std::vector<PhysicalDevice>& devices) {
+  const Request request = makeRequest("");
+  const PhysicalDevice* const found = request.value.empty() ? &findBest(devices) : findRequested(devices, request);
+  return found && found->problem.empty() ? found : nullptr;
 }
 
 PhysicalDevice choosePhysicalDevice(const Instance& instance, const std::string& wanted) {
   const std::vector<PhysicalDevice> devices = listPhysicalDevices(instance);
-  if (devices.empty()) throw Error("Vulkan", "no device found", kInstallDriver);
   const Request request = makeRequest(wanted);
-  const PhysicalDevice& chosen = request.value.empty() ? findBest(devices) : findRequested(devices, request);
-  if (!chosen.problem.empty())
-    throw Error("Vulkan", fmt::format("device '{}' cannot be used: {}", chosen.name, chosen.problem),
+  const PhysicalDevice* const chosen = request.value.empty() ? &findBest(devices) : findRequested(devices, request);
+  if (!chosen)
+    throw Error(request.source, "no such Vulkan device", "a number or part of a name from 'malus --list-devices'",
+                fmt::format("'{}'", request.value));
+  if (!chosen->problem.empty())
+    throw Error("Vulkan", fmt::format("device '{}' cannot be used: {}", chosen->name, chosen->problem),
                 request.value.empty() ? kInstallDriver : kChooseDevice);
-  return chosen;
+  return *chosen;
 }
 
 }  // namespace malus::vulkan

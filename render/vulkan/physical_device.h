@@ -19,12 +19,15 @@ struct PhysicalDevice {
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
 };
 
-// In the order in which the loader enumerates them, which numbers them for --device.
+// At least one, in the order in which the loader enumerates them, which numbers them for --device. Throws Error: none.
 std::vector<PhysicalDevice> listPhysicalDevices(const Instance& instance);
 
 // wanted: a number or a part of a name (case is ignored); empty: the value of MALUS_DEVICE, otherwise the first usable
 // discrete GPU, otherwise an integrated, a virtual GPU, a CPU. Throws Error: no device, no such device, not usable.
 PhysicalDevice choosePhysicalDevice(const Instance& instance, const std::string& wanted);
+
+// The usable device of the list that is chosen without --device; null: none, or MALUS_DEVICE names another.
+const PhysicalDevice* findDefaultDevice(const std::vector<PhysicalDevice>& devices);
 
 // Extensions that every device must have.
 const std::vector<const char*>& requiredExtensions();

@@ -139,7 +139,7 @@ render::RenderResult Renderer::Impl::trace(const Variant& variant, const render:
   image.width = parameters.region.width;
   image.height = parameters.region.height;
   image.channels = render::hasStokes(render::methodNamed(variant.method), parameters) ? render::kStokesChannels
-                                                                                        : render::kColourChannels;
+                                                                                      : render::kColourChannels;
   image.pixels.resize(image.channels * image.width * image.height);
   pixels.reserve(image.pixels.size(), bindings);
   host.rayCount.write(0);
@@ -208,8 +208,10 @@ std::uint64_t Renderer::countRays(std::string_view method, const render::RenderP
 
 std::vector<DeviceDescription> devices() {
   const Instance instance(0);
+  const std::vector<PhysicalDevice> list = listPhysicalDevices(instance);
+  const PhysicalDevice* const byDefault = findDefaultDevice(list);
   std::vector<DeviceDescription> result;
-  for (const PhysicalDevice& d : listPhysicalDevices(instance)) result.push_back({d.name, d.driver, d.problem});
+  for (const PhysicalDevice& d : list) result.push_back({d.name, d.driver, d.problem, &d == byDefault});
   return result;
 }
 

@@ -20,9 +20,11 @@ struct Options {
 struct DeviceDescription {
   std::string name;
   std::string driver;
-  std::string problem;  // empty: usable
+  std::string problem;     // empty: usable
+  bool isDefault = false;  // chosen by an empty Options::device
 };
-// All devices, in the order of their numbers for Options::device. Throws Error: no Vulkan driver.
+// All devices, in the order of their numbers for Options::device; at least one. Throws Error: no Vulkan driver, no
+// device.
 std::vector<DeviceDescription> devices();
 
 class Renderer final : public render::Renderer {

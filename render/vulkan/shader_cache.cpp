@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t kSpirvMagic = 0x07230203;
 
-// The text with every include put in its place: what the key has to cover.
+// Appends the text, and each file that it includes, once.
 void expand(const Variant& variant, std::string_view text, std::set<std::string>& seen, std::string& out) {
   out += text;
   for (std::size_t at = text.find("#include \""); at != std::string_view::npos; at = text.find("#include \"", at + 1)) {
@@ -30,7 +30,8 @@ void expand(const Variant& variant, std::string_view text, std::set<std::string>
   }
 }
 
-std::string keyOf(const Variant& variant, const StageSource& source) {
+// File name of a compiled shader: a hash of all that affects the compilation.
+std::string cacheFileName(const Variant& variant, const StageSource& source) {
   std::string all = glslangVersion() + preamble(variant);
   std::set<std::string> seen;
   expand(variant, stageText(source), seen, all);
@@ -38,7 +39,7 @@ std::string keyOf(const Variant& variant, const StageSource& source) {
   return fmt::format("{:016x}{:016x}.spv", hash.high64, hash.low64);
 }
 
-// A file ends with the hash of what comes before, so that a damaged one is compiled anew.
+// A file ends with the hash of its other bytes. Empty: missing or damaged.
 std::vector<std::uint32_t> load(const fs::path& path) {
   try {
     const std::vector<std::byte> bytes = readFile(path, std::size_t{1} << 26);
@@ -62,7 +63,7 @@ void save(const fs::path& path, const std::vector<std::uint32_t>& words) {
     const std::uint64_t hash = XXH3_64bits(bytes.data(), words.size() * 4);
     std::memcpy(bytes.data() + words.size() * 4, &hash, 8);
     writeFile(path, bytes);
-  } catch (const std::exception&) {  // without a cache the next run compiles again
+  } catch (const std::exception&) {  // the next run compiles again
   }
 }
 
@@ -70,7 +71,7 @@ void save(const fs::path& path, const std::vector<std::uint32_t>& words) {
 
 std::vector<std::uint32_t> cachedSpirv(const Variant& variant, const StageSource& source) {
   const fs::path folder = cacheFolder("spirv");
-  const fs::path file = folder.empty() ? fs::path() : folder / keyOf(variant, source);
+  const fs::path file = folder.empty() ? fs::path() : folder / cacheFileName(variant, source);
   if (!file.empty())
     if (std::vector<std::uint32_t> words = load(file); !words.empty()) return words;
   std::vector<std::uint32_t> words = compileGlsl(stageText(source), preamble(variant), source.stage, source.path,

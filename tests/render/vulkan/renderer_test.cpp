@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -85,12 +87,26 @@ TEST(VulkanRenderer, RegionIsAPartOfTheImage) {
       ASSERT_EQ(part.pixels[y * 60 + x], whole.pixels[(y + 7) * scene.width * 3 + 30 + x]);
 }
 
+// Expects an Error whose message contains all key words.
+template <typename Call>
+void expectError(const Call& call, const std::vector<std::string>& keyWords) {
+  try {
+    call();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    for (const std::string& word : keyWords)
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << word << " in: " << error.what();
+  }
+}
+
 TEST(VulkanRenderer, DepthOverTheRecursionLimitIsRejected) {
   const pack::Scene scene = makeScene();
   Renderer renderer(scene, {});
   render::RenderParameters parameters = render::defaultParameters(scene);
   parameters.depth = renderer.maxDepth("stokes") + 1;
-  EXPECT_THROW(renderer.render("fresnel", parameters), Error);
+  const std::string limit = std::to_string(renderer.maxDepth("stokes"));
+  expectError([&] { renderer.render("fresnel", parameters); }, {"--depth", limit, "iterative"});
+  expectError([&] { renderer.countRays("fresnel", parameters); }, {"--depth", limit, "iterative"});
   // An iterative method does not recurse.
   parameters.region = {0, 0, 2, 2};
   EXPECT_NO_THROW(renderer.render("fresnel-iterative", parameters));
@@ -100,14 +116,19 @@ TEST(VulkanRenderer, DepthOverTheRecursionLimitIsRejected) {
 
 TEST(VulkanRenderer, UnknownDeviceIsRejected) {
   const pack::Scene scene = makeScene();
-  EXPECT_THROW(Renderer(scene, {"no such device", 0}), Error);
-  EXPECT_THROW(Renderer(scene, {"99", 0}), Error);
+  expectError([&] { Renderer(scene, {"no such device", 0}); }, {"--device", "'no such device'", "--list-devices"});
+  expectError([&] { Renderer(scene, {"99", 0}); }, {"--device", "'99'", "--list-devices"});
 }
 
 TEST(VulkanRenderer, ListsTheDevices) {
   const std::vector<DeviceDescription> list = devices();
   ASSERT_FALSE(list.empty());
-  EXPECT_TRUE(std::any_of(list.begin(), list.end(), [](const DeviceDescription& d) { return d.problem.empty(); }));
+  const auto isDefault = [](const DeviceDescription& d) { return d.isDefault; };
+  ASSERT_EQ(std::count_if(list.begin(), list.end(), isDefault), 1);
+  const DeviceDescription& byDefault = *std::find_if(list.begin(), list.end(), isDefault);
+  EXPECT_TRUE(byDefault.problem.empty());
+  const pack::Scene scene = makeScene();
+  EXPECT_NE(Renderer(scene, {}).device().find(byDefault.name), std::string::npos);
 }
 
 }  // namespace

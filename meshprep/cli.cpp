@@ -176,6 +176,18 @@ void addPrepCommand(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("SHARE")
       ->capture_default_str();
+  prep->add_option("--simplify-error", arguments->options.simplify.maxError,
+                   "Collapse edges while the surface stays within this distance")
+      ->check(CLI::PositiveNumber)
+      ->type_name("METRES");
+  prep->add_option("--simplify-triangles", arguments->options.simplify.triangles,
+                   "Collapse edges until so many triangles are left")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  prep->add_option("--simplify-normal", arguments->options.simplify.maxNormalErrorDegrees,
+                   "Collapse edges only while the normals of the surface stay within this angle")
+      ->check(CLI::Range(0.0, 180.0))
+      ->type_name("DEGREES");
   prep->add_option("--max-error", arguments->bounds.maxError, "No vertex is farther from its source than this")
       ->check(CLI::PositiveNumber)
       ->type_name("METRES");

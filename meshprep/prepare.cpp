@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -21,6 +22,7 @@
 #include "meshprep/normals/crease_normals.h"
 #include "meshprep/normals/smoothing_normals.h"
 #include "meshprep/read/read_mesh.h"
+#include "meshprep/simplify/simplify.h"
 
 namespace malus::prep {
 
@@ -34,6 +36,28 @@ void checkOptions(const Options& options) {
     throw Error("prep", "a weld tolerance out of bounds", "0 or more metres", fmt::to_string(tolerance));
   if (!(options.weldRelative >= 0 && options.weldRelative <= 1))
     throw Error("prep", "a relative weld tolerance out of bounds", "0 to 1", fmt::to_string(options.weldRelative));
+  checkSimplifyBounds(options.simplify);
+  if (!options.simplify.any()) return;
+  if (options.asIs)
+    throw Error("prep --simplify", "simplification needs a cleaned mesh", "a mesh that is not taken as it is");
+  const Cleaning& steps = options.steps;
+  if (!steps.degenerate || !steps.duplicates || !steps.orient || !steps.fans)
+    throw Error("prep --simplify", "simplification needs an oriented manifold",
+                "cleaning with the steps degenerate, duplicates, orient and fans", "--skip of one of them");
+  if (!options.flat && options.normals == Normals::authored)
+    throw Error("prep --simplify", "the file's normals do not fit a simplified mesh",
+                "--normals crease or --normals smoothing", "--normals authored");
+}
+
+// The material of each face of the file, as a number; empty if all faces have the same.
+std::vector<std::uint32_t> faceMaterials(const Polygons& polygons) {
+  std::map<std::string_view, std::uint32_t> ids;
+  for (const Part& part : polygons.parts) ids.emplace(part.material, static_cast<std::uint32_t>(ids.size()));
+  if (ids.size() < 2) return {};
+  std::vector<std::uint32_t> materials;
+  materials.reserve(polygons.partOf.size());
+  for (const std::uint32_t part : polygons.partOf) materials.push_back(ids.at(polygons.parts[part].material));
+  return materials;
 }
 
 // The file's own normals, made unit.
@@ -53,8 +77,9 @@ std::vector<glm::vec3> authoredNormals(const Polygons& polygons, const std::stri
 // The steps, each with its entry in the report.
 class Preparation {
  public:
-  Preparation(Mesh mesh, const Options& options, Report& report)
-      : mesh_(std::move(mesh)), options_(options), report_(report) {}
+  // faceMaterials: of the faces of the source; empty if they all have the same.
+  Preparation(Mesh mesh, const Options& options, std::vector<std::uint32_t> faceMaterials, Report& report)
+      : mesh_(std::move(mesh)), options_(options), faceMaterials_(std::move(faceMaterials)), report_(report) {}
 
   Mesh run() {
     nameSources();
@@ -123,7 +148,41 @@ class Preparation {
     step("holes-left", std::move(done.filled.left));
     step("rounds-ran-out", done.settled ? 0 : 1);
     sides_ = std::move(done.sides);
+    if (options_.simplify.any()) simplifyMesh();
     tellSides();
+  }
+
+  void simplifyMesh() {
+    SimplifyLines lines;
+    if (!options_.flat && options_.normals == Normals::crease) lines.creaseDegrees = options_.creaseDegrees;
+    lines.smoothingGroups = !options_.flat && options_.normals == Normals::smoothing && !mesh_.smoothingGroups.empty();
+    std::vector<std::uint32_t> materials;
+    if (!faceMaterials_.empty())
+      for (const std::uint32_t face : mesh_.sourceFaces) materials.push_back(faceMaterials_[face]);
+    lines.materials = materials;
+    if (sides_.notOrientable > 0) {
+      report_.simplification = {true, mesh_.triangles.size(), mesh_.triangles.size(), 0, 0, {}};
+      report_.simplification.warnings.emplace_back(
+          "the mesh is unchanged: a component has one side only; cut it where it twists");
+      return;
+    }
+    if (options_.certifyGlass) unsimplified_ = mesh_;
+    report_.simplification = simplify(mesh_, options_.simplify, lines);
+    sides_ = orient(mesh_, options_.sheet);
+  }
+
+  // Problems of a mesh that would be certified without simplification need another repair.
+  void blameSimplification() {
+    const Simplification& s = report_.simplification;
+    if (report_.certificate.holds() || s.trianglesAfter == s.trianglesBefore) return;
+    const OrientResult sides = orient(unsimplified_, options_.sheet);
+    Intersections intersections;
+    if (!options_.sheet) intersections = findIntersections(unsimplified_);
+    if (!certifyGlass(unsimplified_, options_.sheet, {sides, intersections}).holds()) return;
+    for (Problem& problem : report_.certificate.problems)
+      problem.repair =
+          "simplify less, because the mesh is certified without simplification: lower --simplify-error or "
+          "--simplify-normal, or raise --simplify-triangles";
   }
 
   void tellSides() {
@@ -158,7 +217,9 @@ class Preparation {
       step("faces-coincident", describePairs(mesh_, intersections.coincident));
       step("faces-crossing-unchecked", intersections.complete ? 0 : 1);
     }
-    if (options_.certifyGlass) report_.certificate = certifyGlass(mesh_, options_.sheet, {sides_, intersections});
+    if (!options_.certifyGlass) return;
+    report_.certificate = certifyGlass(mesh_, options_.sheet, {sides_, intersections});
+    blameSimplification();
   }
 
   void addNormals() {
@@ -188,6 +249,8 @@ class Preparation {
 
   Mesh mesh_;
   const Options& options_;
+  std::vector<std::uint32_t> faceMaterials_;
+  Mesh unsimplified_;  // kept for a certificate
   Report& report_;
   OrientResult sides_;
 };
@@ -211,7 +274,7 @@ void addPlaces(const Polygons& polygons, Report& report) {
 
 Mesh clean(Mesh mesh, const Options& options, Report& report) {
   checkOptions(options);
-  return Preparation(std::move(mesh), options, report).run();
+  return Preparation(std::move(mesh), options, {}, report).run();
 }
 
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report) {
@@ -248,7 +311,7 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
     report.output.triangles = mesh.triangles.size();
     return mesh;
   }
-  mesh = clean(std::move(mesh), options, report);
+  mesh = Preparation(std::move(mesh), options, faceMaterials(polygons), report).run();
   addPlaces(polygons, report);
   return mesh;
 }

@@ -1,10 +1,10 @@
 // From a mesh file as a modeller leaves it to a mesh that a renderer can trust.
 //
-// read -> triangulate -> weld -> degenerate -> duplicates -> unreferenced -> orient -> fans -> holes -> junctions and
-// intersections (told) -> certificate -> normals. Each step of cleaning can be left out, counts what it found and
-// changed, and names the first of them with their vertices, faces and places in the file; nothing is dropped
-// uncounted. A mesh that needs nothing keeps its vertices and triangles in their order; a mesh that was cleaned needs
-// nothing more. Coordinates are taken as metres, in double. Compression is separate: see compress/draco_mesh.h.
+// read -> triangulate -> weld -> degenerate -> duplicates -> unreferenced -> orient -> fans -> holes -> simplify ->
+// junctions and intersections (reported) -> certificate -> normals. Each step of cleaning can be left out, counts what
+// it found and changed, and names the first of them with their vertices, faces and places in the file; nothing is
+// dropped uncounted. A mesh that needs nothing keeps its vertices and triangles in their order; a mesh that was cleaned
+// needs nothing more. Coordinates are taken as metres, in double. Compression is separate: see compress/draco_mesh.h.
 #pragma once
 
 #include <filesystem>
@@ -14,6 +14,7 @@
 #include "meshprep/mesh.h"
 #include "meshprep/read/polygons.h"
 #include "meshprep/report.h"
+#include "meshprep/simplify/simplify.h"
 
 namespace malus::prep {
 
@@ -32,6 +33,9 @@ struct Options {
   // Cleaning; its `sheet` is that of the mesh.
   Cleaning steps;
   double weldRelative = 0;  // steps.weldTolerance as a share of the diagonal of the mesh's box; the larger of the two
+
+  // Simplification after cleaning; none if no bound is set. Needs all steps of cleaning but unreferenced and weld.
+  SimplifyBounds simplify;
 
   // Looking, and normals.
   bool findJunctions = true;       // tell vertices that lie on a boundary edge

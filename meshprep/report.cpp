@@ -75,6 +75,14 @@ nlohmann::json toJson(const Report& report) {
                                   {"hasVolume", c.hasVolume},
                                   {"at", {c.at.x, c.at.y, c.at.z}},
                                   {"firstFace", c.firstFace}});
+  if (report.simplification.applied) {
+    const Simplification& s = report.simplification;
+    json["simplification"] = {{"trianglesBefore", s.trianglesBefore},
+                              {"trianglesAfter", s.trianglesAfter},
+                              {"maxDeviation", s.maxDeviation},
+                              {"maxNormalDegrees", s.maxNormalDegrees},
+                              {"warnings", s.warnings}};
+  }
   if (report.certificate.checked) {
     json["certificate"] = {{"holds", report.certificate.holds()}, {"problems", nlohmann::json::array()}};
     for (const Problem& p : report.certificate.problems)
@@ -125,14 +133,23 @@ std::string toText(const Report& report) {
   text += fmt::format("  {:<34}{:>12}\n", "  with turned triangles",
                       count([](const Component& c) { return c.flipped > 0; }));
 
-  // Step 4: the certificate.
+  // Step 4: simplification.
+  if (report.simplification.applied) {
+    const Simplification& s = report.simplification;
+    text += fmt::format("  {:<34}{:>12}{:>12}\n", "triangles simplified", s.trianglesBefore, s.trianglesAfter);
+    text += fmt::format("  {:<34}{:>12.3g} m\n", "  deviation, at most", s.maxDeviation);
+    text += fmt::format("  {:<34}{:>12.3g} degrees\n", "  normal deviation, at most", s.maxNormalDegrees);
+    for (const std::string& warning : s.warnings) text += fmt::format("  warning: {}\n", warning);
+  }
+
+  // Step 5: the certificate.
   if (report.certificate.checked) {
     text += fmt::format("  {:<34}{:>12}\n", "certificate", report.certificate.holds() ? "holds" : "refused");
     for (const Problem& p : report.certificate.problems)
       text += fmt::format("    component {}: {}; {}; {}\n", p.component, p.what, p.where, p.repair);
   }
 
-  // Step 5: compression.
+  // Step 6: compression.
   if (report.compression.bytes > 0) {
     const auto& c = report.compression;
     text += fmt::format("  {:<34}{:>12} bytes, {:.2f} a triangle\n", "compressed", c.bytes, bytesPerTriangle(report));

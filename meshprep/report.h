@@ -48,6 +48,15 @@ struct Certificate {
   bool holds() const { return checked && problems.empty(); }
 };
 
+// Result of simplification.
+struct Simplification {
+  bool applied = false;  // requested
+  std::uint64_t trianglesBefore = 0, trianglesAfter = 0;
+  double maxDeviation = 0;      // metres, an upper bound of the distance between the surfaces, in both directions
+  double maxNormalDegrees = 0;  // between an original triangle and the simplified surface
+  std::vector<std::string> warnings;
+};
+
 struct Report {
   std::string source;
   std::vector<std::string> notes;  // what the file holds and reading left out
@@ -61,6 +70,7 @@ struct Report {
   } output;
   std::vector<Step> steps;
   std::vector<Component> components;
+  Simplification simplification;
   Certificate certificate;
 
   // Set where the mesh was compressed: bytes > 0.
@@ -88,9 +98,11 @@ struct Report {
 // {source, notes[], input{vertices, faces}, output{vertices, triangles},
 //  steps[{name, count, findings[{vertices, faces, at, what, place}]}],
 //  components[{triangles, closed, orientable, flipped, signedVolume, hasVolume, at, firstFace}],
+//  simplification{trianglesBefore, trianglesAfter, maxDeviation, maxNormalDegrees, warnings},
 //  certificate{holds, problems[{component, what, where, repair}]}, errors{positionMax, normalMaxDegrees,
 //  tiltMaxDegrees, flipped, degenerate}, compression{method, whySequential, bytes, bytesPerTriangle, positionBits,
-//  normalBits, encodeMs, decodeMs, warnings}}; certificate only where it was asked for, errors and compression only
+//  normalBits, encodeMs, decodeMs, warnings}}; simplification and certificate only where they were requested, errors
+//  and compression only
 // where the mesh was compressed, findings and their parts only where there are any.
 nlohmann::json toJson(const Report& report);
 

@@ -1,4 +1,4 @@
-#include "bake/pack/encodings.h"
+#include "bake/pack/encodings_section.h"
 
 #include <xxhash.h>
 

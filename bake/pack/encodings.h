@@ -1,14 +1,11 @@
-// How the meshes of a pack were encoded and how far they are off: section ENCD. It tells people what was reached, and a
-// baker which meshes it need not encode again.
+// Encoding and deviation of the meshes of a pack, from its section ENCD. A baker reuses the meshes whose input hash is
+// unchanged.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "bake/pack/bytes.h"
-#include "bake/pack/scene.h"
 #include "meshprep/compress/draco_mesh.h"
 
 namespace malus::pack {
@@ -20,7 +17,7 @@ struct DracoData {
 };
 
 struct MeshEncoding {
-  std::uint64_t inputHash = 0;  // of all that the encoder was given: inputHash()
+  std::uint64_t inputHash = 0;  // of every input of the encoder
   std::uint32_t normalBits = 0;
   compress::Deviation deviation;
   std::string whySequential;  // empty for edgebreaker
@@ -28,15 +25,8 @@ struct MeshEncoding {
 
 struct Encodings {
   compress::Grid grid;
-  std::vector<MeshEncoding> meshes;  // one a mesh; none where nothing is known
+  std::vector<MeshEncoding> meshes;  // per mesh; empty if the pack has no section ENCD
   bool known() const { return !meshes.empty(); }
 };
-
-// XXH3 of positions, normals, triangles, grid and bits, and of the map to the source where it is kept: equal inputs
-// give equal bytes from one version of the codec.
-std::uint64_t inputHash(const Mesh& mesh, const compress::Settings& settings, bool keepMap);
-
-std::vector<std::byte> encodingBytes(const Encodings& encodings);
-Encodings readEncodings(ByteReader reader, std::size_t meshes);
 
 }  // namespace malus::pack

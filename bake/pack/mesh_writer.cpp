@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/pack/encodings_section.h"
 #include "bake/pack/field_io.h"
 #include "bake/pack/format.h"
 #include "bake/pack/record_fields.h"

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "bake/pack/bytes.h"
+#include "bake/pack/encodings_section.h"
 #include "bake/pack/field_io.h"
 #include "bake/pack/half.h"
 #include "bake/pack/material_reader.h"

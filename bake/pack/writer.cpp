@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bake/pack/bytes.h"
+#include "bake/pack/encodings_section.h"
 #include "bake/pack/field_io.h"
 #include "bake/pack/format.h"
 #include "bake/pack/half.h"

@@ -1,4 +1,4 @@
-// The `malus` command: gathers the modules' command lines and gives every end its exit code.
+// The `malus` command: subcommands of the modules, exit codes.
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -17,6 +17,7 @@
 #include "render/material_cli.h"
 #include "render/sweep_cli.h"
 #include "render/vulkan/gpu_model.h"
+#include "tools/completion.h"
 
 namespace {
 
@@ -28,14 +29,14 @@ int fail(const char* message) {
   return kFailed;
 }
 
-// A full disk behind stdout shows only when it is flushed; what CLI11 prints is flushed before.
+// Reports a failed write to standard output, for example to a full disk. CLI11 flushes its own output.
 int finish() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return fail("cannot write to standard output");
   return kDone;
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"malus: polarized mirror and glass reflections, and what they cost", "malus"};
+  CLI::App app{"malus: polarized mirror and glass reflections, with their cost", "malus"};
   app.set_version_flag("--version", "malus " MALUS_VERSION);
   app.require_subcommand(0, 1);
   app.fallthrough();
@@ -43,14 +44,14 @@ int run(int argc, char** argv) {
   bool listMethods = false, listMaterials = false, listDevices = false;
   app.add_flag_callback(
          "-q,--quiet", [] { malus::console::setVerbosity(malus::console::Verbosity::quiet); },
-         "no progress, no warnings")
+         "Print no progress and no warnings")
       ->trigger_on_parse();
   app.add_flag_callback(
-         "-v,--verbose", [] { malus::console::setVerbosity(malus::console::Verbosity::verbose); }, "say more")
+         "-v,--verbose", [] { malus::console::setVerbosity(malus::console::Verbosity::verbose); }, "Print details")
       ->trigger_on_parse();
-  app.add_flag("--list-methods", listMethods, "list the methods of rendering");
-  app.add_flag("--list-materials", listMaterials, "list the materials with published n and k");
-  app.add_flag("--list-devices", listDevices, "list the Vulkan devices");
+  app.add_flag("--list-methods", listMethods, "List the rendering methods");
+  app.add_flag("--list-materials", listMaterials, "List the materials with published n and k");
+  app.add_flag("--list-devices", listDevices, "List the Vulkan devices");
   malus::prep::addPrepCommand(app);
   malus::bake::addBakeCommand(app);
   malus::bake::addInfoCommand(app);
@@ -60,6 +61,7 @@ int run(int argc, char** argv) {
   malus::render::addCompareImagesCommand(app);
   malus::render::addSweepCommand(app);
   malus::render::addMaterialCommand(app);
+  malus::addCompletionCommand(app);
   try {
     app.parse(argc, argv);  // runs the subcommand
     if (listMethods) malus::render::listMethods();
@@ -79,7 +81,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   malus::handleInterrupts();
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, like a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // makes a write beyond the limit of file sizes fail, as on a full disk
   try {
     if (malus::vulkan::gpuModelMain(argc, argv)) return kDone;  // the child of `compare --gpu-model`
     return run(argc, argv);

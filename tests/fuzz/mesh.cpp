@@ -1,5 +1,5 @@
-// The mesh readers, the cleaning behind them and the certificate, which looks for intersections; MALUS_EXTENSION names
-// the format.
+// Fuzzes the mesh readers, cleaning, and the certificate with its search for intersections. MALUS_EXTENSION is the
+// format.
 #include "meshprep/base/error.h"
 #include "meshprep/prepare.h"
 #include "tests/fuzz/target.h"

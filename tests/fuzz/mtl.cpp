@@ -1,4 +1,4 @@
-// Material files of OBJ.
+// Fuzzes the reader of OBJ material files.
 #include <string>
 
 #include "meshprep/base/error.h"

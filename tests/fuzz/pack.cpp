@@ -1,5 +1,4 @@
-// The pack reader: the bytes as they are, and with hashes and sizes made right, so that what lies behind them is
-// reached.
+// Fuzzes the pack reader with the raw bytes, and with corrected hashes and sizes, which are checked first.
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -22,7 +21,7 @@ void parse(const Bytes& bytes) {
   }
 }
 
-// Bounds of the table's entries are the reader's to check: only the hashes of what lies within the file are set.
+// Corrects magic, version, size and the hashes of the sections within the file. Wrong bounds of sections remain.
 void repair(Bytes& bytes) {
   using namespace malus::pack;
   if (bytes.size() < kHeaderBytes) return;

@@ -1,4 +1,4 @@
-// Runs a target over files: what the fuzzer kept, in builds that have no fuzzer. Arguments: folders.
+// Runs a target on every file of the given folders, in builds without a fuzzer.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     for (const auto& entry : std::filesystem::directory_iterator(argv[i])) {
       std::ifstream stream(entry.path(), std::ios::binary);
       const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-      std::printf("%s\n", entry.path().filename().c_str());  // the last one is the one that crashed
+      std::printf("%s\n", entry.path().filename().c_str());  // printed before the run, so that a crash names its file
       std::fflush(stdout);
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
       ++count;

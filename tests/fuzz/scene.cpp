@@ -1,4 +1,4 @@
-// The scene reader. Meshes and pictures are not opened: that is the baker's to do.
+// Fuzzes the scene reader, which does not open meshes and images.
 #include "bake/scene_file/scene_file.h"
 #include "meshprep/base/error.h"
 #include "tests/fuzz/target.h"

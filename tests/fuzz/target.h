@@ -1,5 +1,5 @@
-// What a fuzzing target is: bytes of a file from anywhere. An Error is an answer; anything else that it throws, a
-// crash, a hang or a huge allocation is a finding.
+// Interface of a fuzzing target. It reads the bytes of a file and accepts malus::Error. Another exception, a crash, a
+// hang or a huge allocation is a finding.
 #pragma once
 
 #include <cstddef>

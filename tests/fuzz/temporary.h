@@ -1,4 +1,4 @@
-// A file for readers that take a path; one for the process.
+// Writes the bytes to a temporary file, one per process, for readers that take a path.
 #pragma once
 
 #include <unistd.h>

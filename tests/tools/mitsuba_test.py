@@ -210,14 +210,14 @@ class Stock(unittest.TestCase):
         self.mean = stock.sampled(self.scene, self.unpacked.up(), 9, 4096)
 
     def test_path_agrees(self):
-        found = stock.judge(self.image, self.mean, 4096)
+        found = stock.check_bounds(self.image, self.mean, 4096)
         self.assertEqual(found["violations"], 0)
         self.assertGreater(found["random"], 100, found)
         self.assertTrue(0.7 < found["rmsZ"] < 1.3, found)
 
     def test_an_error_of_a_few_per_cent_is_found(self):
         self.image.stokes[:, 0] *= 1.05
-        self.assertGreater(stock.judge(self.image, self.mean, 4096)["violations"], 0)
+        self.assertGreater(stock.check_bounds(self.image, self.mean, 4096)["violations"], 0)
 
 
 class Numbers(unittest.TestCase):

@@ -1,4 +1,4 @@
-"""Renders scenes with malus and with Mitsuba 3 and tells how far they are apart: see tools/mitsuba/README.md.
+"""Renders scenes with malus and with Mitsuba 3 and reports the differences; see tools/mitsuba/README.md.
 
 Run by tools/mitsuba/compare, which finds the interpreter. Exit codes: 0 within tools/mitsuba/tolerances.json,
 3 not within, 1 failed (one line).
@@ -25,41 +25,42 @@ from simplify import write_simplified  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENES = HERE.parents[1] / "scenes"
-RENDERERS = {"reference": ["--backend", "reference"], "embree": ["--backend", "embree", "--method", "stokes", "--effects", "all"]}
+RENDERERS = {"reference": ["--backend", "reference"],
+             "embree": ["--backend", "embree", "--method", "stokes", "--effects", "all"]}
 STOCK_WIDTH, STOCK_COLOUR = 64, 1
 
 
 def options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/mitsuba/compare", description=__doc__.splitlines()[0])
     parser.add_argument("--malus", type=pathlib.Path, default=HERE.parents[1] / "build/release/bin/malus")
-    parser.add_argument("--scenes", help="names of folders in scenes/, with commas; default: those with tolerances")
-    parser.add_argument("--width", type=int, default=256, help="of the pictures in pixels; scenes are not enlarged")
-    parser.add_argument("--samples", type=int, default=1024, help="a pixel for Mitsuba's own integrator")
-    parser.add_argument("--json", type=pathlib.Path, help="file to write everything to")
+    parser.add_argument("--scenes", help="folders in scenes/, separated by commas (default: those with tolerances)")
+    parser.add_argument("--width", type=int, default=256, help="largest width of the images [pixels]")
+    parser.add_argument("--samples", type=int, default=1024, help="samples per pixel of Mitsuba's integrators")
+    parser.add_argument("--json", type=pathlib.Path, help="file for the results")
     given = parser.parse_args()
     if given.width < 1 or given.samples < 1:
         parser.error("--width and --samples: expected 1 or more")
     if not given.malus.is_file():
-        raise RuntimeError(f"{given.malus} is not there: build malus (tools/build), or name it with --malus")
+        raise RuntimeError(f"{given.malus} does not exist: build malus with tools/build, or give its path with --malus")
     return given
 
 
 def malus(program: pathlib.Path, *arguments) -> None:
-    """Runs the command; its last line of complaint becomes ours."""
+    """Runs the command. Raises RuntimeError with its last line on stderr if it fails."""
     done = subprocess.run([program, "-q", *arguments], capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"malus {arguments[0]} failed: {(done.stderr.strip() or 'no message').splitlines()[-1]}")
 
 
-def stokes_picture(path: pathlib.Path) -> np.ndarray:
-    """An EXR of malus as (height, width, colour, 4)."""
+def read_stokes(path: pathlib.Path) -> np.ndarray:
+    """Reads an EXR file of malus as (height, width, colour, 4)."""
     bitmap = mi.Bitmap(str(path))
     names, pixels = [field.name for field in bitmap.struct_()], np.array(bitmap, dtype=np.float64)
     return np.stack([np.stack([pixels[..., names.index(f"S{k}.{c}")] for c in "RGB"], -1) for k in range(4)], -1)
 
 
 def compare_scene(name: str, given: argparse.Namespace, folder: pathlib.Path) -> dict:
-    # The same pack for both sides.
+    # One pack for both renderers.
     replaced = write_simplified(SCENES / name / "scene.json", folder / "scene.json")
     malus(given.malus, "bake", folder / "scene.json", "-o", folder / "scene.pack")
     malus(given.malus, "unpack", folder / "scene.pack", "-o", folder / "unpacked")
@@ -68,25 +69,25 @@ def compare_scene(name: str, given: argparse.Namespace, folder: pathlib.Path) ->
     if width > given.width:
         width, height = given.width, round(given.width * height / width)
 
-    # Mitsuba, one wavelength after another.
+    # Render with Mitsuba, one wavelength after another.
     scenes = [export.mitsuba_scene(unpacked, c, width, height, environment=False) for c in range(3)]
     rules = [malus_rules.Rules(scenes[c], unpacked, c) for c in range(3)]
     other = np.stack([integrator.render(scenes[c], unpacked.up(), unpacked.depth, rules[c])
                       .stokes.reshape(height, width, 4) for c in range(3)], axis=2)
 
-    result = {"replaced": replaced, "leftOut": export.unsaid(unpacked), "width": width, "height": height,
+    result = {"replaced": replaced, "leftOut": export.omissions(unpacked), "width": width, "height": height,
               "depth": unpacked.depth, "meanS0": difference.mean_light(other).tolist()}
     for renderer, arguments in RENDERERS.items():
         file = folder / f"{renderer}.exr"
         malus(given.malus, "render", folder / "scene.pack", *arguments, "--width", str(width), "--height", str(height),
               "-o", file)
-        picture = stokes_picture(file)
-        result[renderer] = difference.statistics(picture, other)
-        explained = difference.explained(picture, other, scenes, unpacked, rules)
-        at = np.flatnonzero(difference.outliers(picture, other))[~explained]
+        image = read_stokes(file)
+        result[renderer] = difference.statistics(image, other)
+        explained = difference.explained(image, other, scenes, unpacked, rules)
+        at = np.flatnonzero(difference.outliers(image, other))[~explained]
         result[renderer] |= {"unexplained": len(at), "unexplainedAt": [[int(i % width), int(i // width)] for i in at]}
 
-    # Mitsuba's own integrators.
+    # Compare with the integrators of Mitsuba.
     small = min(width, STOCK_WIDTH)
     result["stock"] = stock.compare(unpacked, STOCK_COLOUR, small, round(small * height / width), given.samples)
     return result

@@ -1,11 +1,11 @@
-"""Light from infinity as a pack keeps it, in numpy, and the same for Mitsuba.
+"""The environment of a pack in numpy and as an emitter of Mitsuba.
 
 A pack's environment is a constant or an octahedral map (Cigolle et al., JCGT 3(2), 2014) of N x N texels with
-a border of one texel that repeats what lies across the edges; it is looked up bilinearly
-(shaders/optics/environment.h, shaders/surfaces/environment.h). Mitsuba's `envmap` is a latitude-longitude picture.
-The deterministic integrator looks up the octahedral map itself, in double precision; Mitsuba's own
-integrators get a latitude-longitude picture resampled from it, and are compared with the deterministic
-integrator on that same picture. Directions are unit vectors in the pack's axes, +y up.
+a border of one texel that repeats the texels across the edges; the lookup is bilinear
+(shaders/optics/environment.h, shaders/surfaces/environment.h). Mitsuba's `envmap` is a latitude-longitude image.
+The deterministic integrator looks up the octahedral map in double precision. Mitsuba's integrators use a
+latitude-longitude image resampled from it, and are compared with the deterministic integrator on the same image.
+Directions are unit vectors in the axes of the pack, +y up.
 """
 import pathlib
 
@@ -40,18 +40,18 @@ class Environment:
         return top * (1 - fy) + bottom * fy
 
     def emitter(self) -> dict | None:
-        """The same as a Mitsuba emitter; None where it is black."""
+        """Returns the environment as a Mitsuba emitter, or None if it is black."""
         if not self.size:
             return {"type": "constant", "radiance": float(self.radiance)} if self.radiance > 0 else None
         height, width = 2 * self.size, 4 * self.size
         row, column = np.mgrid[0:height, 0:width]
         radiance = self(lat_long_directions((column + 0.5) / width, row / (height - 1)).reshape(-1, 3))
-        picture = np.repeat(radiance.reshape(height, width, 1), 3, axis=2).astype(np.float32)
-        return {"type": "envmap", "bitmap": mi.Bitmap(picture)}
+        image = np.repeat(radiance.reshape(height, width, 1), 3, axis=2).astype(np.float32)
+        return {"type": "envmap", "bitmap": mi.Bitmap(image)}
 
 
 def octahedral(d: np.ndarray) -> np.ndarray:
-    """Unit directions (n, 3) to the unit square, (n, 2)."""
+    """Maps unit directions (n, 3) to the unit square (n, 2)."""
     d = d / np.abs(d).sum(axis=1, keepdims=True)
     xy, sign = d[:, :2], np.where(d[:, :2] >= 0, 1.0, -1.0)
     folded = (1 - np.abs(xy[:, ::-1])) * sign
@@ -59,7 +59,7 @@ def octahedral(d: np.ndarray) -> np.ndarray:
 
 
 def lat_long_directions(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """Directions of Mitsuba's `envmap`: +y up at v = 0, u = 0 looks toward -z, u = 1/4 toward +x. Its first and
-    last row lie on the poles (v = row/(rows - 1)), its columns in the middle of their share of u (measured)."""
+    """Returns the directions of Mitsuba's `envmap`: +y at v = 0; at v = 1/2, -z at u = 0 and +x at u = 1/4. Its first
+    and last row are at the poles (v = row / (rows - 1)), its columns at the centres of their ranges of u (measured)."""
     phi, theta = u * 2 * np.pi, v * np.pi
     return np.stack([np.sin(phi) * np.sin(theta), np.cos(theta), -np.cos(phi) * np.sin(theta)], axis=-1)

@@ -35,7 +35,7 @@ class Unpacked:
         return {m["name"]: m for m in self.json["materials"]}
 
     def up(self) -> list:
-        """The picture's y axis, which the camera frame of every ray refers to."""
+        """Returns the y axis of the image, to which the camera frame of every ray refers."""
         return self.json["camera"]["up"]
 
     def environment(self, colour: int) -> Environment:
@@ -58,54 +58,55 @@ class Unpacked:
 
 
 def bsdf(m: dict, colour: int) -> dict:
-    """What a surface of material m does to light that meets the side of its normal."""
+    """Returns the BSDF of material m on the side of its normal."""
     outside = m["outsideEta"]
     if m["type"] in ("polarizer", "wave-plate"):
-        raise ValueError(f"material '{m['name']}': sheets of type {m['type']} are not handed to Mitsuba")
+        raise ValueError(f"material '{m['name']}': polarizing elements of type {m['type']} are not exported to Mitsuba; "
+                         "use a scene without them")
     if m["type"] == "glass":  # no dispersion: the index at 532 nm in every colour
         return {"type": "dielectric", "int_ior": m["eta"][1], "ext_ior": outside}
     if m["type"] == "metal":
         return {"type": "conductor", "eta": m["eta"][colour] / outside, "k": m["k"][colour] / outside}
-    if m["type"] == "mirror-glass":  # a conductor without k is a dielectric that only reflects
+    if m["type"] == "mirror-glass":  # a conductor with k = 0 is a dielectric that only reflects
         return {"type": "conductor", "eta": m["eta"][1] / outside, "k": 0.0}
     return {"type": "diffuse", "reflectance": 0.0 if m["type"] == "emitter" else m["albedo"][colour]}
 
 
-# Keys that few materials have (bake/unpack.cpp).
-UNUSUAL = {"absorption": "absorption is", "outsideAbsorption": "absorption outside is", "coating": "the thin film is",
+# Optional keys of materials (bake/unpack.cpp).
+OPTIONAL = {"absorption": "absorption is", "outsideAbsorption": "absorption outside is", "coating": "the thin film is",
            "roughness": "roughness is", "polarization": "polarization is", "maps": "textures are"}
 
 
-def unsaid(scene: Unpacked) -> list[str]:
-    """What the Mitsuba scene leaves out of the pack, as sentences."""
-    said = []
+def omissions(scene: Unpacked) -> list[str]:
+    """Returns a sentence for each property of the pack that the Mitsuba scene lacks."""
+    omitted = []
     for m in scene.materials.values():
         if m["type"] == "paint":
-            said.append(f"Material '{m['name']}': the interface above the paint is left out; it is bare Lambert.")
+            omitted.append(f"Material '{m['name']}': the interface above the paint is left out; it is bare Lambert.")
         if m["type"] == "metal" and any(m["albedo"]):
-            said.append(f"Material '{m['name']}': the diffuse light under the metal is left out.")
-        for key, what in UNUSUAL.items():
+            omitted.append(f"Material '{m['name']}': the diffuse light under the metal is left out.")
+        for key, what in OPTIONAL.items():
             value = m.get(key)
             if key == "coating" and value:
                 value = value["thicknessNm"]
             if key == "maps" and value:
                 value = any(value[name] is not None for name in ("albedo", "eta", "k"))
             if np.any(value):
-                said.append(f"Material '{m['name']}': {what} left out.")
+                omitted.append(f"Material '{m['name']}': {what} left out.")
         if m["highlight"]:
-            said.append(f"Material '{m['name']}': the highlight is left out.")
+            omitted.append(f"Material '{m['name']}': the highlight is left out.")
     if "sky" in scene.json["environment"]:
-        said.append("The polarization of the sky is left out.")
+        omitted.append("The polarization of the sky is left out.")
     if scene.json["environment"].get("diffuseFill", 0) > 0:
-        said.append("The environment's light on diffuse surfaces (diffuseFill) is left out.")
+        omitted.append("The ambient light on diffuse surfaces (diffuseFill) is left out.")
     if scene.json["camera"]["mediumEta"] != 1:
-        said.append("The camera stands in an index other than 1: equal only if a closed glass mesh of that index "
-                    "encloses it, for Mitsuba knows no index of the medium at the camera.")
-    return said
+        omitted.append("The medium of the camera has an index other than 1, which Mitsuba's camera lacks: the images "
+                       "agree only if a closed glass mesh of that index encloses the camera.")
+    return omitted
 
 
 def sensor(scene: Unpacked, width: int, height: int) -> dict:
-    """Pinhole camera. Mitsuba's looks along +z, its x points to the left of the picture."""
+    """Returns the pinhole camera. That of Mitsuba looks along +z, and its x points to the left of the image."""
     camera = scene.json["camera"]
     right, up, forward, position = (np.array(camera[k]) for k in ("right", "up", "forward", "position"))
     to_world = np.eye(4)
@@ -120,7 +121,7 @@ def sensor(scene: Unpacked, width: int, height: int) -> dict:
 
 
 def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environment: bool = True) -> mi.Scene:
-    """The scene at WAVELENGTHS_NM[colour], with or without its environment."""
+    """Returns the scene at WAVELENGTHS_NM[colour], with or without its environment."""
     description = {"type": "scene", "sensor": sensor(scene, width, height)}
     infinity = scene.environment(colour).emitter() if environment else None
     if infinity:
@@ -140,6 +141,6 @@ def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environ
 
 
 def has_normals(path: pathlib.Path) -> bool:
-    """Whether a PLY file has normals of its vertices."""
+    """Returns whether a PLY file has vertex normals."""
     with open(path, "rb") as file:
         return b"property float nx" in file.read(2048).split(b"end_header")[0]

@@ -1,13 +1,13 @@
 """A deterministic integrator in Mitsuba: one ray through each pixel's centre, both branches of glass.
 
-Ray intersection, reflected and refracted directions, Mueller matrices and the changes of their frames are
-Mitsuba's own; this file only says which rays are followed (shaders/optics/SHADING.md): at most `depth`
-specular interactions, then black; at a diffuse surface the light of the point lights, each with a shadow ray
-that every surface blocks, and the path ends; a miss takes the environment.
+Ray intersection, reflected and refracted directions, Mueller matrices and the changes of their frames are those of
+Mitsuba. This file chooses the rays (shaders/optics/SHADING.md): at most `depth` specular interactions, then black; at
+a diffuse surface the path ends with the point lights, each with a shadow ray that every surface blocks; a miss takes
+the environment.
 
-A ray that is followed from the eye in direction d carries the Mueller matrix that takes light arriving along
--d, in Mitsuba's frame stokes_basis(-d), to the pixel, in the camera frame x = cross(d, up) of its primary ray.
-Products and sums are made in double precision; what Mitsuba returns is single precision.
+A ray that is followed from the camera in direction d carries the Mueller matrix that takes light along -d, in
+Mitsuba's frame stokes_basis(-d), to the pixel, in the camera frame x = cross(d, up) of its primary ray. Products and
+sums are in double precision; results of Mitsuba are in single precision.
 """
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ class Rays:
     """Rays of one generation, n of them."""
     origin: np.ndarray       # (n, 3)
     direction: np.ndarray    # (n, 3)
-    pixel: np.ndarray        # (n,) index into the picture
+    pixel: np.ndarray        # (n,) index into the image
     weight: np.ndarray       # (n, 4, 4) Mueller matrix to the pixel
-    index: np.ndarray        # (n,) refractive index that they travel in
-    probability: np.ndarray  # (n,) of these branches, where each is chosen at random
+    index: np.ndarray        # (n,) refractive index of the medium
+    probability: np.ndarray  # (n,) of these branches, if each is chosen at random
 
     @staticmethod
     def joined(parts: list[Rays]) -> Rays:
         return Rays(*(np.concatenate([getattr(p, f.name) for p in parts]) for f in dataclasses.fields(Rays)))
 
 
-class Picture:
+class Image:
     """Stokes vectors of n pixels, and the moments of the estimator that chooses one branch of glass at random,
     reflection with the probability of its unpolarized reflectance, as Mitsuba's `path` and `dielectric` do."""
 
@@ -57,15 +57,15 @@ class Picture:
 
 
 def render(scene: mi.Scene, up, depth: int, rules: malus_rules.Rules | None = None, pixels=None,
-           shift=(0.0, 0.0)) -> Picture:
-    """The picture of `pixels` (all; row by row from the top), their centres moved by `shift` pixels.
-    up: the picture's y axis. rules: where malus's rules differ from Mitsuba's; None: Mitsuba's alone."""
+           shift=(0.0, 0.0)) -> Image:
+    """Returns the image of `pixels` (default: all, row by row from the top), their centres moved by `shift` pixels.
+    up: the y axis of the image. rules: those of malus; None: only those of Mitsuba."""
     rays = primary_rays(scene, up, pixels, shift)
-    picture = Picture(len(rays.pixel))
+    image = Image(len(rays.pixel))
     rays.index *= rules.camera_index if rules else 1
     for left in range(depth, -1, -1):
-        rays = follow(scene, rays, left, picture, rules)
-    return picture
+        rays = follow(scene, rays, left, image, rules)
+    return image
 
 
 def primary_rays(scene: mi.Scene, up, pixels=None, shift=(0.0, 0.0)) -> Rays:
@@ -85,13 +85,13 @@ def camera_rays(scene: mi.Scene, pixel: mi.UInt32, shift=(0.0, 0.0)) -> mi.Ray3f
 
 
 def to_camera(d: mi.Vector3f, up) -> mi.Spectrum:
-    """From Mitsuba's frame of light along -d to the camera frame x = cross(d, up)."""
+    """Returns the rotation from Mitsuba's frame of light along -d to the camera frame x = cross(d, up)."""
     target = dr.normalize(dr.cross(d, mi.Vector3f(*up)))
     return mi.mueller.rotate_stokes_basis(-d, mi.mueller.stokes_basis(-d), target)
 
 
 def matrices(mueller: mi.Spectrum, n: int) -> np.ndarray:
-    """A Mueller matrix of n lanes as (n, 4, 4)."""
+    """Converts a Mueller matrix of n lanes to (n, 4, 4)."""
     m = np.array(mueller, dtype=np.float64).reshape(4, 4, -1)
     return np.broadcast_to(np.moveaxis(m, 2, 0), (n, 4, 4))
 
@@ -104,9 +104,9 @@ def lanes(value, n: int) -> np.ndarray:
     return np.broadcast_to(np.array(value), (n,))
 
 
-def follow(scene: mi.Scene, rays: Rays, left: int, picture: Picture, rules: malus_rules.Rules | None) -> Rays:
-    """Adds the light that sources send along the rays to the picture and returns the next generation.
-    left: how many specular interactions their paths may still have."""
+def follow(scene: mi.Scene, rays: Rays, left: int, image: Image, rules: malus_rules.Rules | None) -> Rays:
+    """Adds the light of the sources along the rays to the image and returns the next generation.
+    left: number of specular interactions that the paths may still have."""
     n = len(rays.pixel)
     if n == 0:
         return rays
@@ -116,22 +116,22 @@ def follow(scene: mi.Scene, rays: Rays, left: int, picture: Picture, rules: malu
     hit, bsdf = si.is_valid(), si.bsdf()
     smooth, glass = (hit & mi.has_flag(bsdf.flags(), flag) for flag in (REFLECTION, TRANSMISSION))
 
-    # Light from emitters, from infinity, and from point lights by way of a diffuse surface.
+    # Add emitters, the environment, and point lights that light a diffuse surface.
     sources = [si.emitter(scene).eval(si)[0, 0].x]
     if rules:
-        malus_rules.turn_normal(si, ray, bsdf, hit, smooth, glass)
+        malus_rules.orient_normal(si, ray, bsdf, hit, smooth, glass)
     sources += point_lights(scene, si, hit & mi.has_flag(bsdf.flags(), mi.BSDFFlags.DiffuseReflection), rules)
 
-    # Smooth interfaces: both branches.
+    # Follow both branches of smooth interfaces.
     reflection = Branch(si, bsdf, REFLECTION, smooth, rules)
     transmission = Branch(si, bsdf, TRANSMISSION, glass, rules)
     dr.eval(sources, hit, smooth, glass, reflection, transmission)
 
     scale = rules.source_scale(si, rays.index, lanes(hit, n)) if rules else 1.0
     for i, light in enumerate(sources):
-        picture.add(rays, lanes(light, n) * scale, 1.0 if i == 0 else 1 / (len(sources) - 1))
+        image.add(rays, lanes(light, n) * scale, 1.0 if i == 0 else 1 / (len(sources) - 1))
     if rules:
-        picture.add(rays, np.where(lanes(hit, n), 0, rules.environment(rays.direction)) * scale)
+        image.add(rays, np.where(lanes(hit, n), 0, rules.environment(rays.direction)) * scale)
     if left == 0:
         return Rays.joined([reflection.rays(rays, np.zeros(n, bool), np.ones(n))])  # none: black
     first, second = lanes(smooth, n), lanes(glass, n)
@@ -140,7 +140,7 @@ def follow(scene: mi.Scene, rays: Rays, left: int, picture: Picture, rules: malu
 
 
 def point_lights(scene: mi.Scene, si: mi.SurfaceInteraction3f, where: mi.Bool, rules) -> list[mi.Float]:
-    """Unpolarized radiance that diffuse surfaces return of each point light."""
+    """Returns the unpolarized radiance of diffuse surfaces by each point light."""
     result = []
     for light in scene.emitters():
         if mi.has_flag(light.flags(), mi.EmitterFlags.DeltaPosition):
@@ -155,8 +155,8 @@ def point_lights(scene: mi.Scene, si: mi.SurfaceInteraction3f, where: mi.Bool, r
 
 
 class Branch:
-    """Light that leaves smooth surfaces in one way, by Mitsuba's BSDFs: directions, Mueller matrices in Mitsuba's
-    frames, and the ratio of the refractive index beyond to the one before."""
+    """Reflection at or transmission through smooth surfaces by Mitsuba's BSDFs: directions, Mueller matrices in
+    Mitsuba's frames, and the ratio of the refractive index beyond the surface to that before."""
     DRJIT_STRUCT = {"direction": mi.Vector3f, "origin": mi.Point3f, "mueller": mi.Spectrum, "eta": mi.Float}
 
     def __init__(self, si=None, bsdf=None, kind=None, where=None, rules=None):
@@ -166,7 +166,7 @@ class Branch:
         context.type_mask = kind
         out, weight = bsdf.sample(context, si, 0.5, mi.Point2f(0.5), where)
         self.direction = si.to_world(out.wo)
-        self.origin = rules.on_the_line(si, self.direction) if rules else si.spawn_ray(self.direction).o
+        self.origin = rules.offset_origin(si, self.direction) if rules else si.spawn_ray(self.direction).o
         self.mueller = si.to_world_mueller(weight, -out.wo, si.wi)
         self.eta = out.eta
 

@@ -1,8 +1,8 @@
-"""Rewrites a scene.json (bake/SCENE.md) into one that malus and Mitsuba shade alike, for both sides.
+"""Rewrites a scene.json (bake/SCENE.md) into one that malus and Mitsuba shade alike.
 
-Mitsuba has no Lambert surface under a smooth interface that leaves polarized, no Phong lobe that only point
-lights see, no diffuse light under a metal, and no environment light on diffuse surfaces without their mutual
-light. These are replaced or removed, each with a sentence; everything else is kept. Units are the schema's.
+Mitsuba lacks polarized light from a Lambert surface under a smooth interface, a Phong lobe for point lights only,
+diffuse light under a metal, and ambient light without interreflection. These are replaced or removed, each with a
+sentence; everything else is kept.
 """
 import json
 import pathlib
@@ -10,27 +10,27 @@ import pathlib
 
 def simplified(scene: dict) -> tuple[dict, list[str]]:
     """Returns the new scene and a sentence for each change."""
-    scene, said = json.loads(json.dumps(scene)), []
+    scene, changes = json.loads(json.dumps(scene)), []
     for name, m in scene["materials"].items():
         if m.pop("highlight", None) is not None:
-            said.append(f"Material '{name}': its highlight is removed.")
+            changes.append(f"Material '{name}': the highlight is removed.")
         if m["type"] == "paint":
             scene["materials"][name] = {k: m[k] for k in ("albedo", "outsideEta") if k in m} | {"type": "lambert"}
-            said.append(f"Material '{name}': paint becomes bare Lambert of the same albedo.")
+            changes.append(f"Material '{name}': paint becomes bare Lambert of the same albedo.")
         if m["type"] == "metal" and m.pop("albedo", None) is not None:
-            said.append(f"Material '{name}': the diffuse light under the metal is removed.")
+            changes.append(f"Material '{name}': the diffuse light under the metal is removed.")
     if scene.get("environment", {}).pop("diffuseFill", 0) > 0:
-        said.append("The environment's light on diffuse surfaces (diffuseFill) becomes 0.")
-    return scene, said
+        changes.append("The ambient light on diffuse surfaces (diffuseFill) becomes 0.")
+    return scene, changes
 
 
 def write_simplified(source: pathlib.Path, target: pathlib.Path) -> list[str]:
-    """Reads a scene.json and writes the simplified one, whose paths are absolute. Returns the sentences."""
+    """Reads a scene.json and writes the simplified one with absolute paths. Returns a sentence for each change."""
     folder = source.resolve().parent
-    scene, said = simplified(json.loads(source.read_text()))
+    scene, changes = simplified(json.loads(source.read_text()))
     for mesh in scene["meshes"]:
         mesh["file"] = str(folder / mesh["file"])
     if "image" in scene.get("environment", {}):
         scene["environment"]["image"] = str(folder / scene["environment"]["image"])
     target.write_text(json.dumps(scene, indent=1))
-    return said
+    return changes

@@ -1,4 +1,4 @@
-"""The results of tools/mitsuba/compare as Markdown, and what is outside the tolerances."""
+"""The results of tools/mitsuba/compare as Markdown, and the values outside the tolerances."""
 
 RENDERERS = ("reference", "embree")
 
@@ -11,9 +11,9 @@ def markdown(results: dict) -> str:
             cells = [f"{value:.1e}" for value in r["rmsOrdinary"]]
             lines.append(f"| {name} | {renderer} | {' | '.join(cells)} | {r['outliers']} ({r['outlierShare']:.2%}) | "
                          f"{r['unexplained']} |")
-    lines += ["", "RMS of the difference over the mean S0, without the outliers (a component off by more than 1e-3 of",
-              "S0 + mean S0). Explained: the pixel changes as much when its centre moves by 1/1000 of a pixel.", "",
-              "| scene | Mitsuba's own integrator | values | outside the bound | RMS z | largest z |",
+    lines += ["", "RMS of the difference relative to the mean S0, without the outliers (a component differs by more than",
+              "1e-3 (S0 + mean S0)). Explained: the pixel changes as much if its centre moves by 1/1000 pixel.", "",
+              "| scene | integrator of Mitsuba | values | outside the bound | RMS z | largest z |",
               "|---|---|---|---|---|---|"]
     for name, scene in results.items():
         for part in ("smooth", "diffuse"):
@@ -27,12 +27,12 @@ def markdown(results: dict) -> str:
 
 
 def failures(results: dict, tolerances: dict) -> list[str]:
-    """A sentence for each number over its tolerance; scenes without their own have the default's."""
-    said = []
+    """Returns a sentence for each number over its tolerance: that of the scene, or the default."""
+    sentences = []
 
     def check(what: str, value: float, most: float):
         if not value <= most:
-            said.append(f"{what} is {value:.3g}, expected at most {most:.3g}")
+            sentences.append(f"{what} is {value:.3g}, expected at most {most:.3g}")
 
     for name, scene in results.items():
         most = tolerances["default"] | tolerances["scenes"].get(name, {})
@@ -49,4 +49,4 @@ def failures(results: dict, tolerances: dict) -> list[str]:
                 check(f"{name}, path, {part}: share of values outside the bound",
                       stock["violations"] / stock["values"], most["pathShare"])
         check(f"{name}: difference from Mitsuba's stokes integrator", scene["stock"].get("stokesMax", 0), most["stokes"])
-    return said
+    return sentences

@@ -1,4 +1,5 @@
-# Writes OUT with the commit of SOURCE as MALUS_COMMIT ("unknown" outside of a checkout), where it changed.
+# Writes a header OUT that defines MALUS_COMMIT as the commit of SOURCE, or "unknown" outside of a checkout. An
+# unchanged file is not written.
 execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12 OUTPUT_VARIABLE commit
   OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)

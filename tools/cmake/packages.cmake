@@ -1,5 +1,5 @@
-# Every package, and what has to be said about it on Debian 12 and 13.
-find_package(Threads REQUIRED)  # glslang's files need it first
+# Every package, with its differences between Debian 12 and 13.
+find_package(Threads REQUIRED)  # before glslang, whose files need it
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 find_package(fmt REQUIRED)
@@ -21,7 +21,7 @@ if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)
 endif()
 
-# OpenImageIO names an opencv4 include folder that may not be there.
+# OpenImageIO names an include folder of OpenCV that may not exist.
 add_library(malus_openimageio INTERFACE)
 add_library(malus::openimageio ALIAS malus_openimageio)
 get_target_property(oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)

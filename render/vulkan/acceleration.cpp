@@ -64,6 +64,7 @@ Acceleration::Level Acceleration::build(const Device& device, VkAccelerationStru
   info.geometryCount = static_cast<std::uint32_t>(geometries.size());
   info.pGeometries = geometries.data();
   std::vector<std::uint32_t> counts;
+  counts.reserve(ranges.size());
   for (const auto& range : ranges) counts.push_back(range.primitiveCount);
   VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
   device.functions().getAccelerationStructureBuildSizes(device.get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,

@@ -17,6 +17,12 @@ MALUS_CONSTANT uint kEnvironment = 0xffffffffu;  // in place of the index of a m
 MALUS_CONSTANT uint kColourChannels = 3u;        // floats per pixel: the colour behind the filter
 MALUS_CONSTANT uint kStokesChannels = 15u;       // floats per pixel: the colour, then S0, S1, S2 and S3, each r g b
 
+// Kinds of fault (fault.h).
+MALUS_CONSTANT uint kNoFault = 0u;
+MALUS_CONSTANT uint kNotFinite = 1u;      // NaN or infinity
+MALUS_CONSTANT uint kNegative = 2u;       // S0 < 0, by more than the rounding error
+MALUS_CONSTANT uint kOverPolarized = 3u;  // |(S1, S2, S3)| > S0, by more than the rounding error
+
 #undef MALUS_CONSTANT
 #ifdef __cplusplus
 }  // namespace malus::gpu

@@ -1,5 +1,5 @@
-// What --check-numerics finds: the first value of a picture that no light can have, and where it arose. Laid out by
-// GLSL's scalar rules for C++ and GLSL.
+// Faults: the unphysical values that --check-numerics finds. C++ and GLSL share these structs, in GLSL's scalar block
+// layout.
 #ifdef __cplusplus
 #pragma once
 
@@ -14,34 +14,28 @@ namespace malus::gpu {
 using uint = std::uint32_t;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
-enum FaultKind : uint { kNoFault, kNotFinite, kNegative, kOverPolarized };
-#else
-const uint kNoFault = 0u;
-const uint kNotFinite = 1u;      // NaN or infinity
-const uint kNegative = 2u;       // S0 below 0 by more than rounding explains
-const uint kOverPolarized = 3u;  // |(S1, S2, S3)| above S0 by more than rounding explains
+using FaultKind = uint;
 #endif
 
 struct Fault {
-  uint kind;  // FaultKind
-  uint x;     // pixel of the whole picture
+  uint kind;  // kNotFinite, ... of constants.h; kNoFault: none
+  uint x;     // pixel of the whole image
   uint y;
-  int bounce;      // specular interactions between the eye and this surface
+  int bounce;      // specular interactions between the camera and this surface
   uint material;   // index, or kEnvironment
   uint colour;     // 0 red, 1 green, 2 blue
   float cosine;    // of incidence
-  float slack;     // what rounding explains
+  float slack;     // rounding error that is allowed
   vec3 position;   // of the hit
   vec3 direction;  // of the ray
-  vec3 normal;     // shading normal, against the ray
-  vec4 stokes;     // what the surface sends toward the eye, in the ray's canonical frame
+  vec3 normal;     // shading normal, on the side of the ray
+  vec4 stokes;     // sent from the surface toward the camera, in the ray's canonical frame
 };
 
-// Binding 11.
 struct Faults {
-  uint count;       // values at fault
+  uint count;       // unphysical values
   uint firstPixel;  // y * width + x of the first pixel that has one
-  Fault fault;      // of the only pixel of a picture of one pixel
+  Fault fault;      // only in an image of one pixel
 };
 
 #ifdef __cplusplus

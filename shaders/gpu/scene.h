@@ -1,5 +1,5 @@
-// Structs that C++ and GLSL share, laid out by GLSL's scalar rules (a vec3 is 12 bytes, aligned to 4).
-// Everything is relative to the scene's origin, in metres, radiance in W/(m^2 sr) per colour.
+// Structs that C++ and GLSL share, in GLSL's scalar block layout: a vec3 has 12 bytes and an alignment of 4. Positions
+// are relative to the scene's origin, in metres; radiance is in W/(m^2 sr), per colour.
 #ifdef __cplusplus
 #pragma once
 
@@ -84,9 +84,9 @@ MALUS_SIZE(PointLight, 24);
 
 struct Mesh {
   uint firstTriangle;
-  uint firstVertex;  // of its positions and, where it has them, of its normals
+  uint firstVertex;  // of its positions and normals
   uint material;
-  uint hasNormals;  // 0: flat, normals are those of the faces
+  uint hasNormals;  // 0: flat shading by the normals of the triangles
 };
 MALUS_SIZE(Mesh, 16);
 
@@ -97,11 +97,11 @@ struct CameraParameters {
   vec3 forward;
   float tanX;  // tangents of half the field of view
   float tanY;
-  float basicToRadiance;  // square of the index that the camera stands in
-  vec4 analyser;          // first row of the Mueller matrix in front of the camera
-  uint width;             // of the whole picture
+  float basicToRadiance;  // square of the index of the medium at the camera
+  vec4 analyser;          // first row of the Mueller matrix of the camera's filter
+  uint width;             // of the whole image
   uint height;
-  uint regionX;  // the part that is rendered
+  uint regionX;  // the part that is rendered, in pixels
   uint regionY;
   uint regionWidth;
   uint regionHeight;
@@ -110,13 +110,13 @@ struct CameraParameters {
   int lightCount;
   int environmentSize;      // texels per side of the octahedral map without its border; 0: constant
   vec3 environment;         // radiance where environmentSize is 0
-  float ambientIrradiance;  // share of the environment's irradiance on diffuse surfaces
+  float ambientIrradiance;  // fraction of the environment's irradiance that reaches diffuse surfaces
   vec3 irradiance[9];       // coefficients of irradiancePolynomial, per colour
-  uint shadows;             // 0: nothing blocks a point light
-  vec3 sun;                 // unit, toward it
-  float skyDegree;          // largest degree of polarization of the sky
+  uint shadows;             // 0: surfaces do not block point lights
+  vec3 sun;                 // unit vector toward the sun
+  float skyDegree;          // largest degree of linear polarization of the sky
   vec2 facets[kFacets];     // points of the unit disk (optics/facets.h)
-  float tolerance;          // loops: share of a source's radiance that may be lost along a path
+  float tolerance;          // iterative methods: fraction of a source's radiance that a path may lose
 };
 MALUS_SIZE(CameraParameters, 392);
 

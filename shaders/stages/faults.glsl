@@ -1,5 +1,5 @@
-// Records the faults of --check-numerics. An image of several pixels gives the count and the first pixel; an image of that
-// pixel alone gives the fault, because its values occur in order.
+// Records the faults of --check-numerics. An image of several pixels gives the count and the first pixel; an image of
+// that pixel alone gives the fault, because its values occur in order.
 void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack) {
 #ifdef MALUS_CHECK_NUMERICS
   uvec2 pixel = gl_LaunchIDEXT.xy + uvec2(camera.regionX, camera.regionY);

@@ -1,4 +1,5 @@
-// The rays that shaders/surfaces/hooks.h declares, by recursive traces. Miss shader 0 is the environment, 1 the shadow's.
+// The rays that shaders/surfaces/hooks.h declares, by recursive traces. Miss shader 0 is the environment's, 1 the
+// shadow's.
 layout(location = 1) rayPayloadEXT Payload childPayload;
 layout(location = 2) rayPayloadEXT uint shadowPayload;
 
@@ -12,7 +13,7 @@ Payload traceRay(vec3 origin, vec3 direction, float depth) {
 bool visible(vec3 origin, vec3 direction, float distanceToLight) {
   countRay();
   shadowPayload = 1u;
-  traceRayEXT(tlas, gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xffu,
-              0u, 1u, 1u, origin, 0.0, direction, distanceToLight, 2);
+  traceRayEXT(tlas, gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT,
+              0xffu, 0u, 1u, 1u, origin, 0.0, direction, distanceToLight, 2);
   return shadowPayload == 0u;
 }

@@ -64,6 +64,7 @@ class FileActions {
 // The null-terminated array that posix_spawn takes.
 std::vector<char*> makePointers(std::vector<std::string>& texts) {
   std::vector<char*> result;
+  result.reserve(texts.size() + 1);
   for (std::string& text : texts) result.push_back(text.data());
   result.push_back(nullptr);
   return result;

@@ -46,13 +46,17 @@ std::string encodingText(const pack::Pack& pack) {
   return text;
 }
 
-// The pack's effects; of one from before some of today's existed, those of today's rules.
+// The pack's effects by their names of today. If the pack is older than some effects, all are found again.
 std::vector<pack::Effect> effectsOf(const pack::Scene& scene) {
   std::vector<std::string> missing = effectNames();
   const std::size_t known = missing.size();
-  for (const pack::Effect& e : scene.effects) std::erase(missing, e.name);
-  const bool older = !missing.empty() && missing.size() + scene.effects.size() == known;
-  return older ? findEffects(scene) : scene.effects;
+  std::vector<pack::Effect> effects = scene.effects;
+  for (pack::Effect& e : effects) {
+    if (const auto effect = shaders::effectNamed(e.name)) e.name = shaders::nameOf(*effect);
+    std::erase(missing, e.name);
+  }
+  const bool older = !missing.empty() && missing.size() + effects.size() == known;
+  return older ? findEffects(scene) : effects;
 }
 }  // namespace
 

@@ -233,8 +233,8 @@ pack::Scene applyEffects(RenderArguments& a, const pack::Scene& scene, RenderPar
       chooseEffects(effects, backendInfo(a.backend).hasMethods ? a.method : completeRecursiveMethod().name, scene,
                     requestOf(a, parameters));
   // The reference keeps its polarized light whatever is left out.
-  for (const std::string& warning : choice.warnings)
-    if (backendInfo(a.backend).hasMethods || warning.find("-polarization") == std::string::npos) console::warn(warning);
+  for (const EffectWarning& warning : choice.warnings)
+    if (backendInfo(a.backend).hasMethods || !isPolarization(warning.effect)) console::warn(warning.text);
   if (backendInfo(a.backend).hasMethods && choice.method != a.method) {
     if (!choice.why.empty()) a.inPlaceOf = fmt::format("in place of {}: {}", a.method, choice.why);
     a.method = choice.method;

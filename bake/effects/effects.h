@@ -1,18 +1,21 @@
-// The effect set of a scene: which kinds of light transport its materials, lights, camera and geometry call for.
-// Conservative: an effect that is off cannot show in any picture that is asked for. Each has its reason.
+// The effects that an image of a scene needs: kinds of light transport that its materials, lights, camera and geometry
+// call for. Conservative: an effect that is off cannot change the image. shaders/effects.def lists the effects,
+// bake/effects/rules.h contains the rule of each.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bake/pack/scene.h"
+#include "shaders/effects.h"
 
 namespace malus::bake {
 
-// What is asked of a picture beside the scene. The baker does not know: it asks for the intensity without a filter at
-// the scene's depth; a renderer refines the set by the same rules.
+// What is asked of an image besides the scene. The baker asks for the intensity without a filter at the depth of the
+// scene; a renderer knows more and applies the same rules again.
 struct ImageRequest {
   std::uint32_t depth = 0;
   std::array<double, 4> analyser = {1, 0, 0, 0};  // first row of the filter's Mueller matrix
@@ -20,18 +23,28 @@ struct ImageRequest {
   bool circularStokes = false;                    // S3 is asked for
 };
 
-// In the order in which they are listed everywhere.
+// The listed effects in the order of shaders/effects.def, each with its reason.
 std::vector<pack::Effect> findEffects(const pack::Scene& scene, const ImageRequest& request);
 std::vector<pack::Effect> findEffects(const pack::Scene& scene);  // for the baker
 
-bool isOn(const std::vector<pack::Effect>& effects, std::string_view name);
-std::vector<std::string> effectNames();
+// Bits of shaders::Effect: what the shaders need for the image.
+std::uint32_t findCompiledEffects(const pack::Scene& scene, const ImageRequest& request);
 
-// The scene without some of its effects, by name: what the effect needs is taken away (lights, highlights, albedo,
-// radiance, surroundings; glass becomes a glass mirror, a metal or a painted surface what lies under it, a polarizer or
-// wave plate a grey sheet, a polarized sky the picture or the constant under it).
-// linear-polarization, circular-polarization, filter and shadows are the renderer's to leave out. Throws Error for a
-// name that is none, or one that is no effect of its own (tir, which belongs to dielectric).
+bool isOn(const std::vector<pack::Effect>& effects, shaders::Effect effect);
+bool isOn(const std::vector<pack::Effect>& effects, std::string_view name);  // name or alias
+std::vector<std::string> effectNames();                                      // of the listed ones
+
+// The listed effect with a name or an alias. Throws Error for any other name.
+shaders::Effect effectNamed(std::string_view name);
+
+// The effect of the kind of surface that shades a kind of material.
+shaders::Effect surfaceEffect(pack::MaterialKind kind);
+
+// The scene without some of its effects, by name or alias: lights, highlights, albedo, radiance or the environment are
+// removed; clear glass becomes a glass mirror, a metal or dielectric the diffuse surface below its interface, a
+// polarizing element a grey filter, a Rayleigh sky the image or constant below it. The effects without a rule for
+// removal (linear and circular polarization, filter, shadows) are left to the renderer. Throws Error for an unknown
+// name and for tir, which follows from dielectric interfaces.
 pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& off);
 
 }  // namespace malus::bake

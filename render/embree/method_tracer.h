@@ -6,6 +6,14 @@
 #undef FN
 #define FN  // members
 
+// The case of a kind of surface that this build contains (1) or does not (0).
+#define MALUS_SURFACE_CASE(isCompiled, id) MALUS_SURFACE_CASE_EXPANDED(isCompiled, id)
+#define MALUS_SURFACE_CASE_EXPANDED(isCompiled, id) MALUS_SURFACE_CASE_##isCompiled(id)
+#define MALUS_SURFACE_CASE_0(id)
+#define MALUS_SURFACE_CASE_1(id) \
+  case k##id:                    \
+    return shade##id(hit, material);
+
 namespace malus::f32 {
 namespace {
 
@@ -31,19 +39,11 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
     const Material& material = materials[hit.material];
 #endif
     switch (material.kind) {
-      case kLambert:
-        return shadeLambert(hit, material);
-      case kPaint:
-        return shadePaint(hit, material);
-      case kMetal:
-        return shadeMetal(hit, material);
-      case kGlass:
-        return shadeGlass(hit, material);
-#if MALUS_EFFECT_POLARIZING_ELEMENT
-      case kPolarizingElement:
-        return shadePolarizingElement(hit, material);
-#endif
-      default:
+#define MALUS_SHADER_ROW(...)
+#define MALUS_RULE_ROW(...)
+#define MALUS_SURFACE_ROW(id, macro, ...) MALUS_SURFACE_CASE(MALUS_EFFECT_##macro, id)
+#include "shaders/effects.def"
+      default:  // no other kind is in a scene that this build renders
         return shadeEmitter(hit, material);
     }
   }

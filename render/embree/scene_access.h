@@ -2,17 +2,19 @@
 // of the tracers, so that they see the method, the scene and these by their own names.
 #pragma once
 
-#include <shaders/effects.h>
-
 #include "render/embree/tile.h"
+#include "shaders/effects.h"
 #include "shaders/methods/methods.h"
 
 namespace malus::embree {
 
 // What this translation unit has.
-#define MALUS_TERM(name, macro) | ((macro)*shaders::bitOf(shaders::Effect::name))
-static constexpr std::uint32_t kTileEffects = 0 MALUS_FOR_EACH_EFFECT(MALUS_TERM);
-#undef MALUS_TERM
+static constexpr std::uint32_t kTileEffects = 0
+#define MALUS_SHADER_ROW(id, macro, build, name, alias, description) \
+  | (MALUS_EFFECT_##macro * shaders::bitOf(shaders::Effect::k##id))
+#define MALUS_RULE_ROW(id, name, alias, description)
+#include "shaders/effects.def"
+    ;
 
 struct SceneAccess {
   explicit SceneAccess(const TileInput& tile)

@@ -1,4 +1,5 @@
-// Which parts of the shaders a picture of a scene calls for: what Vulkan's variants and Embree's builds leave out.
+// Parts of the shaders that an image of a scene needs: the variants of the Vulkan renderer and the builds of the Embree
+// renderer omit the others.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +9,11 @@
 
 namespace malus::render {
 
-// Bits of shaders::Effect; all of them where the view asks for every effect.
+// Bits of shaders::Effect; all of them if the parameters ask for every effect.
 std::uint32_t compiledEffects(const pack::Scene& scene, const RenderParameters& parameters);
 
-// Ways of an eye path that may wait at once in a loop (shaders/iterative/camera_path.h): one an interaction with glass,
-// the facets of a rough surface; one place at least.
+// Most paths that an iterative method defers at once (shaders/iterative/camera_path.h): one per interaction with glass,
+// and the facets of one rough surface; at least 1.
 std::uint32_t pathStackSize(std::uint32_t effects, std::uint32_t depth);
 
 }  // namespace malus::render

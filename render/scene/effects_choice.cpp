@@ -1,20 +1,18 @@
 #include "render/scene/effects_choice.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "bake/effects/polarization_bound.h"
-#include "meshprep/base/error.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
 
-namespace {
+using shaders::Effect;
 
-bool contains(const std::vector<std::string>& list, std::string_view name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
-}
+namespace {
 
 // Name of the method that replaces this one if linear, or circular, polarization is not needed.
 std::string withoutPolarization(const MethodInfo& method, bool linear, bool circular) {
@@ -22,48 +20,60 @@ std::string withoutPolarization(const MethodInfo& method, bool linear, bool circ
   return circular ? method.withoutCircular : method.name;
 }
 
+// The cheapest exact method. If Stokes vectors are asked for it carries them, even where they are 0.
+EffectsChoice chooseAutomatically(const MethodInfo& method, const std::vector<pack::Effect>& effects,
+                                  const bake::ImageRequest& request) {
+  EffectsChoice choice;
+  choice.method = method.name;
+  if (method.accuracy == Accuracy::approximate) return choice;
+  const bool linear = request.linearStokes || bake::isOn(effects, Effect::kLinearPolarization),
+             circular = bake::isOn(effects, Effect::kCircularPolarization);
+  choice.method = withoutPolarization(method, !linear, !circular);
+  if (choice.method != method.name)
+    choice.why =
+        !linear ? "polarization does not change this image" : "circular polarization does not change this image";
+  return choice;
+}
+
+// Text of the warning that an effect is left out.
+std::string warningText(Effect effect, const pack::Scene& scene, const bake::ImageRequest& request) {
+  std::string size = "the error can be as large as its light";
+  if (isPolarization(effect)) {
+    const glm::dvec3 bound = bake::polarizationErrorBound(scene, request);
+    size = fmt::format("the relative error of the unpolarized intensity is at most {:.3g}, {:.3g}, {:.3g} (r, g, b)",
+                       bound.x, bound.y, bound.z);
+  }
+  return fmt::format("--effects leaves out {}, which this scene needs: {}", shaders::nameOf(effect), size);
+}
+
 }  // namespace
+
+bool isPolarization(Effect effect) {
+  return effect == Effect::kLinearPolarization || effect == Effect::kCircularPolarization;
+}
 
 EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::string& method, const pack::Scene& scene,
                             const bake::ImageRequest& request) {
   EffectsChoice choice;
   choice.method = method;
+  if (asked.size() == 1 && asked[0] == "all") return choice;
   const std::vector<pack::Effect> effects = bake::findEffects(scene, request);
-  const bool all = asked.size() == 1 && asked[0] == "all", automatic = asked.size() == 1 && asked[0] == "auto";
-  if (all) return choice;
-  if (automatic) {
-    // Who asks for Stokes vectors gets a method that has them, though they may be 0.
-    const bool linear = request.linearStokes || bake::isOn(effects, "linear-polarization"),
-               circular = bake::isOn(effects, "circular-polarization");
-    const MethodInfo& info = methodNamed(method);
-    if (info.accuracy == Accuracy::approximate) return choice;
-    choice.method = withoutPolarization(info, !linear, !circular);
-    if (choice.method != method)
-      choice.why =
-          !linear ? "polarized light cannot show in this picture" : "circular light cannot show in this picture";
-    return choice;
-  }
+  if (asked.size() == 1 && asked[0] == "auto") return chooseAutomatically(methodNamed(method), effects, request);
 
-  // A list: what it does not name is left out.
-  const std::vector<std::string> known = bake::effectNames();
-  for (const std::string& name : asked)
-    if (!contains(known, name))
-      throw Error("--effects", fmt::format("unknown effect '{}'", name),
-                  fmt::format("auto, all, or some of {}", fmt::join(known, ", ")));
+  std::set<Effect> kept = {Effect::kTir};  // follows from dielectric interfaces
+  for (const std::string& name : asked) kept.insert(bake::effectNamed(name));
+  std::set<Effect> off;
   for (const pack::Effect& e : effects)
-    if (e.on && !contains(asked, e.name) && e.name != "tir") choice.off.push_back(e.name);
-  choice.method = withoutPolarization(methodNamed(method), contains(choice.off, "linear-polarization"),
-                                      contains(choice.off, "circular-polarization"));
-  for (const std::string& name : choice.off) {
-    std::string size = "the error can be as large as the light that it makes";
-    if (name == "linear-polarization" || name == "circular-polarization") {
-      if (choice.method == method) continue;  // this method carries none, or keeps it all the same
-      const glm::dvec3 bound = bake::polarizationErrorBound(scene, request);
-      size = fmt::format("the intensity can be off by {:.3g}, {:.3g}, {:.3g} of the unpolarized one (r, g, b)", bound.x,
-                         bound.y, bound.z);
+    if (e.on && !kept.contains(bake::effectNamed(e.name))) {
+      off.insert(bake::effectNamed(e.name));
+      choice.off.push_back(e.name);
     }
-    choice.warnings.push_back(fmt::format("--effects leaves out {}, which this scene needs: {}", name, size));
-  }
+  choice.method = withoutPolarization(methodNamed(method), off.contains(Effect::kLinearPolarization),
+                                      off.contains(Effect::kCircularPolarization));
+  // The same method carries no polarization, or keeps it anyway.
+  for (const Effect effect : off)
+    if (!isPolarization(effect) || choice.method != method)
+      choice.warnings.push_back({effect, warningText(effect, scene, request)});
   return choice;
 }
 

@@ -1,4 +1,4 @@
-// `--effects`: which effects a picture is rendered with, and the cheapest method that is exact for them.
+// --effects: the effects that an image is rendered with, and the cheapest method that is exact for them.
 #pragma once
 
 #include <string>
@@ -9,19 +9,26 @@
 
 namespace malus::render {
 
-struct EffectsChoice {
-  std::string method;                 // the one asked for, or a cheaper one that makes the same picture
-  std::string why;                    // of a cheaper one; else empty
-  std::vector<std::string> off;       // effects that the scene has and that were left out on purpose
-  std::vector<std::string> warnings;  // what is missing then, and how large the error can be
+struct EffectWarning {
+  shaders::Effect effect;  // left out although the scene needs it
+  std::string text;        // with a bound of the error
 };
 
-// What a user may say: "auto" (what the scene calls for), "all" (every effect is compiled in), or a list of the effects
-// to keep, by name. Throws Error for an unknown effect.
+struct EffectsChoice {
+  std::string method;                   // the one asked for, or a cheaper one that renders the same image
+  std::string why;                      // reason for the cheaper method; else empty
+  std::vector<std::string> off;         // effects that the scene needs and that are left out, by name
+  std::vector<EffectWarning> warnings;  // one per effect whose absence changes the image
+};
+
+// Whether the effect is polarization that a method carries or not.
+bool isPolarization(shaders::Effect effect);
+
+// asked: "auto" (what the scene needs), "all" (every effect is compiled in), or the names of the effects to keep.
+// Throws Error for an unknown effect.
 //
-// request: what is asked of the picture. With "auto" a method that carries polarized light is replaced where polarized
-// light cannot show: `stokes` and its like by `fresnel`, or by `stokes-linear` where only circular light cannot;
-// `importance` by `fresnel-iterative`. Both are exact then.
+// request: what is asked of the image. With "auto" an exact method is replaced by the cheaper one of its row in
+// shaders/methods.def if linear, or only circular, polarization cannot change the image; the result is exact.
 EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::string& method, const pack::Scene& scene,
                             const bake::ImageRequest& request);
 

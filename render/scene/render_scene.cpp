@@ -5,19 +5,14 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "bake/effects/effects.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::render {
 
+// Kinds of surface are the first effects (shaders/effects.def).
 gpu::SurfaceKind surfaceKind(pack::MaterialKind kind) {
-  switch (kind) {
-#define MALUS_MATERIAL_KIND(kind, value, name, surface, traits, summary) \
-  case pack::MaterialKind::kind:                                         \
-    return gpu::surface;
-#include "bake/pack/material_kinds.def"
-#undef MALUS_MATERIAL_KIND
-  }
-  return gpu::kLambert;
+  return static_cast<gpu::SurfaceKind>(bake::surfaceEffect(kind));
 }
 
 glm::dvec3 roundTripPhase(const pack::Coating& coating) { return 2 * coating.thicknessNm / pack::kWavelengthsNm; }

@@ -1,6 +1,7 @@
 #include "render/vulkan/variant.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -36,13 +37,27 @@ std::string preamble(const Variant& variant) {
   if (isIterative(variant))
     text += fmt::format("#extension GL_EXT_ray_query : require\n#define MALUS_PATH_STACK_SIZE {}\n", variant.stackSize);
   text += fmt::format("#define MALUS_METHOD \"{}\"\n", variant.method);
-  for (std::size_t i = 0; i < shaders::kEffectMacros.size(); ++i)
-    text += fmt::format("#define {} {}\n", shaders::kEffectMacros[i], variant.effects >> i & 1);
+  for (std::size_t i = 0; i < shaders::kCompiledEffects.size(); ++i) {
+    const shaders::CompiledEffect& effect = shaders::kCompiledEffects[i];
+    text += fmt::format("#define {} {}\n", effect.macro, variant.effects >> i & 1);
+    if (effect.isSurface) text += fmt::format("#define k{} {}u\n", effect.identifier, i);
+  }
   if (variant.fourAnalysers) text += "#define MALUS_FOUR_ANALYSERS\n";
   if (variant.countRays) text += "#define MALUS_COUNT_RAYS\n";
   if (variant.checkNumerics) text += "#define MALUS_CHECK_NUMERICS\n";
   return text;
 }
+
+namespace {
+
+// "shaders/surfaces/glass.h" of MALUS_EFFECT_GLASS.
+std::string surfaceFile(std::uint32_t kind) {
+  std::string file = shaders::kCompiledEffects[kind].macro + std::string_view("MALUS_EFFECT_").size();
+  for (char& c : file) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return "shaders/surfaces/" + file + ".h";
+}
+
+}  // namespace
 
 std::vector<StageSource> stageSources(const Variant& variant) {
   if (isIterative(variant)) return {{"shaders/stages/camera_path.rgen", Stage::raygen}};
@@ -50,11 +65,8 @@ std::vector<StageSource> stageSources(const Variant& variant) {
                                       {"shaders/stages/environment.rmiss", Stage::miss}};
   if (has(variant, Effect::kPointLights) && has(variant, Effect::kShadows))
     sources.push_back({"shaders/stages/shadow.rmiss", Stage::miss});
-  static constexpr std::string_view kHits[gpu::kSurfaceKinds] = {
-      "shaders/stages/lambert.rchit", "shaders/stages/paint.rchit",   "shaders/stages/metal.rchit",
-      "shaders/stages/glass.rchit",   "shaders/stages/emitter.rchit", "shaders/stages/polarizing_element.rchit"};
   for (std::uint32_t kind = 0; kind < gpu::kSurfaceKinds; ++kind)
-    if ((variant.effects >> kind & 1) != 0) sources.push_back({kHits[kind], Stage::closestHit, kind});
+    if ((variant.effects >> kind & 1) != 0) sources.push_back({surfaceFile(kind), Stage::closestHit, kind});
   return sources;
 }
 
@@ -71,7 +83,9 @@ std::string stageText(const StageSource& source) {
        {"shaders/gpu/language.glsl", "shaders/optics/math.h", "shaders/optics/all.h", "shaders/gpu/constants.h",
         "shaders/gpu/scene.h", "shaders/gpu/fault.h", "shaders/methods/selected.h"})
     text += fmt::format("#include \"{}\"\n", file);
-  return text + fmt::format("#include \"{}\"\n", source.path);
+  if (source.stage != Stage::closestHit) return text + fmt::format("#include \"{}\"\n", source.path);
+  return text + fmt::format("#define MALUS_SHADE shade{}\n#include \"shaders/stages/surface.rchit\"\n",
+                            shaders::kCompiledEffects[source.kind].identifier);
 }
 
 }  // namespace malus::vulkan

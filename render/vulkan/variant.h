@@ -7,10 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include <shaders/effects.h>
-
 #include "bake/pack/scene.h"
 #include "render/scene/render_parameters.h"
+#include "shaders/effects.h"
 
 namespace malus::vulkan {
 
@@ -34,9 +33,9 @@ std::string preamble(const Variant& variant);
 
 enum class Stage { raygen, miss, closestHit, compute };
 
-// One shader of a pipeline.
+// One shader of a pipeline. A closest hit is shaders/stages/surface.rchit for one kind of surface.
 struct StageSource {
-  std::string_view path;  // of its file in the repository
+  std::string path;  // of its file in the repository; of a closest hit, of the kind of surface
   Stage stage;
   std::uint32_t kind = 0;  // of a closest hit: gpu::SurfaceKind
 };

@@ -21,16 +21,16 @@ using vec4 = glm::vec4;
 #define MALUS_SIZE(T, bytes)
 #endif
 
-// Kinds of surface, each with a hit group of its own.
+// Kinds of surface, each with its own hit group. In GLSL the preamble of a variant defines them
+// (render/vulkan/variant.cpp).
 #ifdef __cplusplus
-enum SurfaceKind : uint { kLambert, kPaint, kMetal, kGlass, kEmitter, kPolarizingElement, kSurfaceKinds };
-#else
-const uint kLambert = 0u;
-const uint kPaint = 1u;
-const uint kMetal = 2u;
-const uint kGlass = 3u;
-const uint kEmitter = 4u;
-const uint kPolarizingElement = 5u;  // polarizer or wave plate
+enum SurfaceKind : uint {
+#define MALUS_SURFACE_ROW(id, macro, build, name, alias, description) k##id,
+#define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
+#define MALUS_RULE_ROW(id, name, alias, description)
+#include "shaders/effects.def"
+  kSurfaceKinds
+};
 #endif
 
 struct Material {

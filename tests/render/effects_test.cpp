@@ -279,11 +279,11 @@ const std::map<std::string, EffectScene>& scenes() {
   static const std::map<std::string, EffectScene> kScenes = {
       {"textures", {"textures", 0.1}},
       {"absorption", {"absorption", 0.1}},
-      {"polarized-sky", {"polarized-sky", 0.02}},
+      {"polarized-sky", {"sky", 0.02}},
       {"display", {"polarized-emitters", 0.02}},
-      {"polarizing-sheets", {"polarizing-sheets", 0.1}},
+      {"polarizing-sheets", {"polarizing-elements", 0.1}},
       {"coating", {"coatings", 0.1}},
-      {"rough-reflection", {"rough-reflection", 0.05}},
+      {"rough-reflection", {"roughness", 0.05}},
   };
   return kScenes;
 }
@@ -320,7 +320,7 @@ TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
   const pack::Scene& scene = sceneNamed(GetParam());
   const EffectScene& expected = scenes().at(GetParam());
   for (const auto& [name, other] : scenes())
-    EXPECT_EQ(bake::isOn(scene.effects, other.effect), name == GetParam()) << other.effect;
+    EXPECT_EQ(bake::isOn(scene.effects, std::string_view(other.effect)), name == GetParam()) << other.effect;
   // Without it the picture is another.
   const RenderParameters parameters = render::defaultParameters(scene);
   const RenderResult truth = reference::render(scene, parameters, 0),
@@ -334,7 +334,8 @@ TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
   const auto choice = render::chooseEffects(kept, "stokes", scene, request);
   ASSERT_EQ(choice.off, std::vector<std::string>{expected.effect});
   ASSERT_EQ(choice.warnings.size(), 1u);
-  EXPECT_NE(choice.warnings[0].find(expected.effect), std::string::npos);
+  EXPECT_EQ(shaders::nameOf(choice.warnings[0].effect), expected.effect);
+  EXPECT_NE(choice.warnings[0].text.find(expected.effect), std::string::npos);
 }
 
 // On Vulkan, whose variants differ; Embree draws these scenes by the build that has everything anyway, and every other

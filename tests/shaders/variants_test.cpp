@@ -165,7 +165,7 @@ TEST(VariantsTest, AnEffectThatIsOffCostsNothing) {
     for (const std::uint32_t binding : {12u, 13u, 14u}) expectBinding(without, binding, false);
     for (const Effect effect : {Effect::kPolarizingElement, Effect::kTextures, Effect::kAbsorption, Effect::kCoatings,
                                 Effect::kRoughness, Effect::kSky, Effect::kPolarizedEmitters}) {
-      SCOPED_TRACE(std::string(method) + " " + shaders::kEffectMacros[static_cast<std::size_t>(effect)]);
+      SCOPED_TRACE(std::string(method) + " " + shaders::kCompiledEffects[static_cast<std::size_t>(effect)].macro);
       Variant on = off;
       on.effects |= shaders::bitOf(effect);
       const Counts with = countsOf(on);
@@ -192,7 +192,8 @@ TEST(VariantsTest, AnEffectThatIsOffCostsNothing) {
                                 Effect::kEnvironmentMap, Effect::kGlass, Effect::kLambert, Effect::kEmitter}) {
       Variant less = off;
       less.effects &= ~shaders::bitOf(effect);
-      EXPECT_LT(countsOf(less).words, without.words) << shaders::kEffectMacros[static_cast<std::size_t>(effect)];
+      EXPECT_LT(countsOf(less).words, without.words)
+          << shaders::kCompiledEffects[static_cast<std::size_t>(effect)].macro;
     }
   }
 }

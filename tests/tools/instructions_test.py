@@ -76,8 +76,8 @@ class Instructions(unittest.TestCase):
         return found
 
     def test_an_effect_that_is_off_costs_nothing(self):
-        scenes = {"textures": "textures", "absorption": "absorption", "polarized-sky": "polarized-sky",
-                  "display": "polarized-emitters", "coating": "coatings", "rough-reflection": "rough-reflection"}
+        scenes = {"textures": "textures", "absorption": "absorption", "polarized-sky": "sky",
+                  "display": "polarized-emitters", "coating": "coatings", "rough-reflection": "roughness"}
         cases = [(scene, effect, method) for scene, effect in scenes.items() for method in ("importance", "stokes")]
         images = []
         for scene, effect, method in cases:

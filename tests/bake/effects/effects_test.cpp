@@ -8,6 +8,7 @@
 
 #include "bake/effects/deepest_bounce.h"
 #include "bake/effects/polarization_bound.h"
+#include "bake/effects/rules.h"
 
 #include "tests/bake/fixtures.h"
 
@@ -60,26 +61,50 @@ TEST(Effects, AllOfThemInOrder) {
     names.push_back(e.name);
     EXPECT_FALSE(e.on) << e.name;  // nothing is there
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"diffuse",
+  EXPECT_EQ(names, effectNames());
+  EXPECT_EQ(names, (std::vector<std::string>{"metal",
+                                             "glass",
+                                             "polarizing-elements",
+                                             "point-lights",
+                                             "shadows",
+                                             "highlights",
                                              "textures",
-                                             "dielectric",
-                                             "conductor",
-                                             "transmission",
                                              "absorption",
                                              "coatings",
-                                             "polarizing-sheets",
-                                             "rough-reflection",
+                                             "roughness",
+                                             "sky",
+                                             "polarized-emitters",
+                                             "diffuse",
+                                             "dielectric",
                                              "tir",
                                              "linear-polarization",
                                              "circular-polarization",
-                                             "shadows",
-                                             "point-lights",
-                                             "highlights",
                                              "emitters",
-                                             "polarized-emitters",
                                              "environment",
-                                             "polarized-sky",
                                              "filter"}));
+}
+
+// Each row of shaders/effects.def has one rule, in order; a listed one has a description.
+TEST(Effects, EveryRowHasItsRule) {
+  ASSERT_EQ(effectRules().size(), shaders::kEffects.size());
+  for (std::size_t i = 0; i < shaders::kEffects.size(); ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(effectRules()[i].effect), i);
+    EXPECT_TRUE(effectRules()[i].isOn) << i;
+    EXPECT_FALSE(shaders::kEffects[i].description.empty()) << i;
+    EXPECT_TRUE(shaders::kEffects[i].name.empty() || effectRules()[i].reason) << i;
+  }
+}
+
+TEST(Effects, EarlierNamesAreAliases) {
+  using shaders::Effect;
+  for (const auto& [name, effect] : {std::pair("conductor", Effect::kMetal),
+                                     {"transmission", Effect::kGlass},
+                                     {"rough-reflection", Effect::kRoughness},
+                                     {"polarizing-sheets", Effect::kPolarizingElement},
+                                     {"polarized-sky", Effect::kSky}})
+    EXPECT_EQ(effectNamed(name), effect) << name;
+  EXPECT_FALSE(shaders::effectNamed(""));
+  EXPECT_CONTAINS(test::errorOf([] { effectNamed("lambert"); }), "lambert");  // compiled in, not listed
 }
 
 TEST(Effects, MaterialsThatNoMeshHasDoNotCount) {
@@ -87,18 +112,18 @@ TEST(Effects, MaterialsThatNoMeshHasDoNotCount) {
   scene.meshes.pop_back();
   scene.meshes[0].material = 1;
   const auto on = effectsOf(scene);
-  EXPECT_TRUE(on.at("conductor"));
+  EXPECT_TRUE(on.at("metal"));
   EXPECT_FALSE(on.at("dielectric"));
-  EXPECT_FALSE(on.at("transmission"));
+  EXPECT_FALSE(on.at("glass"));
 }
 
 TEST(Effects, KindsOfSurfaces) {
   auto on = effectsOf(sceneOf({material(MaterialKind::glass)}, 4));
-  EXPECT_TRUE(on.at("dielectric") && on.at("transmission") && on.at("tir"));
-  EXPECT_FALSE(on.at("conductor") || on.at("diffuse") || on.at("emitters"));
+  EXPECT_TRUE(on.at("dielectric") && on.at("glass") && on.at("tir"));
+  EXPECT_FALSE(on.at("metal") || on.at("diffuse") || on.at("emitters"));
   on = effectsOf(sceneOf({material(MaterialKind::mirrorGlass)}, 4));
   EXPECT_TRUE(on.at("dielectric"));
-  EXPECT_FALSE(on.at("transmission") || on.at("tir"));
+  EXPECT_FALSE(on.at("glass") || on.at("tir"));
   on = effectsOf(sceneOf({material(MaterialKind::paint, 0.5)}, 4));
   EXPECT_TRUE(on.at("dielectric") && on.at("diffuse"));
   on = effectsOf(sceneOf({material(MaterialKind::emitter)}, 4));
@@ -135,16 +160,16 @@ TEST(Effects, WhatFewMaterialsHave) {
   EXPECT_FALSE(bits(material(MaterialKind::mirrorGlass)).at("circular-polarization"));
   Material rough = material(MaterialKind::metal);
   rough.roughness = 0.1;
-  EXPECT_TRUE(bits(rough).at("rough-reflection"));
-  EXPECT_FALSE(bits(rough, 0).at("rough-reflection"));
+  EXPECT_TRUE(bits(rough).at("roughness"));
+  EXPECT_FALSE(bits(rough, 0).at("roughness"));
   Material mapped = material(MaterialKind::lambert, 0.5);
   mapped.maps.albedo = 0;
   EXPECT_TRUE(bits(mapped).at("textures"));
   for (const MaterialKind kind : {MaterialKind::polarizer, MaterialKind::wavePlate})
-    EXPECT_TRUE(bits(material(kind)).at("polarizing-sheets"));
+    EXPECT_TRUE(bits(material(kind)).at("polarizing-elements"));
   for (const auto& [name, on] : effectsOf(sceneOf({material(MaterialKind::glass), material(MaterialKind::metal)}, 4)))
-    for (const char* few : {"absorption", "coatings", "rough-reflection", "textures", "polarizing-sheets",
-                            "polarized-emitters", "polarized-sky"})
+    for (const char* few :
+         {"absorption", "coatings", "roughness", "textures", "polarizing-elements", "polarized-emitters", "sky"})
       EXPECT_FALSE(name == few && on) << name;
 }
 
@@ -168,7 +193,7 @@ TEST(Effects, PolarizedSourcesAreTheFirstOfTwoDiattenuators) {
   scene.environment.radiance = glm::dvec3(1);
   scene.environment.sun = {0, 1, 0};
   scene.environment.skyDegree = 0.8;
-  EXPECT_TRUE(effectsOf(scene).at("polarized-sky"));
+  EXPECT_TRUE(effectsOf(scene).at("sky"));
   EXPECT_TRUE(effectsOf(scene).at("linear-polarization"));
   // A polarizer and a mirror of glass (D = 1 both): (2 2 + 0)/2 - 1.
   scene = sceneOf({material(MaterialKind::polarizer)}, 2);
@@ -378,8 +403,8 @@ TEST(Effects, SceneWithoutThem) {
   EXPECT_EQ(without("environment").environment.size, 0u);
   EXPECT_EQ(without("highlights").materials[1].highlightStrength, 0);
   EXPECT_EQ(without("emitters").materials[2].radiance, glm::dvec3(0.0));
-  EXPECT_EQ(without("transmission").materials[0].kind, MaterialKind::mirrorGlass);
-  EXPECT_EQ(without("conductor").materials[1].kind, MaterialKind::lambert);
+  EXPECT_EQ(without("glass").materials[0].kind, MaterialKind::mirrorGlass);
+  EXPECT_EQ(without("metal").materials[1].kind, MaterialKind::lambert);
   EXPECT_EQ(without("diffuse").materials[1].albedo, glm::dvec3(0.0));
   // These four the renderer leaves out: they are no part of a scene.
   const std::set<std::string> rendering = {"linear-polarization", "circular-polarization", "shadows", "filter"};

@@ -55,17 +55,20 @@ TEST(EffectsChoice, AutoTakesTheCheapestExactMethod) {
   EXPECT_EQ(chosen("stokes", one, stokes), "stokes-linear") << "one bounce of unpolarized light has no S3";
 }
 
-TEST(EffectsChoice, AListLeavesOutTheRestAndSaysWhatThatCosts) {
+TEST(EffectsChoice, AListLeavesOutTheRestWithAWarning) {
   const pack::Scene two = mirrors(true);
   const EffectsChoice choice =
-      chooseEffects({"conductor", "point-lights", "shadows", "highlights"}, "stokes", two, intensityAt(3));
+      chooseEffects({"metal", "point-lights", "shadows", "highlights"}, "stokes", two, intensityAt(3));
   EXPECT_EQ(choice.method, "fresnel");
   EXPECT_EQ(choice.off, std::vector<std::string>{"linear-polarization"});
   ASSERT_EQ(choice.warnings.size(), 1u);
-  EXPECT_NE(choice.warnings[0].find("linear-polarization, which this scene needs"), std::string::npos);
-  EXPECT_NE(choice.warnings[0].find("of the unpolarized one"), std::string::npos);
+  EXPECT_EQ(choice.warnings[0].effect, shaders::Effect::kLinearPolarization);
+  EXPECT_NE(choice.warnings[0].text.find("linear-polarization"), std::string::npos);
+  const EffectsChoice alias =
+      chooseEffects({"conductor", "point-lights", "shadows", "highlights"}, "stokes", two, intensityAt(3));
+  EXPECT_EQ(alias.off, choice.off) << "the earlier name of metal";
   const EffectsChoice dark = chooseEffects({"linear-polarization"}, "stokes", two, intensityAt(3));
-  EXPECT_EQ(dark.off, (std::vector<std::string>{"conductor", "shadows", "point-lights", "highlights"}));
+  EXPECT_EQ(dark.off, (std::vector<std::string>{"metal", "point-lights", "shadows", "highlights"}));
   EXPECT_EQ(dark.warnings.size(), 4u);
   try {
     chooseEffects({"magic"}, "stokes", two, intensityAt(3));

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include "bake/effects/rules.h"
+
+namespace malus::bake {
+using pack::Material;
+using shaders::Effect;
+
+EffectRule materialRule(Effect effect, const EffectQuery::Predicate& holds,
+                        const std::function<void(Material&)>& removeFrom) {
+  EffectRule rule;
+  rule.effect = effect;
+  rule.isOn = [holds](const EffectQuery& q) { return q.any(holds); };
+  rule.reason = [holds](const EffectQuery& q, bool on) {
+    return on ? fmt::format("materials: {}", q.names(holds)) : "no material has it";
+  };
+  if (removeFrom)
+    rule.remove = [removeFrom](pack::Scene& scene) {
+      for (Material& m : scene.materials) removeFrom(m);
+    };
+  return rule;
+}
+
+namespace {
+
+// As rule, for an effect of reflections.
+EffectRule ifReflecting(EffectRule rule) {
+  rule.isOn = [isOn = rule.isOn](const EffectQuery& q) { return q.reflects() && isOn(q); };
+  rule.reason = [reason = rule.reason](const EffectQuery& q, bool on) {
+    return q.reflects() ? reason(q, on) : "not needed at depth 0";
+  };
+  return rule;
+}
+
+// Total internal reflection follows from the index of refraction: it cannot be removed.
+EffectRule totalReflectionRule() {
+  const auto denser = [](const EffectQuery& q) {
+    return [&scene = q.scene](const Material& m) { return hasDenserSide(scene, m); };
+  };
+  EffectRule rule;
+  rule.effect = Effect::kTir;
+  rule.isOn = [denser](const EffectQuery& q) { return q.reflects() && q.any(denser(q)); };
+  rule.reason = [denser](const EffectQuery& q, bool on) {
+    return on ? fmt::format("light can meet these from their denser side: {}; not needed at depth 0",
+                            q.names(denser(q)))
+              : "light meets no surface from its denser side";
+  };
+  return rule;
+}
+
+}  // namespace
+
+std::vector<EffectRule> materialRules() {
+  EffectRule textures = materialRule(
+      Effect::kTextures, [](const Material& m) { return m.maps.any(); }, [](Material& m) { m.maps = {}; });
+  textures.remove = [remove = textures.remove](pack::Scene& scene) {
+    remove(scene);
+    scene.textures.clear();
+  };
+  return {
+      textures,
+      materialRule(
+          Effect::kAbsorption,
+          [](const Material& m) { return isPositive(m.absorption) || isPositive(m.outsideAbsorption); },
+          [](Material& m) { m.absorption = m.outsideAbsorption = glm::dvec3(0.0); }),
+      materialRule(Effect::kCoatings, isCoated, [](Material& m) { m.coating = {}; }),
+      ifReflecting(materialRule(
+          Effect::kRoughness, [](const Material& m) { return m.roughness > 0; }, [](Material& m) { m.roughness = 0; })),
+      materialRule(Effect::kPolarizedEmitters, isPolarizedEmitter,
+                   [](Material& m) {
+                     if (pack::isEmitter(m.kind)) m.polarization = 0;
+                   }),
+      materialRule(
+          Effect::kDiffuse, [](const Material& m) { return isPositive(m.albedo); },
+          [](Material& m) { m.albedo = glm::dvec3(0.0); }),
+      materialRule(
+          Effect::kEmitters, [](const Material& m) { return pack::isEmitter(m.kind) && isPositive(m.radiance); },
+          [](Material& m) { m.radiance = glm::dvec3(0.0); }),
+      totalReflectionRule(),
+  };
+}
+
+}  // namespace malus::bake

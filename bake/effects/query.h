@@ -1,0 +1,47 @@
+// A scene and what is asked of its image, as the rules of the effects read them.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/effects/effects.h"
+#include "bake/effects/polarizing_paths.h"
+
+namespace malus::bake {
+
+inline bool isPositive(const glm::dvec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+
+// Refers to the scene and the request; both must outlive it.
+class EffectQuery {
+ public:
+  using Predicate = std::function<bool(const pack::Material&)>;
+  EffectQuery(const pack::Scene& queriedScene, const ImageRequest& queriedRequest);
+
+  const pack::Scene& scene;
+  const ImageRequest& request;
+
+  // Over the materials that a mesh uses.
+  bool any(const Predicate& holds) const;
+  std::string names(const Predicate& holds) const;  // "gold, glass"
+
+  bool hasLinearFilter() const { return request.analyser[1] != 0 || request.analyser[2] != 0; }
+  bool hasCircularFilter() const { return request.analyser[3] != 0; }
+  bool reflects() const { return request.depth >= 1; }
+  bool hasEnvironment() const { return scene.environment.size > 0 || isPositive(scene.environment.radiance); }
+  // Found at the first call: it may compare every interface with every other one.
+  const PolarizingPaths& paths() const;
+
+ private:
+  std::vector<const pack::Material*> used_;
+  mutable std::optional<PolarizingPaths> paths_;
+};
+
+// Properties of a material that several rules read.
+bool isPolarizedEmitter(const pack::Material& material);
+bool isCoated(const pack::Material& material);
+// Whether light can meet the surface from its denser side, where total reflection occurs.
+bool hasDenserSide(const pack::Scene& scene, const pack::Material& material);
+
+}  // namespace malus::bake

@@ -1,0 +1,49 @@
+#include "bake/effects/rules.h"
+
+namespace malus::bake {
+using pack::Material;
+using pack::MaterialKind;
+using shaders::Effect;
+
+namespace {
+
+// What is below the interface: a diffuse surface, black without an albedo.
+void removeInterface(Material& m) {
+  m.kind = MaterialKind::lambert;
+  m.eta = glm::dvec3(1.0);
+  m.k = glm::dvec3(0.0);
+  m.highlightStrength = 0;
+}
+
+void removeSurface(Effect surface, Material& m) {
+  if (surfaceEffect(m.kind) != surface) return;
+  if (surface == Effect::kGlass) {
+    m.kind = MaterialKind::mirrorGlass;
+  } else if (surface == Effect::kPolarizingElement) {  // a grey filter of the same mean transmittance
+    m.transmittanceParallel = m.transmittanceCrossed = (m.transmittanceParallel + m.transmittanceCrossed) * 0.5;
+    m.retardanceDegrees = glm::dvec3(0.0);
+  } else {
+    removeInterface(m);
+  }
+}
+
+}  // namespace
+
+std::vector<EffectRule> surfaceRules() {
+  std::vector<EffectRule> rules;
+  for (std::size_t i = 0; i < shaders::kCompiledEffects.size(); ++i) {
+    if (!shaders::kCompiledEffects[i].isSurface) continue;
+    const auto surface = static_cast<Effect>(i);
+    rules.push_back(materialRule(
+        surface, [surface](const Material& m) { return surfaceEffect(m.kind) == surface; },
+        [surface](Material& m) { removeSurface(surface, m); }));
+  }
+  rules.push_back(materialRule(
+      Effect::kDielectric, [](const Material& m) { return pack::isDielectric(m.kind); },
+      [](Material& m) {
+        if (pack::isDielectric(m.kind)) removeInterface(m);
+      }));
+  return rules;
+}
+
+}  // namespace malus::bake

@@ -1,0 +1,16 @@
+// Method `perfect-iterative`: `perfect-mirror` as a loop along the camera path.
+
+struct FresnelTerms {
+  real3 r;
+};
+FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflectance blue) {
+  FresnelTerms f;
+  f.r = splat3(R(1.0));
+  return f;
+}
+
+#include "shaders/methods/exact_terms.h"
+
+FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - f.r; }
+
+#include "shaders/iterative/colour.h"

@@ -19,10 +19,10 @@ namespace {
 struct Face {
   std::array<glm::dvec3, 3> corners;
   glm::dvec3 normal;         // 0: without area
-  const Material* material;  // nullptr: reflects all that it meets
+  const Material* material;  // nullptr: reflectance 1
 };
 
-// Reflectance of s light, the larger one, which grows toward grazing incidence; of the most reflecting colour.
+// Largest reflectance at a cosine of incidence, over polarizations and colours.
 double reflectance(const Material& m, double c) {
   double most = 0;
   for (int colour = 0; colour < 3; ++colour) {
@@ -34,11 +34,11 @@ double reflectance(const Material& m, double c) {
   return most;
 }
 
-// The most that a face reflects of light toward one of the points. The cosine's level sets are cones, so its least
-// value between two convex sets lies at corners; 0 where the points lie on both sides. Points no farther than `flat`
-// from the face's plane see nothing of it. Angles between that and normal incidence are looked at in steps, because a
-// metal's reflectance may dip and rise.
-double most(const Face& face, std::span<const glm::dvec3> points, double flat) {
+// Largest reflectance of a face toward any of the points. The level sets of the cosine are cones, so its minimum over
+// two convex sets is at corners; it is 0 if points are on both sides. A face is not visible from points at most `flat`
+// from its plane. The reflectance is sampled from the minimum to normal incidence, because that of a metal is not
+// monotonic.
+double largestReflectance(const Face& face, std::span<const glm::dvec3> points, double flat) {
   if (!face.material || face.normal == glm::dvec3(0.0)) return 1;
   double least = 1;
   double before = 0, behind = 0;
@@ -49,7 +49,7 @@ double most(const Face& face, std::span<const glm::dvec3> points, double flat) {
       behind = std::max(behind, -height);
       least = std::min(least, length > 0 ? std::abs(height) / length : 0);
     }
-  // In one plane they do not see each other.
+  // Coplanar faces are not visible from each other.
   if (std::max(before, behind) <= flat) return 0;
   if (before > 0 && behind > 0) least = 0;
   constexpr int kSteps = 32;
@@ -60,7 +60,7 @@ double most(const Face& face, std::span<const glm::dvec3> points, double flat) {
 }
 
 bool isFlatMirror(const Material& m, const pack::Mesh& mesh) {
-  // From a denser side light can be totally reflected.
+  // From the denser side light can be totally reflected.
   const bool denser = pack::isDielectric(m.kind) && m.outsideEta > m.eta.y;
   return pack::isOpaqueInterface(m.kind) && !denser && mesh.normals.empty() && m.coating.thicknessNm == 0 &&
          m.roughness == 0 && m.maps.eta < 0;
@@ -86,10 +86,10 @@ std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, doubl
   const double flat = flatness(scene);
   if (!interfacesMutuallyVisible(scene)) depth = std::min(depth, 1u);
 
-  // Step 1: from the eye. Step 2: bounce by bounce, the best way to every face.
+  // Step 1: from the camera. Step 2: for each bounce, the largest product of reflectances to each face.
   const std::size_t count = faces.size();
   std::vector<double> share(count);
-  for (std::size_t j = 0; j < count; ++j) share[j] = most(faces[j], std::array{scene.camera.position}, 0);
+  for (std::size_t j = 0; j < count; ++j) share[j] = largestReflectance(faces[j], std::array{scene.camera.position}, 0);
   std::vector<double> between;
   for (std::uint32_t bounce = 1; bounce <= depth; ++bounce) {
     if (*std::max_element(share.begin(), share.end()) <= tolerance) return bounce - 1;
@@ -98,8 +98,9 @@ std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, doubl
       between.resize(count * count);
       for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = 0; j < count; ++j)
-          // A flat face does not see itself.
-          between[i * count + j] = i == j && faces[i].material ? 0 : most(faces[j], faces[i].corners, flat);
+          // A flat face is not visible from itself.
+          between[i * count + j] =
+              i == j && faces[i].material ? 0 : largestReflectance(faces[j], faces[i].corners, flat);
     }
     std::vector<double> next(count, 0);
     for (std::size_t i = 0; i < count; ++i)

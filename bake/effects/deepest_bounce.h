@@ -1,14 +1,15 @@
-// How deep light can be reflected and still be seen.
+// Largest depth at which a reflection still changes the image.
 #pragma once
 
 #include "bake/pack/scene.h"
 
 namespace malus::bake {
 
-// Most interactions, at most `depth`, after which light can still change a pixel by more than `tolerance` of the
-// radiance that it then has. Conservative: for every pair of flat faces the most grazing way from one to the other
-// bounds the reflectance, and the best chain of them is taken; glass, sheets, films, maps, curved and rough surfaces
-// count as 1. A scene of more than kMostFaces interface faces is not analysed: `depth`.
+// Returns the largest number of interactions, at most `depth`, after which light can change a pixel by more than
+// `tolerance` of its radiance at the last one. Conservative: between each pair of flat faces the most grazing ray
+// bounds the reflectance, and the chain of faces with the largest product is taken; glass, polarizing elements, thin
+// films, maps, curved and rough surfaces count as a reflectance of 1. Returns `depth` for a scene with more than
+// kMostFaces faces of interfaces.
 std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, double tolerance);
 inline constexpr std::size_t kMostFaces = 1000;
 

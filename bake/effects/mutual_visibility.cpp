@@ -18,19 +18,20 @@ bool isInterface(const pack::Scene& scene, const pack::Mesh& mesh) {
   return pack::isInterface(scene.materials[mesh.material].kind);
 }
 
-// Whether every edge of every interface has a face on both sides, corners in one place being one.
+// Whether every edge of every interface has a face on both sides; corners at the same position count as one.
 bool allClosed(const pack::Scene& scene) {
   for (const pack::Mesh& mesh : scene.meshes) {
     if (!isInterface(scene, mesh)) continue;
-    std::map<std::array<float, 3>, int> places;
-    const auto place = [&](std::uint32_t corner) {
+    std::map<std::array<float, 3>, int> positionIds;
+    const auto positionId = [&](std::uint32_t corner) {
       const glm::vec3& p = mesh.positions[corner];
-      return places.emplace(std::array<float, 3>{p.x, p.y, p.z}, static_cast<int>(places.size())).first->second;
+      return positionIds.emplace(std::array<float, 3>{p.x, p.y, p.z}, static_cast<int>(positionIds.size()))
+          .first->second;
     };
     std::map<std::pair<int, int>, int> edges;
     for (const glm::uvec3& t : mesh.triangles)
       for (int i = 0; i < 3; ++i) {
-        const int from = place(t[i]), to = place(t[(i + 1) % 3]);
+        const int from = positionId(t[i]), to = positionId(t[(i + 1) % 3]);
         ++edges[{from, to}];
         --edges[{to, from}];
       }
@@ -73,7 +74,7 @@ bool interfacesMutuallyVisible(const pack::Scene& scene) {
     }
   }
 
-  // Step 2: whether a corner lies before a face.
+  // Step 2: whether a corner is in front of a face.
   constexpr std::size_t kMostTests = 20'000'000;
   if (faces.empty() || faces.size() * corners.size() > kMostTests) return true;
   const double tolerance = flatness(scene);
@@ -85,12 +86,12 @@ bool interfacesMutuallyVisible(const pack::Scene& scene) {
       behind = behind || height < -tolerance;
     }
   if (before) return true;
-  // Convex. A flat mirror has no inside; that of a body is met by an eye within it, that of a shell through its open
-  // sides.
-  const bool eyeInside = std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
+  // Convex. A flat mirror has no inside; light reaches the inside of a body from a camera in it, and that of a shell
+  // through its open sides.
+  const bool cameraInside = std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
     return glm::dot(scene.camera.position - face.point, face.normal) <= tolerance;
   });
-  return behind && (eyeInside || !allClosed(scene));
+  return behind && (cameraInside || !allClosed(scene));
 }
 
 }  // namespace malus::bake

@@ -1,17 +1,18 @@
-// Whether light can go from one interface to another: where it cannot, no path has two of them.
+// Whether light can travel from one interface to another; if not, no path has two of them.
 #pragma once
 
 #include "bake/pack/scene.h"
 
 namespace malus::bake {
 
-// False only where no point of an interface (metal, paint, mirror glass, glass) lies before a face of one: for a
-// single flat mirror, a convex body, faces back to back. True where there is glass that transmits, no geometry,
-// or too much of it to tell.
+// False only if no point of an interface is in front of a face of an interface: a single flat mirror, a convex body,
+// faces back to back. True if an interface transmits, if there is no geometry, or if there are too many faces to
+// compare.
 bool interfacesMutuallyVisible(const pack::Scene& scene);
 
-// Height up to which corners count as in a face's plane: twice a step of a pack's grid (20 bits over the cube that
-// holds every vertex), which bends flat surfaces by as much, and what float leaves of the largest coordinate.
+// Height in metres up to which a corner counts as in the plane of a face: two steps of a pack's position grid (20 bits
+// over the cube that contains all vertices), by which quantization bends flat surfaces, and the float rounding of the
+// largest coordinate.
 double flatness(const pack::Scene& scene);
 
 }  // namespace malus::bake

@@ -30,14 +30,14 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
           std::max(result.interaction, ratio(m.transmittanceParallel[colour], m.transmittanceCrossed[colour]));
       continue;
     }
-    // Films, maps: what they reach between the steps is not bounded here.
+    // Thin films and maps: their maximum is not bounded by samples.
     if (m.coating.thicknessNm > 0 || m.maps.eta >= 0) {
       result.interaction = 1;
       if (m.albedo[colour] > 0) result.leaving = 1;
       continue;
     }
     constexpr int kSteps = 2000;
-    const auto look = [&](double n1, double n2, double k2, bool transmits) {
+    const auto addSamples = [&](double n1, double n2, double k2, bool transmits) {
       for (int i = 0; i <= kSteps; ++i) {
         const double c = static_cast<double>(i) / kSteps;
         const f64::Reflectance r =
@@ -48,11 +48,11 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
       }
     };
     if (pack::isConductor(m.kind)) {
-      look(m.outsideEta, m.eta[colour], m.k[colour], false);
+      addSamples(m.outsideEta, m.eta[colour], m.k[colour], false);
     } else {
-      look(m.outsideEta, m.eta.y, 0, pack::transmits(m.kind));
-      if (pack::hasInside(m.kind)) look(m.eta.y, m.outsideEta, 0, true);
-      // Between the steps lies Brewster's angle, where D is 1.
+      addSamples(m.outsideEta, m.eta.y, 0, pack::transmits(m.kind));
+      if (pack::hasInside(m.kind)) addSamples(m.eta.y, m.outsideEta, 0, true);
+      // At Brewster's angle, between two samples, D is 1.
       if (m.eta.y != m.outsideEta) result.interaction = 1;
     }
   }
@@ -79,8 +79,8 @@ glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const ImageRequest& 
         }
       if (count > 1) bound[colour] = std::max(bound[colour], (more + less) / 2 - 1);
     };
-    // A path ends with light that leaves from below an interface, or at a source; where interfaces cannot see each
-    // other it has one interaction, or light that leaves.
+    // A path ends with diffuse light from below an interface, or at a source. If interfaces are not mutually visible it
+    // has one interaction, or diffuse light from below one.
     if (several) {
       worst({{d.interaction, request.depth}, {std::max(d.leaving, d.source), 1}});
     } else {

@@ -1,4 +1,4 @@
-// How wrong a picture can be that leaves polarization out.
+// Bound on the error of an image without polarization.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,10 +7,10 @@
 
 namespace malus::bake {
 
-// Largest error of the unpolarized intensity relative to itself, per colour: (prod(1 + D) + prod(1 - D))/2 - 1 over
-// the longest chain of diattenuating elements that the picture's depth and filter allow, each at its largest D of any
-// angle (derived in shaders/optics/CONVENTIONS.md). 0 where at most one stands on any
-// path. Relative to the truth there is no bound, because the truth may be 0.
+// Returns the largest relative error of the unpolarized intensity, per colour: (prod(1 + D) + prod(1 - D))/2 - 1 over
+// the longest chain of diattenuating elements that the depth and the filter of the image allow, each with its largest
+// diattenuation D at any angle (derived in shaders/optics/CONVENTIONS.md). 0 if no path has two of them. Relative to
+// the exact intensity there is no bound, because that may be 0.
 glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const ImageRequest& request);
 
 }  // namespace malus::bake

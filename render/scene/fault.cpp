@@ -6,7 +6,9 @@ namespace malus::render {
 
 namespace {
 
-std::uint64_t place(const gpu::Fault& fault, std::uint32_t width) { return std::uint64_t{fault.y} * width + fault.x; }
+std::uint64_t pixelIndex(const gpu::Fault& fault, std::uint32_t width) {
+  return std::uint64_t{fault.y} * width + fault.x;
+}
 
 std::string text(const glm::vec3& v) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x, v.y, v.z); }
 
@@ -14,18 +16,18 @@ std::string text(const glm::vec3& v) { return fmt::format("({:.9g}, {:.9g}, {:.9
 
 void Faults::note(const gpu::Fault& fault, std::uint32_t width) {
   ++count;
-  if (!first || place(fault, width) < place(*first, width)) first = fault;
+  if (!first || pixelIndex(fault, width) < pixelIndex(*first, width)) first = fault;
 }
 
 void Faults::add(const Faults& others, std::uint32_t width) {
   count += others.count;
-  if (others.first && (!first || place(*others.first, width) < place(*first, width))) first = others.first;
+  if (others.first && (!first || pixelIndex(*others.first, width) < pixelIndex(*first, width))) first = others.first;
 }
 
 std::string describe(const Faults& faults, const pack::Scene& scene) {
-  if (!faults.first) return "every value is finite and physical";
+  if (!faults.first) return "all values are finite and physical";
   const gpu::Fault& f = *faults.first;
-  constexpr const char* kProblems[] = {"is right", "is not finite", "is negative", "is more than fully polarized"};
+  constexpr const char* kProblems[] = {"is physical", "is not finite", "is negative", "is more than fully polarized"};
   constexpr const char* kColours[] = {"red", "green", "blue"};
   std::string where = "the environment", optics;
   if (f.material < scene.materials.size()) {
@@ -37,7 +39,7 @@ std::string describe(const Faults& faults, const pack::Scene& scene) {
   }
   return fmt::format(
       "pixel ({}, {}), bounce {}, {}: {} light {}: Stokes vector ({:.9g}, {:.9g}, {:.9g}, {:.9g}), rounding explains "
-      "{:.3g}; ray direction {}{}; values at fault in the picture: {}",
+      "{:.3g}; ray direction {}{}; unphysical values in the image: {}",
       f.x, f.y, f.bounce, where, kColours[f.colour % 3], kProblems[f.kind % 4], f.stokes.x, f.stokes.y, f.stokes.z,
       f.stokes.w, f.slack, text(f.direction), optics, faults.count);
 }

@@ -1,4 +1,4 @@
-// What --check-numerics found in a picture: values that no light can have.
+// Unphysical values in an image, found by --check-numerics.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 namespace malus::render {
 
 struct Faults {
-  std::uint64_t count = 0;          // values at fault
-  std::optional<gpu::Fault> first;  // of the first pixel in reading order; there, the first that arose
+  std::uint64_t count = 0;          // unphysical values
+  std::optional<gpu::Fault> first;  // of the first pixel in reading order, the first that occurred
 
-  // Takes a fault in; those of one pixel in the order in which they arose. width: of the whole picture.
+  // Adds a fault; those of one pixel must be added in the order of their occurrence. width: of the whole image.
   void note(const gpu::Fault& fault, std::uint32_t width);
-  void add(const Faults& others, std::uint32_t width);  // of other pixels
+  void add(const Faults& others, std::uint32_t width);  // adds those of other pixels
 };
 
-// One line: pixel, bounce, material, what is wrong, and what the surface was given.
+// One line: pixel, bounce, material, the kind of fault and the inputs of the surface.
 std::string describe(const Faults& faults, const pack::Scene& scene);
 
 }  // namespace malus::render

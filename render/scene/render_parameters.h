@@ -1,4 +1,4 @@
-// What a user asks of a picture beside the pack: size, part, depth, filter.
+// Settings of an image that are not in the pack: size, region, depth, filter.
 #pragma once
 
 #include <array>
@@ -9,18 +9,18 @@
 
 namespace malus::render {
 
-// A part of the picture, in pixels from the upper left corner.
+// A part of the image, in pixels from the upper left corner.
 struct Region {
   std::uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
-// First row of the Mueller matrix of what stands in front of the camera: the recorded intensity is its
-// product with the Stokes vector in the camera's frame (shaders/optics/CONVENTIONS.md: x is the picture's,
-// angles in degrees, counter-clockwise as the photographer sees them; +S3 is right circular).
+// First row of the Mueller matrix of the filter in front of the camera: the recorded intensity is its product with the
+// Stokes vector in the camera frame (shaders/optics/CONVENTIONS.md: x is that of the image, angles are in degrees,
+// counter-clockwise seen by the photographer; +S3 is right circular).
 using Analyser = std::array<double, 4>;
 inline constexpr Analyser kNoFilter = {1, 0, 0, 0};
 // Linear polarizer that passes light along an axis at `degrees`: 1/2 (1, cos 2f, sin 2f, 0), any finite angle.
-// A photographer's "circular polarizer" is this one: its quarter-wave plate stands behind the polarizer.
+// A photographer's "circular polarizer" is this one: its quarter-wave plate is behind the polarizer.
 Analyser linearPolarizer(double degrees);
 
 // Circular analyser that passes right or left circular light: 1/2 (1, 0, 0, +-1).
@@ -37,20 +37,20 @@ struct WavePlate {
 Analyser behindWavePlate(const Analyser& analyser, const WavePlate& plate);
 
 struct RenderParameters {
-  std::uint32_t width = 0;  // of the whole picture
+  std::uint32_t width = 0;  // of the whole image
   std::uint32_t height = 0;
   Region region;
   std::uint32_t samples = 1;  // rays per pixel along each axis
   std::uint32_t depth = 0;    // most specular interactions along a path
   Analyser analyser = kNoFilter;
-  bool shadows = true;       // false: nothing blocks a point light
-  bool everyEffect = false;  // compile in every effect, whether the scene calls for it or not
-  double tolerance = 0;      // of methods that follow the eye's path: share of a source's radiance that a path may lose
-  bool stokes = false;       // of those: Stokes vectors too, by four analysers
-  bool checkNumerics = false;  // look for values that no light can have (fault.h); slow
+  bool shadows = true;         // false: nothing blocks a point light
+  bool everyEffect = false;    // compile in every effect, whether the scene calls for it or not
+  double tolerance = 0;        // of iterative methods: share of a source's radiance that a path may lose
+  bool stokes = false;         // of iterative methods: Stokes vectors too, by four analysers
+  bool checkNumerics = false;  // find unphysical values (fault.h); slow
 };
 
-// The pack's own view.
+// The settings of the pack.
 RenderParameters defaultParameters(const pack::Scene& scene);
 
 }  // namespace malus::render

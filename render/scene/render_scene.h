@@ -1,5 +1,4 @@
-// A scene in the float structs that both renderers draw from (shaders/gpu/scene.h), in one place: so that
-// Embree and Vulkan see the same numbers.
+// A scene in the float structs of shaders/gpu/scene.h. Embree and Vulkan render from the same numbers.
 #pragma once
 
 #include <vector>
@@ -17,12 +16,12 @@ struct RenderScene {
   std::vector<std::uint32_t> meshTriangles;  // triangles of each mesh
   std::vector<std::uint32_t> meshVertices;
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;          // one a position; of flat meshes (0, 0, 0)
+  std::vector<glm::vec3> normals;          // one per position; (0, 0, 0) for flat meshes
   std::vector<glm::uvec3> triangles;       // indices within their mesh
-  std::vector<gpu::MaterialExtra> extras;  // one a material
-  std::vector<gpu::Texture> textures;      // one at least, so that a buffer has something to hold
+  std::vector<gpu::MaterialExtra> extras;  // one per material
+  std::vector<gpu::Texture> textures;      // at least one, because a buffer must not be empty
   std::vector<glm::vec3> textureTexels;
-  std::vector<glm::vec3> environmentTexels;  // with their border; one texel where there is no map
+  std::vector<glm::vec3> environmentTexels;  // with their border; one texel if there is no map
 };
 
 RenderScene makeRenderScene(const pack::Scene& scene);

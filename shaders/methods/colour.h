@@ -1,10 +1,10 @@
-// What the methods that carry one colour (schlick, fresnel) share: light is a colour, and no direction
-// across the ray means anything. Included after their FresnelTerms.
+// Shared by the methods that carry one colour (schlick, fresnel): light has no direction across the ray. Included after
+// their FresnelTerms.
 
 FN real payloadDepth(Payload p) { return p.colour.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.colour.x = depth; }
 
-// No direction across the ray means anything.
+// Unused: light has no direction across the ray.
 FN real3 surfaceS(real3 d, real3 n) { return n; }
 
 FN Payload payloadUnpolarized(real3 radiance) {

@@ -1,4 +1,4 @@
-// FresnelTerms of the methods that take Fresnel's equations as they are: from the exact reflectance of each colour.
+// FresnelTerms of the methods that use Fresnel's equations: from the exact reflectance of each colour.
 // Included after a method's FresnelTerms and its termsFromReflectance(red, green, blue).
 
 FN FresnelTerms dielectricTerms(real c, real n1, real n2) {
@@ -15,7 +15,7 @@ FN FresnelTerms filmTerms(real c, real n1, real3 nf, real3 turns, real3 n3, real
                               thinFilm(c, n1, nf.y, turns.y, n3.y, k3.y).reflected,
                               thinFilm(c, n1, nf.z, turns.z, n3.z, k3.z).reflected);
 }
-// What goes through the film into a dielectric, to be used as a reflection is: it has phases too.
+// Transmission through the film into a dielectric. Applied as a reflection is, because it shifts phases too.
 FN FresnelTerms filmTransmissionTerms(real c, real n1, real3 nf, real3 turns, real3 n3) {
   return termsFromReflectance(thinFilm(c, n1, nf.x, turns.x, n3.x, R(0.0)).through,
                               thinFilm(c, n1, nf.y, turns.y, n3.y, R(0.0)).through,

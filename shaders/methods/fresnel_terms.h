@@ -1,4 +1,4 @@
-// What methods with the exact unpolarized reflectance need of an interface: the mean of R_s and R_p per colour.
+// Interface terms of the methods with the exact unpolarized reflectance: the mean of R_s and R_p per colour.
 
 struct FresnelTerms {
   real3 r;

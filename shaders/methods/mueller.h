@@ -1,5 +1,5 @@
-// Light of the methods that carry Stokes vectors: light about to meet, or leaving, a surface
-// is a Stokes vector in the surface's frame (x = s). A ray carries it in its canonical frame.
+// Light of the methods that carry Stokes vectors. SurfaceLight, before and after an interaction, is a Stokes vector in
+// the frame of the surface (x = s); a payload is one in the canonical frame of its ray.
 
 #include "shaders/methods/mueller_terms.h"
 

@@ -1,4 +1,4 @@
-// What methods with Stokes vectors, and importance rows, need of an interface, per colour. Transmission follows from
+// Interface terms of the methods with Stokes or importance vectors, per colour. Transmission follows from
 // reflection: T_s, T_p = 1 - R_s, 1 - R_p and, on S2 and S3, the root of their product.
 
 struct FresnelTerms {

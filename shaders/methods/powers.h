@@ -1,4 +1,4 @@
-// FresnelTerms of the methods that keep s and p powers apart (the paper's): R_s, R_p for reflection and
+// FresnelTerms of the methods that carry s and p powers (those of the paper): R_s, R_p for reflection and
 // T_s, T_p = 1 - R_s, 1 - R_p, which for lossless dielectrics are the flux transmittances (0 in total
 // reflection) and for conductors the paper's weight of the diffuse light below.
 
@@ -18,7 +18,7 @@ FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflect
 
 FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - (f.rs + f.rp) * R(0.5); }
 
-// Light about to meet, or leaving, a surface: powers along the surface's s and p directions.
+// Light before and after an interaction: powers along the s and p directions of the surface.
 struct SurfaceLight {
   real3 s;
   real3 p;
@@ -73,7 +73,7 @@ FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) { return lightTra
 FN real3 surfaceS(real3 d, real3 n) { return sDirection(d, n); }
 
 // Stokes vector, in the canonical frame, of powers along a unit direction s across the ray and across s.
-// s = 0 stands for light without a direction, whose powers are equal.
+// s = 0 means light without a direction, whose powers are equal.
 FN Stokes stokesOfPowers(real3 s, real3 p, real3 sDir, real3 d) {
   real3 x;
   real3 y;

@@ -1,4 +1,4 @@
-// Method `schlick`: a colour, reflected by Schlick's approximation. What games use. 12 bytes.
+// Method `schlick`: a colour, reflected by Schlick's approximation, as is usual in games. 12 bytes.
 
 CONST int kPayloadBytes = 12;
 CONST int kHasStokes = 0;

@@ -1,4 +1,4 @@
-// What methods with Schlick's approximation need of an interface: its reflectance per colour.
+// Interface terms of the methods with Schlick's approximation: the reflectance per colour.
 
 struct FresnelTerms {
   real3 r;
@@ -15,7 +15,7 @@ FN FresnelTerms conductorTerms(real c, real n1, real3 n2, real3 k2) {
               schlickReflectance(c, n1, n2.z, k2.z));
   return f;
 }
-// Of what has no Schlick form (polarizer sheets): the mean.
+// For what has no Schlick form (polarizing elements): the mean.
 FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflectance blue) {
   FresnelTerms f;
   f.r = make3(red.rs + red.rp, green.rs + green.rp, blue.rs + blue.rp) * R(0.5);

@@ -1,7 +1,7 @@
-// Method `sp`: the paper's section 2. A ray brings back the powers I_s and I_p and the unit s direction
-// that they belong to; the receiver turns them to its own s direction with absolute cosines, which is the
-// paper's rule and creates energy (up to a factor of 1.41). 36 bytes. s = 0 marks light without a
-// direction (a miss, an emitter), which counts as I_s = I_p in the receiver's own frame.
+// Method `sp`: section 2 of the paper. A ray returns the powers I_s and I_p and the unit s direction of the surface
+// that it hit; the receiving surface rotates them to its s direction with absolute cosines. This rule of the paper
+// creates energy, up to a factor of 1.41. 36 bytes. s = 0 marks light without a direction (environment, emitter), which
+// counts as I_s = I_p in the receiver's frame.
 
 #include "shaders/methods/powers.h"
 #include "shaders/methods/s_vector.h"

@@ -1,6 +1,6 @@
-// Method `sp-cosine`: the paper's 3.1. As `sp`, with the s direction kept as one number: the cosine
+// Method `sp-cosine`: section 3.1 of the paper. As `sp`, with the s direction stored as one number: the cosine
 // between s and the canonical x of the ray, s taken modulo sign so that its y is not negative. The sine
-// comes from (1 - c)(1 + c), the best that a cosine near 1 allows: a step of the cosine there turns s by
+// comes from (1 - c)(1 + c), the best that a cosine near 1 allows: one float step there rotates s by
 // up to 3.5e-4 rad. 28 bytes. A cosine of 2 marks light without a direction.
 
 #include "shaders/methods/powers.h"

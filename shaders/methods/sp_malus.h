@@ -1,4 +1,4 @@
-// Method `sp-malus`: as `sp`, but powers turn by Malus's law, with cos^2 and sin^2. 36 bytes.
+// Method `sp-malus`: as `sp`, with powers rotated by Malus's law, cos^2 and sin^2. 36 bytes.
 
 #include "shaders/methods/powers.h"
 #include "shaders/methods/s_vector.h"

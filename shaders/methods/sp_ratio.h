@@ -1,8 +1,7 @@
-// Method `sp-ratio`: the paper's 3.2. As `sp-cosine`, with I_p kept as one number for all colours,
-// ratio = sum I_p / sum I_s. Where the sum of I_s is under 1e-20 of
-// that of I_p (0, above all) the powers change places: I_p is kept as if it
-// were I_s, the ratio is 0 and the s direction is the p direction (the cosine that is 90 degrees away),
-// so no light is lost. 20 bytes.
+// Method `sp-ratio`: section 3.2 of the paper. As `sp-cosine`, with I_p stored as one number for all colours,
+// ratio = sum I_p / sum I_s. If the sum of I_s is at most 1e-20 of that of I_p, the powers are exchanged so that no
+// light is lost: I_p is stored as I_s, the ratio is 0, and the cosine is that of the p direction, 90 degrees away. 20
+// bytes.
 
 #include "shaders/methods/powers.h"
 

@@ -1,13 +1,13 @@
-// Method `stokes-half`: full Stokes vectors per colour, 16 bits a number. sqrt(S0) is a half float: S0 up to
-// 4.3e9, saturating, to 1 part in 1000. S1, S2, S3 are relative to S0, in steps of 1/32767; what rounding
-// lifts above full polarization is shrunk back to it. 24 bytes. Does packing pay?
+// Method `stokes-half`: full Stokes vectors per colour, 16 bits per number. sqrt(S0) is a half float: S0 up to
+// 4.3e9, saturating, to 1 part in 1000. S1, S2, S3 are relative to S0, in steps of 1/32767; values that
+// rounding raises above full polarization are scaled back to it. 24 bytes.
 
 #include "shaders/methods/mueller.h"
 
 CONST int kPayloadBytes = 24;
 CONST int kHasStokes = 1;
 
-// Each word holds two numbers of 16 bits. The twelve numbers: roots of S0 (r, g, b), then s1, s2, s3 of r, of
+// Each word contains two numbers of 16 bits. The twelve numbers: roots of S0 (r, g, b), then s1, s2, s3 of r, of
 // g and of b.
 struct Payload {
   word rootRg;

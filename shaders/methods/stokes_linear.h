@@ -1,6 +1,5 @@
-// Method `stokes-linear`: S0 to S2 per colour in the ray's canonical frame; circular light is dropped at
-// every surface. Exact where no circular light matters. 36 bytes. Light at a surface has no S3 either: what mueller.h
-// does, without it.
+// Method `stokes-linear`: S0 to S2 per colour in the canonical frame of the ray; S3 is dropped at every surface. Exact
+// if circular polarization does not change the image. 36 bytes. As mueller.h, without S3.
 
 #include "shaders/methods/mueller_terms.h"
 

@@ -1,19 +1,19 @@
-"""The scene cornell-box: red and green walls, a floor of black glass, a tower of black glass and a gold
-block. The tower mirrors the lit window in the right wall; the floor mirrors the tower, with the plane of
-incidence crossed: there the window goes out."""
+"""The scene cornell-box: red and green walls, a floor of black glass, a tower of black glass and a gold block. The
+tower reflects the lit window in the right wall; the floor reflects the tower with a crossed plane of incidence, which
+extinguishes the window."""
 from .scene import Part, total, write_scene
 from .shapes import box, quad, strip
 
 EXPECTED = (74, 38)
 HALF, HEIGHT = 1.0, 2.0
-# A panel hangs this far before its wall.
+# Distance of a panel from its wall.
 GAP = 0.005
-# Blocks are sunk this far into the floor: no two faces coincide.
+# Depth of the blocks below the floor, so that no two faces coincide.
 SUNK = 0.01
 
 
 def back_and_ceiling():
-    """Back wall and ceiling: one sheet, folded once."""
+    """Returns back wall and ceiling as one open mesh, folded once."""
     h, y = HALF, HEIGHT
     return strip([(h, 0.0, -h), (h, y, -h), (h, y, h)], (-2 * h, 0.0, 0.0))
 
@@ -51,19 +51,19 @@ a lit window in the green wall. Walls and ceiling are paint under an interface. 
 | block | gold | 24 | 12 | `block.obj` |
 | **all** | | **74** | **38** | |
 
-**Where polarization shows.** The tower's right face mirrors the window: a single reflection, the same with
-and without polarization. Below, the floor mirrors that face: there the window nearly goes out, where the
-unpolarized mean of Fresnel leaves it grey (columns 41 to 54 %, rows 73 to 100 % of the picture). The red
-image in the tower's left face halves on its way over the floor as well.
+**Visible effect.** The right face of the tower reflects the window: a single reflection, the same with and
+without polarization. Below, the floor reflects that face, and the window nearly vanishes; with the
+unpolarized mean of Fresnel's equations it is grey (columns 41 to 54 %, rows 73 to 100 % of the image). The
+red reflection in the left face of the tower also loses half of its radiance in the floor.
 
-**Why.** Two reflections of unpolarized light give I = A1 A2 (1 + D1 D2 cos 2phi) L, with
+**Cause.** Two reflections of unpolarized light give I = A1 A2 (1 + D1 D2 cos 2phi) L, with
 A = (Rs + Rp)/2, D = (Rs - Rp)/(Rs + Rp) and phi the angle between the planes of incidence. Floor: 65
-degrees, D = .98. Tower: 59 degrees, D = .99. The floor's plane of incidence is upright, the tower's nearly
-level: cos 2phi = -.84. So 1 + D1 D2 cos 2phi = .19. Paint leaves its surface polarized too: seen in one
-mirror it already needs the full calculation.
+degrees, D = .98. Tower: 59 degrees, D = .99. The plane of incidence is vertical at the floor and nearly
+horizontal at the tower: cos 2phi = -.84, so that 1 + D1 D2 cos 2phi = .19. Light from paint is polarized as
+well, so that a single reflection of paint needs the full calculation.
 
-Nothing transmits here, so a renderer may leave refraction out. The tower's source is inside out; the
-block's has a duplicate face and one without area. The environment is a constant grey before the open front.
+No surface transmits light, so a renderer may leave out refraction. The source mesh of the tower is inside
+out; that of the block has a duplicate face and one without area. The environment is constant grey.
 """
 
 

@@ -1,4 +1,4 @@
-"""Scenes of what light is like where it comes from and what happens to it on its way."""
+"""Scenes of effects of sources and media: absorption, polarized sky, displays, polarizers."""
 import math
 
 from .hard_glass import floor
@@ -14,7 +14,7 @@ BLUE, AMBER = (25.0, 8.0, 3.0), (2.0, 12.0, 45.0)
 
 
 def staircase(x0, width, depths, low, high):
-    """A closed body of columns side by side whose front lies in z = 0, deeper from one to the next."""
+    """Returns a closed body of adjacent columns of increasing depth whose front is in z = 0."""
     soup = Soup()
     before = 0.0
     for i, depth in enumerate(depths):
@@ -31,7 +31,7 @@ def staircase(x0, width, depths, low, high):
 
 
 def plate(absorption, thickness, n=1.5):
-    """What a plate reflects and lets through in all orders, met straight."""
+    """Returns reflectance and transmittance of a plate at normal incidence, all orders."""
     r, a = ((n - 1) / (n + 1)) ** 2, math.exp(-absorption * thickness)
     return r + r * (1 - r) ** 2 * a * a / (1 - r * r * a * a), (1 - r) ** 2 * a / (1 - r * r * a * a)
 
@@ -42,19 +42,19 @@ def absorption(folder):
     walls = [plate(a, 0.02) for a in BLUE]
     hollow = [t * t / (1 - r * r) for r, t in walls]
     text = f"""\
-Bodies of clear glass that absorbs, before a panel of radiance 1: above, a staircase of five steps, 2 to 10 cm thick;
-below it a wedge of amber glass, thin on its left, and a block of the staircase's glass, 10 cm thick, with an empty
-box inside that leaves two walls of 2 cm.
+Bodies of absorbing glass in front of a panel of radiance 1: above, a staircase of five steps, 2 to 10 cm thick; below,
+a wedge of amber glass, thin on the left, and a block of the glass of the staircase, 10 cm thick, with an empty box
+inside that leaves two walls of 2 cm.
 
-Seen straight, all orders of reflection, red / green / blue:
+Radiance at normal incidence, all orders of reflection, red / green / blue:
 {lines[0]};
 {lines[1]};
 {lines[2]};
 {lines[3]};
 {lines[4]};
-the block's middle: {decimals(hollow, 4)}, nearly the second step's, and its rim the fifth step's.
-Without absorption all of it is clear; without the box's `outsideAbsorption` the block's middle is as pale as the
-first step.
+middle of the block: {decimals(hollow, 4)}, nearly that of the second step; its rim equals the fifth step.
+Without absorption all bodies are clear; without `outsideAbsorption` of the box the middle of the block is as pale as
+the first step.
 """
     prism = [(-0.3, -0.002), (-0.3, 0.0), (-0.02, 0.0), (-0.02, -0.062)]
     wedge = loft([[(x, y, z) for x, z in prism] for y in (-0.24, -0.06)])
@@ -75,12 +75,12 @@ def polarized_sky(folder):
     rs = reflectances(angle, 1.33)[0]
     dark, grey = decimals([rs * (1 - 0.8) / 2]), decimals([rs / 2])
     text = f"""\
-Water and a pane of glass before a dark wall under a clear sky. The sun stands low on the right, outside the picture,
-at right angles to the sky that both mirror, so that sky's light is polarized nearly upright.
+Water and a pane of glass in front of a dark wall under a clear sky. The sun is low on the right, outside the image, at
+right angles to the part of the sky that both reflect, whose light is therefore polarized nearly vertically.
 
-The water has a dark spot where it is met at Brewster's angle, {angle:.2f} degrees: R_s (1 - 0.8)/2 = {dark}
-of the sky's radiance there, a fifth of an unpolarized sky's R_s/2 = {grey}. Toward the sun the water brightens. The
-pane stands crossed to the water: it mirrors the same sky more brightly than it would an unpolarized one.
+The water has a dark spot at Brewster's angle, {angle:.2f} degrees: R_s (1 - 0.8)/2 = {dark} of the
+radiance of the sky, a fifth of R_s/2 = {grey} of an unpolarized sky. Towards the sun the water is brighter.
+The plane of incidence of the pane is crossed, so that it reflects this sky more than an unpolarized one.
 """
     parts = [Part("water", "water", floor(400.0, 0.0, 20.0, -400.0), flat=True),
              Part("wall", "black", box((0.2, 3.4, 5.4), (1.64, 1.7, -4.5)), flat=True),
@@ -96,11 +96,11 @@ pane stands crossed to the water: it mirrors the same sky more brightly than it 
 def display(folder):
     rs = reflectances(BREWSTER)[0]
     text = f"""\
-Two displays of one radiance, 1, stand at the end of a black glass table. The left one's light is polarized level, the
-right one's upright; the table reflects both near Brewster's angle.
+Two displays of radiance 1 at the end of a black glass table. The light of the left one is polarized horizontally, that
+of the right one vertically; the table reflects both near Brewster's angle.
 
-At that angle the left one's image has R_s = {decimals([rs], 4)}, the right one's nothing. Were their light
-unpolarized, both images would have R_s/2 = {decimals([rs / 2], 4)}. Seen directly the displays look alike.
+At that angle the reflection of the left display is R_s = {decimals([rs], 4)}, that of the right one 0. With
+unpolarized light both are R_s/2 = {decimals([rs / 2], 4)}. Seen directly, the displays are equal.
 """
     parts = [Part("table", "glass", floor(1.2, 0.0, 0.9, -0.8), flat=True)]
     materials = {"glass": BLACK_GLASS}
@@ -113,7 +113,7 @@ unpolarized, both images would have R_s/2 = {decimals([rs / 2], 4)}. Seen direct
 
 
 def axis(degrees):
-    """A direction in the plane of the sheets."""
+    """Returns a direction in the plane of the polarizing elements."""
     return rounded((math.cos(math.radians(degrees)), math.sin(math.radians(degrees)), 0.0))
 
 
@@ -121,13 +121,14 @@ def polarizing_sheets(folder):
     full = rounded([360.0 * 532.0 / wavelength for wavelength in (630.0, 532.0, 465.0)], 3)
     purple = [0.5 * math.sin(math.radians(delay / 2)) ** 2 for delay in full]
     text = f"""\
-Eight pairs of ideal polarizers before a panel of radiance 1, the one behind always level. Upper row, from the left: the
-one in front level, at 45 degrees, upright, and upright with a third at 45 degrees between. Lower row: upright, and
-between them a wave plate at 45 degrees of a quarter wave, of a half wave, of a full wave of 532 nm (a different
-part of a wave in other colours), and a half wave whose axis is level. What lies between is smaller than the pair.
+Eight pairs of ideal polarizers in front of a panel of radiance 1; the back one is always horizontal. Upper row, from
+the left: the front one is horizontal, at 45 degrees, vertical, and vertical with a third at 45 degrees between. Lower
+row: the front one is vertical; between the two is a wave plate at 45 degrees of a quarter wave, of a half wave, and of
+a full wave at 532 nm (another fraction in other colours), and a half wave with a horizontal axis. The elements between
+are smaller than the pair.
 
-One sheet alone has 0.5. Upper row: 0.5, 0.25, 0, 0.125 with 0 around it. Lower row: 0.25, 0.5,
-{decimals(purple)}, 0, with 0 around. Without polarization every pair has 0.25, or 0.125 through a third.
+Radiance of one polarizer: 0.5. Upper row: 0.5, 0.25, 0, 0.125 with 0 around it. Lower row: 0.25, 0.5,
+{decimals(purple)}, 0, with 0 around. Without polarization: 0.25 for every pair, 0.125 with a third.
 """
     materials = {"lamp": emitter(1.0),
                  "level": {"type": "polarizer", "axis": axis(0.0)},

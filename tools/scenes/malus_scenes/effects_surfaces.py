@@ -1,4 +1,4 @@
-"""Scenes of what a surface is like from place to place and in the small: pictures on it, films, roughness."""
+"""Scenes of effects of surfaces: textures, thin films, roughness."""
 import cmath
 import math
 
@@ -6,7 +6,7 @@ from .chain import Chain, tile
 from .hard_glass import floor
 from .hard_media import upright
 from .hard_scene import BLACK_GLASS, BREWSTER, GOLD, GOLD_INDEX, camera, decimals, emitter, reflectances, write_hard
-from .pictures import write_exr, write_png
+from .texture_files import write_exr, write_png
 from .scene import Part
 from .shapes import quad
 from .vectors import unit
@@ -20,7 +20,7 @@ PATCHES = ((0, 2, 7), (2, 7, 0), (7, 0, 2))
 
 
 def letters(cell=32, dot=3):
-    """Two by two cells, white and black, a red F in the first."""
+    """Returns two by two cells, white and black, with a red F in the first."""
     left, top = (cell - dot * len(LETTER[0])) // 2, (cell - dot * len(LETTER)) // 2
 
     def colour(x, y):
@@ -35,13 +35,13 @@ def textures(folder):
     indices = (1.3, 1.5, 2.0)
     straight = [((n - 1) / (n + 1)) ** 2 for n in indices]
     text = f"""\
-A table of paint with a picture on it, white and black with red letters, each 0.8 m wide, and on its far edge an upright
-plate of black glass whose index is 1.3, 1.5 or 2 from patch to patch. The plate mirrors a panel of radiance 4
-behind the eye in its upper two rows and the table in its lowest.
+A painted table with a texture, white and black with red letters, each 0.8 m wide, and at its far edge an upright plate
+of black glass whose texture of indices has patches of 1.3, 1.5 and 2. The upper two rows of the plate reflect a panel
+of radiance 4 behind the camera, the lowest row reflects the table.
 
-Met straight, the patches reflect {decimals(straight, 4)}: their order is 1.3, 1.5, 2 in the top row, 1.5, 2, 1.3
-below it, 2, 1.3, 1.5 at the bottom. The letters stand upright and read from the left. Without the pictures the
-table is one white and the plate one grey.
+Reflectances at normal incidence: {decimals(straight, 4)}. Their order is 1.3, 1.5, 2 in the top row, 1.5, 2, 1.3 below,
+and 2, 1.3, 1.5 at the bottom. The letters are upright and read from left to right. Without textures the table is
+uniformly white and the plate uniformly grey.
 """
     parts = [Part("table", "letters", floor(1.6, 0.0, 1.2, -1.2), flat=True),
              Part("plate", "patches", upright(-0.625, 0.625, 0.0, 1.25, -0.9), flat=True),
@@ -62,8 +62,8 @@ table is one white and the plate one grey.
 
 
 def coated(degrees, film, thickness, below):
-    """The mean reflectance of a film in air at the three wavelengths; below: complex indices. Source: Born and
-    Wolf, Principles of Optics, 1.6.4."""
+    """Returns the mean reflectance of a film in air at the three wavelengths; below: complex indices of the substrate.
+    Source: Born and Wolf, Principles of Optics, 1.6.4."""
     sine, means = math.sin(math.radians(degrees)), []
     for n, wavelength in zip(below, WAVELENGTHS):
         air, coat, ground = ((cmath.sqrt(i * i - sine * sine), i * i) for i in (1.0, film, n))
@@ -84,9 +84,9 @@ def coating(folder):
              ("300 nm of 1.46 on gold", 1.46, 300.0, gold)]
     lines = [f"{name}: {decimals(coated(45.0, film, thickness, below), 4)}" for name, film, thickness, below in kinds]
     text = f"""\
-Five strips lie side by side and mirror a ceiling, met at 20 degrees near the eye and at 65 far away. From the left:
-black glass bare, with a quarter wave of magnesium fluoride, and with a film of 400 nm; gold bare and under 300 nm
-of silica. The ceiling's radiance is 4 over the glass and 1 over the gold.
+Five adjacent strips reflect a ceiling, at angles of incidence from 20 degrees near the camera to 65 far away. From the
+left: black glass without film, with a quarter wave of magnesium fluoride, and with a film of 400 nm; gold without film
+and under 300 nm of silica. The radiance of the ceiling is 4 over the glass and 1 over the gold.
 
 Reflectance at 45 degrees (the third strip: the centre), red / green / blue:
 {lines[0]};
@@ -94,12 +94,13 @@ Reflectance at 45 degrees (the third strip: the centre), red / green / blue:
 {lines[2]};
 {lines[3]};
 {lines[4]}.
-Without interference the first three are one grey and the last two one gold. The film's colours change along the strip.
+Without interference the first three have the same grey and the last two the same gold. The colours of the films change
+along the strips.
 """
     materials = {"glass": BLACK_GLASS, "quarter-wave": {**BLACK_GLASS, "coating": {"eta": 1.38, "thicknessNm": 96.4}},
                  "film": {**BLACK_GLASS, "coating": {"eta": 2.0, "thicknessNm": 400.0}},
                  "gold": GOLD, "gold-film": {**GOLD, "coating": {"eta": 1.46, "thicknessNm": 300.0}}}
-    # Beside its middle, so that the centre pixel's ray does not meet the diagonal.
+    # Off the middle, so that the ray of the centre pixel does not hit the diagonal.
     parts = [Part(name, name, floor(0.25 * i - 0.39, 0.0, 0.0, -2.0, x0=0.25 * i - 0.6), flat=True)
              for i, name in enumerate(materials)]
     parts += [Part("ceiling-left", "bright", floor(0.36, 2.0, 1.0, -8.0, x0=-3.0).flipped(), flat=True),
@@ -110,25 +111,26 @@ Without interference the first three are one grey and the last two one gold. The
 
 
 def rough_reflection(folder):
-    # On the right a ray from the eye meets the table at Brewster's angle, then an upright glass, then a panel.
-    eye, x, reach = (0.0, 1.0, 1.8), 0.64, 1.5
-    chain = Chain(eye, (x, 0.0, eye[2] - math.sqrt(reach * reach - x * x)))
+    # On the right, a camera ray hits the table at Brewster's angle, then an upright glass, then a panel.
+    position, x, reach = (0.0, 1.0, 1.8), 0.64, 1.5
+    chain = Chain(position, (x, 0.0, position[2] - math.sqrt(reach * reach - x * x)))
     chain.mirror(math.sqrt(1.0 + reach * reach), BREWSTER, 0.0, 0.2)
     behind = chain.mirror(0.8, BREWSTER, 90.0, 0.4)
-    # Tilted so that the eye and the glass tiles lie behind the panel.
+    # Tilted so that the camera and the glass tiles are behind the panel.
     panel = tile(chain.go(0.7), unit((-0.52, 0.44, -0.735)), unit((0.735, 0.0, -0.52)), 0.6)
     screen = quad((0.3, 0.0, 0.5), (0.3, 0.0, -0.6), (0.3, 0.9, -0.6), (0.3, 0.9, 0.5))
     parts = [Part("upright", "glass-0", behind, flat=True), Part("panel", "white", panel, flat=True),
              Part("screen", "black", screen, flat=True)]
     lost = 40.0 * reflectances(BREWSTER)[0] ** 2 / 4
     text = f"""\
-Four gold tiles of roughness 0, 0.05, 0.15 and 0.3, from the left, lie before three bars of light. The smooth one
-mirrors them sharply; the others blur them, the more so the farther from the bar. On the right lie two tiles of black
-glass, smooth and of roughness 0.15. They mirror the upright glass behind them, which stands crossed to them and mirrors
-a panel of radiance 40, both near Brewster's angle. A black screen keeps the panel's light from the gold.
+Four gold tiles of roughness 0, 0.05, 0.15 and 0.3, from the left, in front of three bars of light. The smooth one
+reflects them sharply; the others blur them, increasingly with the distance from the bar. On the right are two tiles of
+black glass, smooth and of roughness 0.15. They reflect the upright glass behind them, whose plane of incidence is
+crossed and which reflects a panel of radiance 40, both near Brewster's angle. A black screen blocks the light of the
+panel from the gold.
 
-Where both angles are Brewster's the smooth glass tile has 0, without polarization 40 R_s^2/4 = {decimals([lost])}. The
-rough one glows, for its facets turn the plane of incidence. Without roughness the four gold tiles are one mirror
+If both angles are Brewster's, the smooth glass tile has 0, without polarization 40 R_s^2/4 = {decimals([lost])}. The
+rough one is brighter, since its facets rotate the plane of incidence. Without roughness the four gold tiles are equal
 and both glass tiles are black.
 """
     materials = {"white": emitter(40.0), "black": {"type": "lambert", "albedo": 0.0}}
@@ -146,4 +148,4 @@ and both glass tiles are black.
         materials[name] = emitter(*colour)
         parts.append(Part(name, name, upright(-1.8, 0.25, low, low + 0.1, -0.4), flat=True))
     return write_hard(folder, "Rough metal and rough black glass: mirror images blur and are less polarized.", text,
-                      camera(eye, (-0.02, 0.0, -0.4), 37.0), parts, materials, 4, resolution=(441, 241))
+                      camera(position, (-0.02, 0.0, -0.4), 37.0), parts, materials, 4, resolution=(441, 241))

@@ -10,19 +10,19 @@ EXPECTED = (10448, 12510)
 V_HALF_DEGREES = 25.0
 CRANK_HEIGHT = 0.30
 FLOOR_HEIGHT = -0.08
-# The floor's edges are parallel to the picture's, the plinth turns an edge to the camera.
+# The edges of the floor are parallel to those of the image; an edge of the plinth faces the camera.
 CAMERA = {"position": [0.48, 0.92, 1.70], "target": [-0.15, 0.275, 0.0], "up": [0.0, 1.0, 0.0],
           "verticalFovDegrees": 31.0}
 CAMERA_AZIMUTH_DEGREES = 20.334
 LEAN = placed((0.0, CRANK_HEIGHT, 0.0), (0.0, 0.0, -V_HALF_DEGREES))
 
-# What the last vertices and triangles are spent on: (vertices, triangles) of one more of each.
+# (vertices, triangles) of the parts whose number meets the expected counts.
 BOLT, TICK, PIPE_PIECE = (30, 16), (4, 2), (12, 24)
 
 
 def remainder(vertices, triangles):
-    """Numbers of bolts, ticks and pipe pieces with exactly these vertices and triangles, the number of
-    bolts as close to 22 as can be. Raises ValueError where there are none."""
+    """Returns numbers of bolts, ticks and pipe pieces with exactly these vertices and triangles, with the number of
+    bolts nearest to 22. Raises ValueError if there are none."""
     for bolts in sorted(range(16, 41), key=lambda n: abs(n - 22)):
         for pieces in range(10, 80):
             left_v = vertices - bolts * BOLT[0] - pieces * PIPE_PIECE[0]
@@ -34,15 +34,15 @@ def remainder(vertices, triangles):
 
 
 def both(soup):
-    """A cylinder's part at both places: leaning forward as modelled, leaning back mirrored in x."""
+    """Returns a part for both cylinders: leaning forward as modelled, leaning back mirrored in x."""
     front = Soup().add(soup, LEAN)
     rear = Soup().add(front, lambda p: (-p[0], p[1], p[2])).flipped()
     return front.add(rear)
 
 
 def sky():
-    """A dark studio: a glow behind the engine, soft boxes at both sides and above, cards in front that the
-    chrome of the covers looks into."""
+    """Returns a dark studio: a glow behind the engine, soft boxes at both sides and above, and cards in front that the
+    chrome of the covers reflects."""
     gradient = studio.smooth_steps([(-90, (0.03, 0.03, 0.033)), (-30, (0.10, 0.10, 0.108)), (-6, (0.055, 0.056, 0.062)),
                                     (50, (0.035, 0.036, 0.042)), (90, (0.04, 0.04, 0.045))])
     lights = [studio.Box(-17, -20, 36, 8, (0.50, 0.50, 0.52), edge=34),
@@ -109,7 +109,7 @@ README = """\
 A V-twin motorcycle engine on a plinth of black glass, on a floor of black glass, in a dark studio between
 soft boxes. 2048 x 2048, depth 8. 10448 vertices and 12510 triangles after preparation.
 
-| mesh | material | what it is |
+| mesh | material | contents |
 |---|---|---|
 | `case` | aluminium | crankcase, gearbox, sump, mounting lugs, lifter blocks |
 | `cylinders`, `fins` | black enamel (paint, n = 1.6) | barrels, heads, their fins, ports |
@@ -123,20 +123,20 @@ soft boxes. 2048 x 2048, depth 8. 10448 vertices and 12510 triangles after prepa
 | `dial`, `ticks`, `needle` | bare white, black and red paint | face of the gauge |
 | `plinth`, `floor` | black glass, n = 1.517 and 1.9 | |
 
-**Where polarization shows.** In the plinth's two faces (columns 35 to 77 %, rows 73 to 100 % of the
-picture) and in their images in the floor: soft boxes that reach the camera over the floor and the plinth
-lose about two thirds of their light against the unpolarized mean of Fresnel. Inside the velocity stacks,
-between the fins and along the chrome tubes' edges, where metal mirrors metal, it changes the highlights.
+**Visible effect.** In the two faces of the plinth (columns 35 to 77 %, rows 73 to 100 % of the image) and
+their reflections in the floor: soft boxes reflected by floor and plinth lose about two thirds of their light
+compared with the unpolarized mean of Fresnel's equations. Inside the velocity stacks, between the fins and
+along the edges of the chrome tubes, where metal reflects metal, the highlights change.
 
-**Why.** Two reflections of unpolarized light give I = A1 A2 (1 + D1 D2 cos 2phi) L, with
-A = (Rs + Rp)/2, D = (Rs - Rp)/(Rs + Rp) and phi the angle between the planes of incidence. The plinth
-turns an edge to the camera: 54 to 57 degrees at its sides (D = .99), 59 degrees at the floor (D = .99), planes
+**Cause.** Two reflections of unpolarized light give I = A1 A2 (1 + D1 D2 cos 2phi) L, with
+A = (Rs + Rp)/2, D = (Rs - Rp)/(Rs + Rp) and phi the angle between the planes of incidence. An edge of
+the plinth faces the camera: 54 to 57 degrees at its sides (D = .99), 59 degrees at the floor (D = .99), planes
 of incidence nearly crossed (cos 2phi = -.63 on the left side, -.70 on the right). So 1 + D1 D2 cos 2phi is
 .3 to .4. Chromium has D up to .67 at grazing angles, aluminium .18.
 
-The generator models the engine from parameters and meets the counts exactly by the numbers of cover bolts,
-ticks on the dial and pieces of the oil pipes. The sources have split corners in most files, a few duplicate
-faces and faces without area; oil filter and coil are inside out.
+The generator models the engine from parameters and reaches the exact counts by the numbers of cover bolts,
+ticks on the dial and pieces of the oil pipes. Most source meshes have separate vertices for each face; there
+are a few duplicate faces and faces without area, and oil filter and coil are inside out.
 """
 
 

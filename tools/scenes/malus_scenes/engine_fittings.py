@@ -1,4 +1,4 @@
-"""What is bolted to the engine of engine_parts: intake, exhaust, filter, gauge, lines. Same frame."""
+"""Fittings of the engine of engine_parts: intake, exhaust, filter, gauge, lines. Same frame."""
 import math
 
 from .mesh import Soup

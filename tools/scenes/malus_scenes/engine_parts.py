@@ -167,7 +167,7 @@ def primary_cover():
 
 
 def lifter_blocks():
-    """Two blocks that the pushrod tubes stand on."""
+    """Returns two blocks under the pushrod tubes."""
     soup = Soup()
     for side in (-1, 1):
         a = math.radians(25.0 * side)

@@ -1,8 +1,8 @@
 """The scene glass-wall: two glass slabs, one seen in the other with crossed planes of incidence.
 
-The camera sees the upright slab near Brewster's angle; its mirror image shows the leaning slab, met near
-Brewster's angle again, in which the skylight stands. The first plane of incidence is level, the second
-upright: the twice reflected skylight goes out.
+The camera sees the upright slab near Brewster's angle. It reflects the leaning slab, again near Brewster's angle,
+which reflects the skylight. The first plane of incidence is horizontal, the second vertical, which extinguishes the
+skylight.
 """
 import math
 
@@ -14,17 +14,17 @@ from .vectors import rounded
 EXPECTED = (36, 28)
 CAMERA = {"position": [0.15, 1.16, 4.6], "target": [0.12, 0.76, 0.0], "up": [0.0, 1.0, 0.0], "verticalFovDegrees": 32.0}
 
-# The upright slab recedes from the left front to the middle.
+# The upright slab extends from the left front to the middle.
 UPRIGHT = {"width": 3.0, "height": 1.95, "turn": 70.0, "middle": (-0.92, 0.35)}
-# The leaning slab: `slope` from the level, turned to the upright one's mirror direction; its lower edge
-# stands on the floor about `foot`. The box behind it is turned alike and carries it.
+# The leaning slab: `slope` from the horizontal, facing the mirror direction of the upright slab; its lower edge is on
+# the floor at `foot`. The box behind it has the same direction and supports it.
 LEANING = {"width": 2.3, "length": 1.85, "turn": -54.0, "slope": 38.0, "foot": (0.70, -0.46)}
 BOX = {"size": (1.0, 0.76, 0.74)}
 THICKNESS = 0.02
 
 
 def slab(width, height):
-    """Front (+z) and back (-z) face of a pane, no rims: the normals point out of the glass."""
+    """Returns front (+z) and back (-z) face of a pane without rims, with normals out of the glass."""
     x, y, z = width / 2, height / 2, THICKNESS / 2
     soup = quad((-x, -y, z), (x, -y, z), (x, y, z), (-x, y, z))
     return soup.add(quad((x, -y, -z), (-x, -y, -z), (-x, y, -z), (x, y, -z)))
@@ -32,7 +32,7 @@ def slab(width, height):
 
 def leaning_instance():
     turn, slope = math.radians(LEANING["turn"]), math.radians(LEANING["slope"])
-    # From the lower edge to the middle of the slab: up the slope, away from the side it faces.
+    # From the lower edge to the middle of the slab: up the slope.
     run = 0.5 * LEANING["length"] * math.cos(slope)
     x, z = LEANING["foot"]
     middle = (x - run * math.sin(turn), 0.5 * LEANING["length"] * math.sin(slope) + THICKNESS, z - run * math.cos(turn))
@@ -40,7 +40,7 @@ def leaning_instance():
 
 
 def box_instance():
-    """The box's upper front edge touches the back of the leaning slab."""
+    """Returns the transform of the box, whose upper front edge touches the back of the leaning slab."""
     turn, slope = math.radians(LEANING["turn"]), math.radians(LEANING["slope"])
     width, height, depth = BOX["size"]
     run = height / math.tan(slope) + 0.5 * depth + 0.002
@@ -50,12 +50,12 @@ def box_instance():
 
 
 def room():
-    """Floor and back wall: one sheet, folded once."""
+    """Returns floor and back wall as one open mesh, folded once."""
     return strip([(12.0, 0.0, 3.4), (12.0, 0.0, -2.6), (12.0, 4.0, -2.6)], (-16.0, 0.0, 0.0))
 
 
 def folded_sheet():
-    """A sheet of metal that stands like an open book."""
+    """Returns an upright sheet of metal, folded once."""
     return strip([(-0.42, 0.0, 0.16), (0.0, 0.0, 0.0), (0.46, 0.0, 0.20)], (0.0, 1.05, 0.0))
 
 
@@ -83,21 +83,21 @@ folded sheet of gold. 1920 x 1080, depth 6.
 | folded sheet | gold | 6 | 4 | `sheet.off` |
 | **all** | | **36** | **28** | |
 
-**Where polarization shows.** In the left third of the picture the upright pane mirrors the leaning pane,
-and in it stands the skylight with its bars. The floor before it shows the same once more. Polarization all
-but puts this image out; the unpolarized mean of Fresnel leaves it plainly lit.
+**Visible effect.** In the left third of the image the upright pane reflects the leaning pane, which reflects
+the skylight with its bars. The floor in front shows the same again. With polarization this reflection nearly
+vanishes; with the unpolarized mean of Fresnel's equations it is bright.
 
-**Why.** Unpolarized light of radiance L that two surfaces reflect arrives as
+**Cause.** Unpolarized light of radiance L has after two reflections the radiance
 I = A1 A2 (1 + D1 D2 cos 2phi) L, with A = (Rs + Rp)/2, D = (Rs - Rp)/(Rs + Rp) and phi the angle between
-the planes of incidence. One face of each pane in the image's middle: 53 degrees at the upright pane
-(D = .98), 47 degrees at the leaning one (D = .88), planes of incidence crossed (cos 2phi = -.97). So
-1 + D1 D2 cos 2phi = .16: a sixth of what the unpolarized mean gives. The back faces and the light that
-goes to and fro inside a pane behave alike, a little less strictly. A single reflection of the sky,
-such as the gold sheet's, is the same in both.
+the planes of incidence. One face of each pane, in the middle of the reflection: 53 degrees at
+the upright pane (D = .98), 47 degrees at the leaning one (D = .88), planes of incidence crossed
+(cos 2phi = -.97). So 1 + D1 D2 cos 2phi = .16: a sixth of the unpolarized mean. The back faces and
+multiple reflections inside a pane have nearly the same effect. A single reflection of the sky, as in the
+gold sheet, is the same in both.
 
-The panes have no rims: rays that are caught between their faces end black there. Their shadows are black
-too, for every surface blocks a point light. The sources have corners of their own for each face; the box
-is inside out, box and sheet have a duplicate face and one without area.
+The panes have no rims: rays that leave between their faces end black. Their shadows are black, since every
+surface blocks a point light. The source meshes have separate vertices for each face; the box is inside out,
+and box and sheet have a duplicate face and one without area.
 """
 
 

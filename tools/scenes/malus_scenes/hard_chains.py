@@ -1,15 +1,15 @@
-"""Hard scenes of mirrors in a row, where polarization decides whether light arrives at all."""
+"""Hard scenes of chains of mirrors in which polarization decides whether light arrives."""
 from .chain import Chain
 from .hard_scene import BLACK_GLASS, BREWSTER, GOLD, GOLD_INDEX, camera, decimals, emitter, write_hard
 from .scene import Part
 from .vectors import cross, plus, times, unit
 
-EYE, TARGET = (0.0, 0.0, 3.0), (0.0, 0.0, 0.0)
+CAMERA, TARGET = (0.0, 0.0, 3.0), (0.0, 0.0, 0.0)
 DIM = {"radiance": [0.02, 0.02, 0.025]}
 
 
 def brewster_pair(folder):
-    chain, beside = Chain(EYE, TARGET), Chain(EYE, TARGET)
+    chain, beside = Chain(CAMERA, TARGET), Chain(CAMERA, TARGET)
     first = chain.mirror(3.0, BREWSTER, 0.0, 0.6)
     beside.mirror(3.0, BREWSTER, 0.0, 0.6)
     crossed, parallel = chain.mirror(2.0, BREWSTER, 90.0, 0.2), beside.mirror(2.0, BREWSTER, 0.0, 0.12)
@@ -17,24 +17,24 @@ def brewster_pair(folder):
     glass = (1.5, 0.0)
     (bright, *_), (dark, *_) = beside.stokes([glass, glass]), chain.stokes([glass, glass])
     text = f"""\
-A glass mirror at Brewster's angle reflects a white sky and two more glass mirrors at Brewster's angle: the one in
-the middle stands crossed, the one to its left parallel.
+A glass mirror at Brewster's angle reflects a white sky and two more glass mirrors at Brewster's angle: the plane of
+incidence of the middle one is crossed, that of the left one parallel.
 
 Closed form, R_s = ((n^2 - 1)/(n^2 + 1))^2, n = 1.5: S0 = {decimals([dark])} in the crossed mirror, R_s^2/2 =
 {decimals([bright])} in the parallel one, R_s/2 = 0.073964 in the first mirror alone. At the centre pixel S0
 stays under 1e-6 of the parallel case as long as both mirrors are within 4e-4 rad of Brewster's angle. Without
-polarization the crossed mirror reads R_s^2/4.
+polarization the crossed mirror has R_s^2/4.
 """
     parts = [Part("first", "glass", first, flat=True), Part("crossed", "glass", crossed, flat=True),
              Part("parallel", "glass", parallel, flat=True)]
     return write_hard(folder, "Two glass mirrors at Brewster's angle, crossed: what is left is rounding.", text,
-                      camera(EYE, TARGET, 16.0), parts, {"glass": BLACK_GLASS}, 4, exposureEv=3.0,
+                      camera(CAMERA, TARGET, 16.0), parts, {"glass": BLACK_GLASS}, 4, exposureEv=3.0,
                       environment={"radiance": [1.0, 1.0, 1.0]})
 
 
 def folded(kinds, incidences, twists):
-    """A chain of four mirrors and their parts; the panel behind it is smaller than they are."""
-    chain, parts = Chain(EYE, TARGET), []
+    """Returns a chain of four mirrors and their parts; the panel behind it is smaller than the mirrors."""
+    chain, parts = Chain(CAMERA, TARGET), []
     for i, (kind, incidence, twist) in enumerate(zip(kinds, incidences, twists)):
         reach = 1.4 if parts else 3.0
         parts.append(Part(f"mirror-{i + 1}", kind, chain.mirror(reach, incidence, twist, 0.3 + 0.06 * i), flat=True))
@@ -47,17 +47,17 @@ def gold_periscope(folder):
     full = [chain.stokes([index] * 4) for index in GOLD_INDEX]
     linear = [chain.stokes([index] * 4, circular=False) for index in GOLD_INDEX]
     text = f"""\
-The eye looks into a periscope of four gold mirrors at 70 degrees, planes of incidence turned by 45, 45 and -45
-degrees from one to the next; behind the last one hangs a panel of radiance 1.
+The camera looks into a periscope of four gold mirrors at 70 degrees, with planes of incidence rotated by 45, 45 and -45
+degrees from one to the next; behind the last one is a panel of radiance 1.
 
 Closed form at the centre, red / green / blue:
 S0 = {decimals([s[0] for s in full])}, S1 = {decimals([s[1] for s in full])},
 S2 = {decimals([s[2] for s in full])}, S3 = {decimals([s[3] for s in full])}.
-Without circular light S0 = {decimals([s[0] for s in linear])}: blue is off by a quarter, red by a
-five-hundredth, so the colours are judged one by one.
+Without circular light S0 = {decimals([s[0] for s in linear])}: the relative error is a quarter in blue and
+1/500 in red, so the colours are checked separately.
 """
     return write_hard(folder, "Four gold mirrors, twisted: light that turns circular and back decides the colour.",
-                      text, camera(EYE, TARGET, 12.0), parts, {"gold": GOLD, "lamp": emitter(1.0)}, 6,
+                      text, camera(CAMERA, TARGET, 12.0), parts, {"gold": GOLD, "lamp": emitter(1.0)}, 6,
                       environment=DIM)
 
 
@@ -68,14 +68,14 @@ def glass_gold_gold_glass(folder):
     full = [chain.stokes(index)[0] for index in indices]
     linear = [chain.stokes(index, circular=False)[0] for index in indices]
     text = f"""\
-The last mirror polarizes at Brewster's angle, two gold mirrors at 70 degrees, crossed, turn that light circular and
-back, and the first mirror, again at Brewster's angle, is crossed to what comes out.
+The last mirror polarizes at Brewster's angle; two crossed gold mirrors at 70 degrees make the light circular and linear
+again; and the first mirror, again at Brewster's angle, is crossed to it.
 
 Closed form at the centre, red / green / blue: S0 = {decimals(full)}, extinct. Without circular light
-S0 = {decimals(linear)}: the way back is lost. The smallest chain where S3 counts.
+S0 = {decimals(linear)}. The shortest chain in which S3 matters.
 """
     return write_hard(folder, "Two gold mirrors between crossed glass mirrors: without circular light the dark is lit.",
-                      text, camera(EYE, TARGET, 12.0), parts,
+                      text, camera(CAMERA, TARGET, 12.0), parts,
                       {"glass": BLACK_GLASS, "gold": GOLD, "lamp": emitter(1.0)}, 6, exposureEv=6.0,
                       environment=DIM)
 
@@ -93,13 +93,13 @@ def mirror_loop(folder):
             plus(times(chain.s, at[0]), cross(chain.d, chain.s), at[1])), flat=True))
     s = chain.stokes([(0.0, 1000.0)] * 3 + [(1.5, 0.0)])
     text = f"""\
-Three ideal mirrors (n = 0, k = 1000) send the ray from z to x, to y and back to z; then a glass mirror at Brewster's
-angle shows three panels, white, red and green. The ray has its first direction again, but the product of the
-mirrors' (2 n n^T - 1) is no identity: picture and polarization stand on their side.
+Three ideal mirrors (n = 0, k = 1000) reflect the ray from z to x, to y and back to z; then a glass mirror at Brewster's
+angle reflects three panels, white, red and green. The ray has its first direction again, but the product of the
+matrices (2 n n^T - 1) of the mirrors is not the identity: image and polarization are rotated by 90 degrees.
 
 Closed form at the centre: (S0, S1, S2, S3) =
-{decimals(s)}. Light that leaves the glass level
-arrives upright: S1 = -S0, where frames that only close the loop give +S0.
+{decimals(s)}. Light that leaves the glass
+horizontally polarized arrives vertically polarized: S1 = -S0, while frames that ignore the rotation give +S0.
 """
     materials = {"ideal": {"type": "metal", "eta": 0.0, "k": 1000.0}, "glass": BLACK_GLASS, "white": emitter(1.0),
                  "red": emitter(1.0, 0.1, 0.1), "green": emitter(0.1, 1.0, 0.1)}

@@ -14,7 +14,7 @@ def plate(x0, x1, z0, z1, low, high):
 
 
 def panels(y):
-    """A warm and a cool panel side by side, facing up."""
+    """Returns a warm and a cool panel side by side, facing up."""
     return [Part("warm", "warm", floor(0.0, y, 1.0, -1.5, -1.6), flat=True),
             Part("cool", "cool", floor(1.6, y, 1.0, -1.5, 0.0), flat=True)]
 
@@ -29,12 +29,12 @@ def thin_slab(folder):
     centre = [through * lamp + (1 - through) * sky
               for lamp, sky in zip(LAMPS["warm"]["radiance"], SKY["radiance"])]
     text = f"""\
-Three slabs of glass, 1e-5 m thick in a scene 3 m wide, side by side: their rims lie in one place, their faces in two
-planes. A block of gold touches their front rims, its top in the plane of theirs. Below hang two panels.
+Three adjacent slabs of glass, 1e-5 m thick in a scene 3 m wide: their rims coincide, their faces are in two planes. A
+block of gold touches their front rims, with its top in the plane of theirs. Below are two panels.
 
 Closed form at the centre, 60 degrees, all orders: T = (T_s + T_p)/2 = {decimals([through])} times the warm panel's
 1 / 0.7 / 0.4, and 1 - T times the sky's 0.1 / 0.12 / 0.15: S0 = {decimals(centre)}.
-A ray that starts too far off a face leaves the slab, or never enters it.
+A ray that starts too far from a face leaves the slab, or never enters it.
 """
     thin = 0.00001
     edges = [-0.8, -0.4, 0.4, 0.7]
@@ -48,11 +48,11 @@ A ray that starts too far off a face leaves the slab, or never enters it.
 
 def touching_bodies(folder):
     text = """\
-A plate of glass lies on a block of gold, on the right, and on another plate of glass, on the left; each pair shares
-a face exactly, so two interfaces lie in one place and a ray meets one of them.
+A plate of glass on a block of gold, on the right, and on another plate of glass, on the left. Each pair shares a face
+exactly, so that two interfaces coincide and a ray hits one of them.
 
-No closed form: which of the two is met is a tie, and each choice is wrong somewhere. No radiance is negative, above the
-brightest panel's 1, or no number at all. In a scene to trust, model the shared face once, with outsideEta.
+There is no closed form: either of the two may be hit, and each choice is wrong somewhere. No radiance is negative,
+above 1, which is that of the brightest panel, or NaN. In real scenes, model the shared face once, with outsideEta.
 """
     parts = [Part("left-top", "glass", plate(-0.9, -0.05, -0.6, 0.6, 0.2, 0.4), flat=True),
              Part("left-bottom", "glass", plate(-0.9, -0.05, -0.6, 0.6, 0.0, 0.2), flat=True),

@@ -8,7 +8,7 @@ from .shapes import box, lathe, loft, quad
 
 
 def ball(radius, bands=24, sides=48, low=-90.0):
-    """A ball about the origin, or the part of it above a latitude, closed by a flat face."""
+    """Returns a ball about the origin, or its part above a latitude, closed by a flat face."""
     latitudes = [low + (90.0 - low) * i / bands for i in range(bands + 1)]
     profile = [(0.0 if abs(a) == 90.0 else radius * math.cos(math.radians(a)), radius * math.sin(math.radians(a)))
                for a in latitudes]
@@ -16,7 +16,7 @@ def ball(radius, bands=24, sides=48, low=-90.0):
 
 
 def floor(x, y, near, far, x0=None):
-    """A level quad that faces up, from x0 (default -x) to x."""
+    """Returns a horizontal quad that faces up, from x0 (default -x) to x."""
     x0 = -x if x0 is None else x0
     return quad((x0, y, near), (x, y, near), (x, y, far), (x0, y, far))
 
@@ -28,8 +28,8 @@ def glass_slab(folder):
         ts, tp = ((1 - r) / (1 + r) for r in reflectances(degrees))
         lines.append(f"{degrees:.0f} degrees: S0 = {decimals([(ts + tp) / 2])}, S1 = {decimals([(ts - tp) / 2])}")
     text = f"""\
-A plate of glass, 1 cm thick, over a glowing panel that reaches out beyond it; the eye looks down through the plate,
-at 60 degrees in the centre and at 80 near the top.
+A plate of glass, 1 cm thick, over a larger emitting panel; the camera looks down through the plate, at 60 degrees in
+the centre and at 80 near the top.
 
 Closed form, all orders of reflection inside: T_s, T_p = (1 - R)/(1 + R), S0 = (T_s + T_p)/2, S1 = (T_s - T_p)/2.
 {lines[0]} (the centre);
@@ -45,11 +45,11 @@ Closed form, all orders of reflection inside: T_s, T_p = (1 - R)/(1 + R), S0 = (
 
 def glass_sphere(folder):
     text = """\
-A ball and a half ball of glass (normals interpolated) before an orange and a blue panel under a dim sky: the ball
-shows them upside down. At its rim light grazes: the interpolated normal turns away from the ray there, and the
-mirror direction may fall below the face. In the half ball light is totally reflected at the flat side.
+A ball and a half ball of glass with interpolated normals in front of an orange and a blue panel under a dim sky; the
+ball shows them upside down. At its rim the incidence is grazing: the interpolated normal faces away from the ray, and
+the mirror direction may be below the face. In the half ball light is totally reflected at the flat side.
 
-No closed form but two bounds: no radiance is above the brightest panel's 1, none is negative.
+There is no closed form, but two bounds: no radiance is above 1, that of the brightest panel, or negative.
 """
     parts = [Part("ball", "glass", ball(0.62), "ply", welded=True, instances=[{"translate": [-0.65, 0.0, 0.0]}]),
              Part("half-ball", "glass", ball(0.62, bands=12, low=0.0), "ply", welded=True,
@@ -71,7 +71,7 @@ def fresnel_rhomb(folder):
     sine_sq = (b + math.sqrt(b * b - 4 * a * c)) / (2 * a)
     sine, cosine = math.sqrt(sine_sq), math.sqrt(1 - sine_sq)
 
-    # A prism along x: upright ends of this height, sides that rise away from the eye.
+    # A prism along x with vertical ends of this height and sides that rise away from the camera.
     height, width = 0.4, 0.5
     length = 2 * height * sine_sq / cosine
     rise, run = length * cosine, length * sine
@@ -80,7 +80,7 @@ def fresnel_rhomb(folder):
 
     chain = Chain((0.0, 0.0, 3.0), (0.0, 0.0, 0.0))
     chain.go(3.0)
-    inner = height / 2 / cosine  # from the eye's end to the first reflection, along the side
+    inner = height / 2 / cosine  # from the near end to the first reflection, along the side
     chain.reflect(inner * sine, (0.0, sine, cosine), 0.1)
     chain.reflect(height * sine / cosine, (0.0, -sine, -cosine), 0.1)
     chain.go(inner * sine)
@@ -89,13 +89,13 @@ def fresnel_rhomb(folder):
     s = [v * 0.96 ** 2 for v in chain.stokes([(1 / n, 0.0), (1 / n, 0.0), (n, 0.0)])]
     degrees = math.degrees(math.asin(sine))
     text = f"""\
-The eye looks straight into the end of a glass rhomb; light is totally reflected in it twice at {degrees:.4f} degrees,
-where each reflection delays by 45 degrees (n = 1.5). Behind its other end a glass mirror at Brewster's angle, turned by
-45 degrees, shows a panel: linear light goes in, circular light comes out.
+The camera looks into the end of a glass rhomb at normal incidence; light is totally reflected in it twice at
+{degrees:.4f} degrees, with a phase difference of 45 degrees each (n = 1.5). Behind its other end a glass mirror at
+Brewster's angle, rotated by 45 degrees, reflects a panel: linear light enters the rhomb, circular light leaves it.
 
 Closed form at the centre: (S0, S1, S2, S3) =
 {decimals(s)}: 0.96^2 R_s/2 and |S3| = S0.
-Depth 5: light that goes through the rhomb three times is left out.
+Depth 5: light that passes through the rhomb three times is left out.
 """
     parts = [Part("rhomb", "glass", rhomb, flat=True), Part("mirror", "black-glass", mirror, flat=True),
              Part("panel", "lamp", panel, flat=True)]

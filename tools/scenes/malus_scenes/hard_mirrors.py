@@ -1,4 +1,4 @@
-"""Hard scenes of mirrors: one that bounces on and on, one that shows polarized paint."""
+"""Hard scenes of mirrors: many reflections, and polarized light from paint."""
 import math
 
 from .chain import Chain
@@ -9,7 +9,7 @@ from .vectors import plus, rounded, times
 
 
 def facing_mirrors(folder):
-    # Between mirrors `gap` apart the ray climbs gap tan(30) a bounce; the mirrors end half a step after bounce 64.
+    # The ray rises by gap tan(30) per reflection; the mirrors end half a step after reflection 64.
     gap, slope, bounces = 0.05, math.radians(30.0), 64
     top, z, half, end = bounces * gap * math.tan(slope), gap / 2, 0.4, 3.0
     parts = [
@@ -24,14 +24,14 @@ def facing_mirrors(folder):
         chain.reflect(gap / math.cos(slope) * (0.5 if i == 0 else 1.0), (0.0, 0.0, 1.0 if i % 2 == 0 else -1.0), 1.0)
     s = [chain.stokes([index] * bounces) for index in SILVER_INDEX]
     text = f"""\
-Two silver mirrors 5 cm apart, the eye between them. The view climbs at 30 degrees; above the mirrors hang a warm
-panel (seen after an even number of bounces) and a cool one (after an odd number). Depth 64: the lower half of
-the picture would need more bounces and is black, the upper half shows bands of one number of bounces each.
+Two silver mirrors 5 cm apart with the camera between them. The view rises at 30 degrees; above the mirrors are a warm
+panel (seen after an even number of reflections) and a cool one (after an odd number). Depth 64: the lower half of the
+image needs more reflections and is black, the upper half has a band per number of reflections.
 
-Closed form at the centre, after 64 bounces at 30 degrees, red / green / blue: (R_s^64 + R_p^64)/2 times the warm
-panel's 1 / 0.8 / 0.6 = {decimals([a[0] * w for a, w in zip(s, (1.0, 0.8, 0.6))])}, S1 = {decimals(
+Closed form at the centre, after 64 reflections at 30 degrees, red / green / blue: (R_s^64 + R_p^64)/2 times 1 / 0.8 /
+0.6 of the warm panel = {decimals([a[0] * w for a, w in zip(s, (1.0, 0.8, 0.6))])}, S1 = {decimals(
         [a[1] * w for a, w in zip(s, (1.0, 0.8, 0.6))])}.
-Deeper than ray-tracing pipelines recurse: a Vulkan device that cannot do it must say so.
+Ray-tracing pipelines need not recurse that deep: a Vulkan device that cannot must report an error.
 """
     materials = {"silver": SILVER, "warm": emitter(1.0, 0.8, 0.6), "cool": emitter(0.3, 0.5, 1.0)}
     return write_hard(folder, "Two facing mirrors: 64 bounces, the depth at which paths end and rounding has grown.",
@@ -39,8 +39,8 @@ Deeper than ray-tracing pipelines recurse: a Vulkan device that cannot do it mus
 
 
 def paint_under_glass_in_brewster_mirror(folder):
-    eye, target, albedo = (0.0, 0.0, 3.0), (0.0, 0.0, 0.0), 0.5
-    chain, beside = Chain(eye, target), Chain(eye, target)
+    position, target, albedo = (0.0, 0.0, 3.0), (0.0, 0.0, 0.0), 0.5
+    chain, beside = Chain(position, target), Chain(position, target)
     mirror = chain.mirror(3.0, BREWSTER, 0.0, 0.5)
     beside.mirror(3.0, BREWSTER, 0.0, 0.5)
     seventy = chain.mirror(1.5, 70.0, 0.0, 0.35).moved(times(chain.x, 0.22))
@@ -51,19 +51,19 @@ def paint_under_glass_in_brewster_mirror(folder):
     us, up = (1 - r for r in reflectances(80.0))
     rs = (1.25 / 3.25) ** 2
     text = f"""\
-A glass mirror at Brewster's angle shows two sheets of paint (n = 1.5, albedo 1/2) under a point light, at 70 degrees
-on the right and at 80 degrees on the left. Their light leaves polarized in the plane that the mirror puts out.
+A glass mirror at Brewster's angle reflects two painted tiles (n = 1.5, albedo 1/2) under a point light, at 70 degrees on
+the right and at 80 degrees on the left. Their light is polarized in the plane that the mirror extinguishes.
 
-Closed form at the centre (70 degrees; the light of 4 W/sr stands 2 m above along the normal): below the interface
+Closed form at the centre (70 degrees; the light of 4 W/sr is 2 m away along the normal): below the interface
 0.96 albedo/pi = {decimals([below])}, times T_s R_s/2: S0 = S1 = {decimals([below * ts * rs / 2])}.
-Ignoring polarization gives (T_s + T_p)/2 R_s/2 = {decimals([below * (ts + tp) * rs / 4])}: too much by
-{100 * ((ts + tp) / 2 / ts - 1):.0f} % of the truth at 70 degrees, by {100 * ((us + up) / 2 / us - 1):.0f} % at 80.
-Depth 1: what the paint itself would mirror is left out.
+Without polarization: (T_s + T_p)/2 R_s/2 = {decimals([below * (ts + tp) * rs / 4])}, a relative error of
+{100 * ((ts + tp) / 2 / ts - 1):.0f} % at 70 degrees and of {100 * ((us + up) / 2 / us - 1):.0f} % at 80.
+Depth 1: specular reflection by the paint is left out.
 """
     paint = {"type": "paint", "eta": 1.5, "albedo": albedo}
     parts = [Part("mirror", "glass", mirror, flat=True), Part("seventy", "paint", seventy, flat=True),
              Part("eighty", "paint", eighty, flat=True)]
     return write_hard(folder, "Paint in a glass mirror at Brewster's angle: diffuse light is polarized when it leaves.",
-                      text, camera(eye, target, 12.0), parts, {"glass": BLACK_GLASS, "paint": paint}, 1,
+                      text, camera(position, target, 12.0), parts, {"glass": BLACK_GLASS, "paint": paint}, 1,
                       exposureEv=5.0, environment={"radiance": [0.005, 0.006, 0.01]},
                       lights=[{"type": "point", "position": rounded(light), "intensity": [4.0, 4.0, 4.0]}])

@@ -1,5 +1,5 @@
-"""What the hard scenes and those of effects share: small pictures with a pixel in their exact centre, and a README
-whose first line is the scene's title, the failure that it provokes or the effect that it shows."""
+"""Common parts of the hard scenes and the scenes of effects: small images with a pixel in their exact centre, and a
+README whose first line is the title of the scene: the failure that it provokes or the effect that it shows."""
 import math
 
 from .scene import total, write_scene
@@ -40,5 +40,5 @@ def write_hard(folder, title, text, view, parts, materials, depth, resolution=(6
 
 
 def decimals(values, digits=6):
-    """Numbers for people, the same in every run: a last bit of the maths library shows in no digit."""
+    """Formats rounded numbers, so that the last bit of a library function changes no digit."""
     return " / ".join(f"{v:.{digits}f}" for v in rounded(values, digits))

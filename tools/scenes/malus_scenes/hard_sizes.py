@@ -1,4 +1,4 @@
-"""One room at three scales: as it is, far from the origin, and tiny. The pictures are the same."""
+"""One room at the origin, far from the origin, and tiny. The images are the same."""
 from .chain import tile
 from .hard_glass import ball, floor
 from .hard_scene import BLACK_GLASS, GLASS, GOLD, emitter, write_hard
@@ -7,7 +7,7 @@ from .shapes import box, quad
 from .vectors import plus, times, unit
 
 FAR = (100000.0, 20000.0, -100000.0)
-EYE, TARGET, LIGHT, WATTS = (0.3, 1.0, 3.4), (0.0, 0.45, 0.0), (0.9, 2.2, 1.4), (20.0, 19.2, 17.6)
+CAMERA, TARGET, LIGHT, WATTS = (0.3, 1.0, 3.4), (0.0, 0.45, 0.0), (0.9, 2.2, 1.4), (20.0, 19.2, 17.6)
 
 LAYOUT = """\
 A floor and a wall of paint, a ball of glass, a block of gold, a leaning mirror of black glass and a lamp.
@@ -15,13 +15,13 @@ A floor and a wall of paint, a ball of glass, a block of gold, a leaning mirror 
 
 
 def place(point, scale, offset):
-    """A point of the room where an instance of it lies: twelve digits."""
+    """Returns a point of the room in an instance of it, with twelve digits."""
     return [float(f"{v:.12g}") for v in plus(offset, point, scale)]
 
 
 def room_at(folder, title, text, scale=1.0, offset=(0.0, 0.0, 0.0)):
-    """The room as an instance: scaled, then moved. Intensities go with the square of the scale, so that
-    radiances stay."""
+    """Writes the room as an instance: scaled, then moved. Intensities are scaled by the square of the scale, which keeps
+    radiances."""
     transform = {"scale": scale} if scale != 1.0 else {}
     transform |= {"translate": list(offset)} if any(offset) else {}
     wall = [(-1.6, 0.0), (1.6, 0.0), (1.6, 1.8), (-1.6, 1.8)]
@@ -37,7 +37,7 @@ def room_at(folder, title, text, scale=1.0, offset=(0.0, 0.0, 0.0)):
     materials = {"grey": {"type": "paint", "eta": 1.5, "albedo": 0.4},
                  "red": {"type": "paint", "eta": 1.5, "albedo": [0.5, 0.12, 0.1]},
                  "glass": GLASS, "gold": GOLD, "black-glass": BLACK_GLASS, "lamp": emitter(2.0, 1.9, 1.6)}
-    view = {"position": place(EYE, scale, offset), "target": place(TARGET, scale, offset),
+    view = {"position": place(CAMERA, scale, offset), "target": place(TARGET, scale, offset),
             "verticalFovDegrees": 34.0}
     light = {"type": "point", "position": place(LIGHT, scale, offset),
              "intensity": [float(f"{v:.12g}") for v in times(WATTS, scale ** 2)]}
@@ -47,19 +47,19 @@ def room_at(folder, title, text, scale=1.0, offset=(0.0, 0.0, 0.0)):
 
 def room(folder):
     return room_at(folder, "A room at its own size: what the scenes far-away and tiny are compared with.", """\
-Nothing is hard about it; `far-away` and `tiny` are the same meshes, moved and scaled.
+The reference: `far-away` and `tiny` are the same meshes, moved and scaled.
 """)
 
 
 def far_away(folder):
     return room_at(folder, "A room 143 km from the origin: a float holds no more than 8 mm there.", """\
-The scene `room`, moved by (100000, 20000, -100000) m, its origin left to the baker: the middle of the meshes.
-The picture is that of `room` but for single pixels at edges.
+The scene `room`, moved by (100000, 20000, -100000) m. The origin of the pack is the default, the middle of the meshes.
+The image equals that of `room` except for single pixels at edges.
 """, offset=FAR)
 
 
 def tiny(folder):
     return room_at(folder, "A room as small as a grain of dust: fixed offsets and thresholds would swallow it.", """\
-The scene `room`, scaled by 1e-5: 32 micrometres wide. The point light's intensity is scaled by 1e-10, so all
-radiances, and the picture, are those of `room` but for single pixels at edges.
+The scene `room`, scaled by 1e-5: 32 micrometres wide. The intensity of the point light is scaled by 1e-10, so that
+all radiances, and the image, equal those of `room` except for single pixels at edges.
 """, scale=1e-5)

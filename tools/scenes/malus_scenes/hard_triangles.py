@@ -25,7 +25,7 @@ class Square:
 
 
 def with_slivers(square, count=8):
-    """The square cut into strips, and after each strip a sliver a micrometre wide; one begins in the middle."""
+    """Returns the square cut into strips, with a sliver 1 micrometre wide after each; one begins in the middle."""
     h = math.sqrt(dot(square.x, square.x))
     vertices, faces, low = [], [], -1.0
     for i in range(count):
@@ -39,13 +39,13 @@ def with_slivers(square, count=8):
 
 
 def twice(square):
-    """The same quad two times, cut along one diagonal and along the other."""
+    """Returns the quad twice, cut along one diagonal and along the other."""
     vertices = [(p, square.normal) for p in square.corners()] * 2
     return vertices, [[0, 1, 2], [0, 2, 3], [4, 5, 7], [5, 6, 7]]
 
 
 def contradicting(square):
-    """A fan whose corners' normals look away, along the face and to one another."""
+    """Returns a fan whose vertex normals face away, along the face and towards each other."""
     corners = square.corners()
     aside, up = unit(square.x), unit(square.y)
     vertices = [(square.middle, square.normal), (corners[0], times(square.normal, -1.0)), (corners[1], aside),
@@ -54,7 +54,7 @@ def contradicting(square):
 
 
 def without_area(square):
-    """A quad with triangles that are lines and points on it and before it."""
+    """Returns a quad with triangles that are lines and points, on it and in front of it."""
     vertices = [(p, square.normal) for p in square.corners()]
     vertices += [(square.at(u, u), square.normal) for u in (-0.5, 0.0, 0.5)]
     vertices += [(plus(square.at(u, -u), square.normal, 0.2), square.normal) for u in (-0.8, 0.0, 0.8)]
@@ -64,13 +64,13 @@ def without_area(square):
 
 def bad_triangles(folder):
     text = """\
-Four squares and what is wrong with them, taken as they are (`asIs`): top left, black glass cut by slivers a micrometre
-wide (aspect 1e6); top right, gold that is there twice in one plane, cut along different diagonals; bottom left,
-gold whose corners' normals contradict the face and one another; bottom right, clear glass with triangles that are
-lines and points. A lamp stands behind the eye, a panel behind the squares.
+Four squares with defects that preparation does not remove (`asIs`): top left, black glass cut by slivers 1 micrometre
+wide (aspect ratio 1e6); top right, gold twice in one plane, cut along different diagonals; bottom left, gold whose
+vertex normals contradict the face and each other; bottom right, clear glass with triangles that are lines and points. A
+lamp is behind the camera, a panel behind the squares.
 
-No closed form for the picture. Where the gold lies twice it is seen as if it lay there once; no pixel holds a number
-that is none, a negative radiance or one above 1. The pack's grid is wider than the slivers and turns them into lines.
+There is no closed form. The duplicate gold looks like single gold; no pixel is NaN, negative or above 1. The grid of
+the pack is wider than the slivers and makes them lines.
 """
     bad = [("slivers", "black-glass", with_slivers(Square((-0.56, 0.56, 0.0), (0.25, -0.1, 1.0), 0.5))),
            ("twice", "gold", twice(Square((0.56, 0.56, 0.0), (-0.3, -0.2, 1.0), 0.5))),
@@ -89,15 +89,16 @@ that is none, a negative radiance or one above 1. The pack's grid is wider than 
 
 def slivers(folder):
     text = """\
-A mirror of black glass, 1 m wide, cut into strips with slivers between them that are a micrometre wide and a million
-times as long; it fills the pack's grid, whose steps are as wide as the slivers, so each has a tilt of its own. The
-rays of the middle row meet the middle sliver, which leans by 45 degrees instead of 17. A lamp hangs before the mirror.
+A mirror of black glass, 1 m wide, cut into strips with slivers between them, 1 micrometre wide and a million times as
+long. It fills the grid of the pack, whose steps are as wide as the slivers, so that each sliver has a different tilt.
+The rays of the middle row hit the middle sliver, which is tilted by 45 degrees, not by 17. A lamp is in front of the
+mirror.
 
-Closed form: none of a sliver shows. The middle row looks like its neighbours, and no ray slips through (it would
-read the sky, 0.3 / 0.1 / 0.1, behind the mirror as before it, unattenuated).
+Closed form: no sliver is visible. The middle row equals its neighbours, and no ray passes through the mirror (it would
+have the radiance of the sky, 0.3 / 0.1 / 0.1).
 """
     y = MICRON / 2
-    # So far back that the middle sliver goes down one step of the grid: 45 degrees instead of 17.
+    # Moved back so that the middle sliver spans one step of the grid: 45 degrees, not 17.
     square = Square((0.0, 0.0, -0.4 * MICRON), (0.0, 0.3, 1.0), 0.5)
     parts = [PartAsIs("mirror", "black-glass", *with_slivers(square)),
              Part("lamp", "lamp", quad((-0.3, 0.2, 0.6), (-0.3, 0.5, 0.6), (0.05, 0.5, 0.6), (0.05, 0.2, 0.6)),

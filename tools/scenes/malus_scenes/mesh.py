@@ -66,7 +66,7 @@ class Soup:
 
 
 class Prepared:
-    """What is left after preparation: positions (grid units), vertex count, triangles of position ids,
+    """A mesh after preparation: positions (grid units), vertex count, triangles of position ids,
     the vertex of each corner, and the edges with their dihedral angles in degrees."""
 
     def __init__(self, positions, triangles, corner_vertex, vertices, open_edges):

@@ -1,7 +1,6 @@
-"""A studio as a latitude-longitude picture: a gradient and soft light boxes, written as Radiance RGBE.
+"""A studio as a latitude-longitude image: a gradient and soft light boxes, written as Radiance RGBE.
 
-Directions: azimuth 0 looks toward -z, 90 toward +x; elevation 90 is up. The picture's centre column is
-azimuth 0. Radiance is linear RGB.
+Directions: azimuth 0 is -z, 90 is +x; elevation 90 is up. The centre column of the image is azimuth 0. Radiance is linear RGB.
 """
 import math
 
@@ -41,8 +40,8 @@ class Box:
 
 
 def render(width, height, gradient, boxes):
-    """Rows of pixels. gradient: function of (elevation, azimuth in degrees) to radiance; boxes lie over
-    it in order."""
+    """Returns rows of pixels. gradient: function of (elevation, azimuth) [degrees] to radiance; boxes cover it in
+    order."""
     rows = []
     for y in range(height):
         theta = math.pi * (y + 0.5) / height

@@ -1,5 +1,5 @@
-"""Small pictures that materials take their colours and indices from: PNG and EXR files without compression,
-the same bytes in every run and with every version of a library."""
+"""Small textures of colours and indices: PNG and EXR files without compression, with the same bytes in every run and
+with every version of a library."""
 import struct
 import zlib
 
@@ -36,7 +36,7 @@ def _chunk(kind, body):
 
 
 def _stored(data):
-    """A zlib stream of blocks that are stored as they are."""
+    """Returns a zlib stream of stored blocks."""
     starts = range(0, len(data), 65535)
     blocks = [struct.pack("<BHH", start == starts[-1], len(block), 65535 - len(block)) + block
               for start, block in ((start, data[start:start + 65535]) for start in starts)]

@@ -1,6 +1,6 @@
 // The command line of preparation:
 //   malus prep INPUT -o OUTPUT.mesh.drc [--report FILE.json] [--json] [--flat] [--sheet] [--crease DEG]
-//              [--weld METRES] [--position-bits N] [--normal-bits N]
+//              [--weld METRES] [--simplify-error METRES] [--position-bits N] [--normal-bits N]
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -15,7 +15,7 @@ namespace malus::prep {
 
 class KeepCreases : public OpenMesh::Decimater::ModBaseT<HalfEdgeMesh> {
  public:
-  // What DECIMATING_MODULE declares for modules that are templates.
+  // The declarations that DECIMATING_MODULE makes for class templates.
   using Handle = OpenMesh::Decimater::ModHandleT<KeepCreases>;
   using Base = OpenMesh::Decimater::ModBaseT<HalfEdgeMesh>;
   using Mesh = Base::Mesh;

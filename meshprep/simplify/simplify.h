@@ -34,11 +34,11 @@ struct SimplifyLines {
   std::span<const std::uint32_t> materials = {};  // per triangle; empty: one material
 };
 
-// Throws Error for bounds out of range, NaN included; `where` begins the message.
+// Throws Error that names the option for bounds out of range, NaN included.
 void checkSimplifyBounds(const SimplifyBounds& bounds);
 
 // `mesh` must be an oriented manifold after cleaning, with at least one triangle; its corner normals are dropped if it
-// changes. Returns what the report says. A mesh that cannot be simplified within the bounds stays unchanged, with a
+// changes. Returns the entry of the report. A mesh that cannot be simplified within the bounds stays unchanged, with a
 // warning. Throws Error for bounds out of range.
 Simplification simplify(Mesh& mesh, const SimplifyBounds& bounds, const SimplifyLines& lines);
 

@@ -70,6 +70,26 @@ TEST_F(PrepCommand, FlatTable) {
   EXPECT_TRUE(compress::decode(readFile(output_), {8, 12}, "file").normals.empty());
 }
 
+TEST_F(PrepCommand, Simplifies) {
+  const TemporaryFile sphere(".obj", test::objText(test::sphere(20, 30)));
+  const std::vector<std::string> arguments = {sphere.path().string(), "-o", output_.string(), "--simplify-error",
+                                              "0.05"};
+  EXPECT_TRUE(contains(run(arguments), "deviation"));
+  std::vector<std::string> json = arguments;
+  json.insert(json.end(),
+              {"--simplify-triangles", "400", "--simplify-normal", "60", "--json", "--keep-map", map_.string()});
+  const nlohmann::json report = nlohmann::json::parse(run(json));
+  EXPECT_EQ(report["simplification"]["trianglesBefore"], 1200);
+  EXPECT_EQ(report["simplification"]["trianglesAfter"], report["output"]["triangles"]);
+  EXPECT_LE(report["output"]["triangles"], 400);
+  EXPECT_LE(report["simplification"]["maxDeviation"].get<double>(), 0.05);
+  EXPECT_EQ(nlohmann::json::parse(readTextFile(map_))["triangles"].size(), report["output"]["triangles"]);
+  for (const char* bad : {"0", "-1", "nan", "x"}) {
+    json[4] = bad;
+    EXPECT_ANY_THROW(run(json)) << bad;
+  }
+}
+
 TEST_F(PrepCommand, KeepsTheMapToTheFile) {
   run({input_.path().string(), "-o", output_.string(), "--keep-map", map_.string()});
   const nlohmann::json map = nlohmann::json::parse(readTextFile(map_));

@@ -1,6 +1,6 @@
 // Comparison of the mesh readers with those of OpenMesh.
 //
-// OpenMesh reports faces one by one while it parses. They are collected as they are written and not put into a
+// OpenMesh reports faces one by one while it parses. They are collected in that form and not put into a
 // half-edge structure, which would duplicate vertices at non-manifold faces.
 #pragma once
 

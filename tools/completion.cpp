@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 
 bool isVisible(const CLI::Option& option) { return !option.get_group().empty() && !option.get_positional(); }
 
-// Returns the option's names as they are typed: --output, -o.
+// Returns the names of an option with their dashes: --output, -o.
 Words typedNames(const CLI::Option& option) {
   Words names;
   for (const std::string& name : option.get_lnames()) names.push_back("--" + name);

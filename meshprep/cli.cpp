@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"

@@ -8,8 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
+#include "meshprep/certify/certificate.h"
+#include "meshprep/clean/component.h"
 #include "meshprep/findings.h"
 
 namespace malus::prep {
@@ -20,32 +22,6 @@ struct Step {
   std::string name;
   std::uint64_t count = 0;
   std::vector<Finding> findings;  // at most kListed; empty for steps that only count
-};
-
-// Triangles connected through edges that exactly two triangles share.
-struct Component {
-  std::uint64_t triangles = 0;
-  bool closed = false;          // every edge is shared by two triangles
-  bool orientable = true;       // the two sides can be told apart
-  std::uint64_t flipped = 0;    // triangles that were turned over
-  double signedVolume = 0;      // cubic metres after orientation; 0 unless closed and orientable
-  bool hasVolume = false;       // closed, orientable, and more than a fold of nothing; never told of a sheet
-  glm::dvec3 at{0};             // a point of it
-  std::uint32_t firstFace = 0;  // of the source file
-};
-
-// A reason why a mesh is no body of glass, or no pair of sheets.
-struct Problem {
-  std::uint32_t component = 0;  // index into Report::components
-  std::string what;             // "3 open edges"
-  std::string where;            // the first of them
-  std::string repair;           // what to do about it
-};
-
-struct Certificate {
-  bool checked = false;           // whether anyone asked
-  std::vector<Problem> problems;  // empty: it holds
-  bool holds() const { return checked && problems.empty(); }
 };
 
 // Result of simplification.
@@ -84,7 +60,7 @@ struct Report {
   struct {
     std::string method;
     std::uint64_t bytes = 0;
-    std::string whySequential;  // empty where the method is edgebreaker
+    std::string sequentialReason;  // empty where the method is edgebreaker
     int positionBits = 0;
     int normalBits = 0;                 // 0 where there are no normals
     double encodeMs = 0, decodeMs = 0;  // wall clock
@@ -100,7 +76,7 @@ struct Report {
 //  components[{triangles, closed, orientable, flipped, signedVolume, hasVolume, at, firstFace}],
 //  simplification{trianglesBefore, trianglesAfter, maxDeviation, maxNormalDegrees, warnings},
 //  certificate{holds, problems[{component, what, where, repair}]}, errors{positionMax, normalMaxDegrees,
-//  tiltMaxDegrees, flipped, degenerate}, compression{method, whySequential, bytes, bytesPerTriangle, positionBits,
+//  tiltMaxDegrees, flipped, degenerate}, compression{method, sequentialReason, bytes, bytesPerTriangle, positionBits,
 //  normalBits, encodeMs, decodeMs, warnings}}; simplification and certificate only where they were requested, errors
 //  and compression only
 // where the mesh was compressed, findings and their parts only where there are any.

@@ -10,9 +10,9 @@
 // surface of a lake, is no pair.
 #pragma once
 
+#include "meshprep/certify/certificate.h"
 #include "meshprep/clean/intersections.h"
 #include "meshprep/clean/orient.h"
-#include "meshprep/report.h"
 
 namespace malus::prep {
 

@@ -18,8 +18,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "meshprep/clean/component.h"
 #include "meshprep/findings.h"
-#include "meshprep/report.h"
 
 namespace malus::prep {
 

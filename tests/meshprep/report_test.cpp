@@ -1,6 +1,7 @@
 #include "meshprep/report.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/meshprep/shapes.h"
 

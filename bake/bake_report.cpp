@@ -41,7 +41,7 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
     const pack::Mesh& mesh = baked.scene.meshes[i];
     meshes.push_back({{"name", mesh.name},
                       {"encoding", m.method},
-                      {"whySequential", m.whySequential},
+                      {"sequentialReason", m.sequentialReason},
                       {"triangles", mesh.triangles.size()},
                       {"sizeBytes", m.sizeBytes},
                       {"bytesPerTriangle", perTriangle(m.sizeBytes, mesh.triangles.size())},
@@ -101,8 +101,8 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
     text += fmt::format("  {:<24}{:>10}{:>12.2f}{:>6}{:>11.2g}{:>11.2g}{:>11.2g}{:>10.1f}{:>10.1f}  {}{}{}{}\n",
                         mesh.name, mesh.triangles.size(), perTriangle(m.sizeBytes, mesh.triangles.size()), m.normalBits,
                         m.deviation.positionMax + baked.moved, m.deviation.normalMaxDegrees, m.deviation.tiltMaxDegrees,
-                        m.encodeMs, m.decodeMs, m.method, m.kept ? ", kept" : "", m.whySequential.empty() ? "" : ": ",
-                        m.whySequential);
+                        m.encodeMs, m.decodeMs, m.method, m.kept ? ", kept" : "",
+                        m.sequentialReason.empty() ? "" : ": ", m.sequentialReason);
   }
   return text;
 }

@@ -54,7 +54,7 @@ void runBake(const BakeArguments& arguments) {
   const Baked baked = bake(description, arguments.settings, console::progress, arguments.options);
   console::progress("compressing");
   pack::WriteSettings settings = arguments.settings;
-  settings.movedBefore = baked.moved;
+  settings.conversionError = baked.moved;
   const bool rebaked = older && isOfSameVersions(*older, provenance);
   const pack::OlderPack source{rebaked ? &older->pack : nullptr, rebaked ? older->bytes : std::span<const std::byte>()};
   const pack::Written written = pack::write(arguments.output, baked.scene, settings, rebaked ? &source : nullptr);
@@ -79,11 +79,11 @@ void addBakeCommand(CLI::App& app) {
   command->add_option("scene", arguments->input, "scene.json (schema: bake/SCENE.md)")->required();
   command->add_option("-o,--output", arguments->output, "the pack to write")->required();
   command
-      ->add_option("--max-error", arguments->settings.bounds.maxError,
+      ->add_option("--max-error", arguments->settings.bounds.positionError,
                    "metres: no vertex is farther from its source than this")
       ->check(CLI::PositiveNumber);
   command
-      ->add_option("--max-normal-error", arguments->settings.bounds.maxNormalErrorDegrees,
+      ->add_option("--max-normal-error", arguments->settings.bounds.normalErrorDegrees,
                    "degrees: no normal is farther from its source than this; 0.05 is tried unless asked")
       ->check(CLI::PositiveNumber);
   command

@@ -105,12 +105,13 @@ void runPrep(const Arguments& arguments) {
   const compress::Bits bits = compress::chooseBits({&view, 1}, arguments.bounds, moved);
   const compress::Settings settings{bits.grid, bits.normalBits.front()};
   const compress::Encoded encoded = compress::encode(source, settings);
-  report.compression.warnings = compress::judge(encoded.deviation, settings, arguments.bounds, arguments.input, moved);
+  report.compression.warnings =
+      compress::checkBounds(encoded.deviation, settings, arguments.bounds, arguments.input, moved);
   report.errors = {moved + encoded.deviation.positionMax, encoded.deviation.normalMaxDegrees,
                    encoded.deviation.tiltMaxDegrees, encoded.deviation.flipped, encoded.deviation.newDegenerate};
   report.compression.method = encoded.method;
   report.compression.bytes = encoded.bytes.size();
-  report.compression.whySequential = encoded.whySequential;
+  report.compression.sequentialReason = encoded.sequentialReason;
   report.compression.positionBits = settings.grid.positionBits;
   report.compression.normalBits = source.normals.empty() ? 0 : settings.normalBits;
   report.compression.encodeMs = encoded.encodeMs;
@@ -189,10 +190,10 @@ void addPrepCommand(CLI::App& app) {
                    "Collapse edges only while the normals of the surface stay within this angle")
       ->check(CLI::Range(0.0, 180.0))
       ->type_name("DEGREES");
-  prep->add_option("--max-error", arguments->bounds.maxError, "No vertex is farther from its source than this")
+  prep->add_option("--max-error", arguments->bounds.positionError, "No vertex is farther from its source than this")
       ->check(CLI::PositiveNumber)
       ->type_name("METRES");
-  prep->add_option("--max-normal-error", arguments->bounds.maxNormalErrorDegrees,
+  prep->add_option("--max-normal-error", arguments->bounds.normalErrorDegrees,
                    "No normal is farther from its source than this; 0.05 is tried unless asked")
       ->check(CLI::PositiveNumber)
       ->type_name("DEGREES");

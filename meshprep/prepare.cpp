@@ -260,13 +260,13 @@ void addPlaces(const Polygons& polygons, Report& report) {
   const auto place = [&](const std::vector<std::uint64_t>& places,
                          const std::vector<std::uint32_t>& ids) -> std::string {
     if (ids.empty() || ids.front() >= places.size()) return {};
-    return polygons.placesAreBytes ? fmt::format("{}, byte {}", report.source, places[ids.front()])
+    return polygons.locationsAreBytes ? fmt::format("{}, byte {}", report.source, places[ids.front()])
                                    : fmt::format("{}:{}", report.source, places[ids.front()]);
   };
   for (Step& step : report.steps)
     for (Finding& finding : step.findings) {
-      finding.place = place(polygons.facePlaces, finding.faces);
-      if (finding.place.empty()) finding.place = place(polygons.vertexPlaces, finding.vertices);
+      finding.place = place(polygons.faceLocations, finding.faces);
+      if (finding.place.empty()) finding.place = place(polygons.vertexLocations, finding.vertices);
     }
 }
 

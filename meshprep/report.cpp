@@ -97,7 +97,7 @@ nlohmann::json toJson(const Report& report) {
                       {"flipped", report.errors.flipped},
                       {"degenerate", report.errors.degenerate}};
     json["compression"] = {{"method", report.compression.method},
-                           {"whySequential", report.compression.whySequential},
+                           {"sequentialReason", report.compression.sequentialReason},
                            {"bytes", report.compression.bytes},
                            {"bytesPerTriangle", bytesPerTriangle(report)},
                            {"positionBits", report.compression.positionBits},
@@ -154,8 +154,8 @@ std::string toText(const Report& report) {
   if (report.compression.bytes > 0) {
     const auto& c = report.compression;
     text += fmt::format("  {:<34}{:>12} bytes, {:.2f} a triangle\n", "compressed", c.bytes, bytesPerTriangle(report));
-    text +=
-        fmt::format("  {:<34}{:>12}{}{}\n", "  method", c.method, c.whySequential.empty() ? "" : ": ", c.whySequential);
+    text += fmt::format("  {:<34}{:>12}{}{}\n", "  method", c.method, c.sequentialReason.empty() ? "" : ": ",
+                        c.sequentialReason);
     text += fmt::format("  {:<34}{:>12} positions, {} normals\n", "  bits", c.positionBits, c.normalBits);
     text += fmt::format("  {:<34}{:>12.1f} ms to encode, {:.1f} ms to decode\n", "  time", c.encodeMs, c.decodeMs);
     text += fmt::format("  {:<34}{:>12.3g} m\n", "position error, at most", report.errors.positionMax);

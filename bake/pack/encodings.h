@@ -20,7 +20,7 @@ struct MeshEncoding {
   std::uint64_t inputHash = 0;  // of every input of the encoder
   std::uint32_t normalBits = 0;
   compress::Deviation deviation;
-  std::string whySequential;  // empty for edgebreaker
+  std::string sequentialReason;  // empty for edgebreaker
 };
 
 struct Encodings {

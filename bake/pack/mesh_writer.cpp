@@ -86,7 +86,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
   // Step 1: bits.
   std::vector<compress::MeshView> views;
   for (const Mesh& mesh : scene.meshes) views.emplace_back(mesh.positions, mesh.normals, mesh.triangles);
-  const compress::Bits bits = compress::chooseBits(views, settings.bounds, settings.movedBefore);
+  const compress::Bits bits = compress::chooseBits(views, settings.bounds, settings.conversionError);
   EncodedMeshes all;
   all.encodings.grid = bits.grid;
   const Kept kept(older);
@@ -114,7 +114,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
         throw Error(where, error.what());
       }
       encoding = {hash, mesh.normals.empty() ? 0u : static_cast<std::uint32_t>(codec.normalBits), encoded.deviation,
-                  encoded.whySequential};
+                  encoded.sequentialReason};
       report.method = encoded.method;
       report.encodeMs = encoded.encodeMs;
       report.decodeMs = encoded.decodeMs;
@@ -125,7 +125,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
       }
     }
     for (std::string& warning :
-         compress::judge(encoding.deviation, codec, settings.bounds, where, settings.movedBefore))
+         compress::checkBounds(encoding.deviation, codec, settings.bounds, where, settings.conversionError))
       all.warnings.push_back(std::move(warning));
 
     // Step 3: written down.
@@ -142,7 +142,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
     geometry.raw(result.bytes);
     for (const std::uint32_t v : result.sourceVertices) map.u32(v);
     for (const std::uint32_t f : result.sourceFaces) map.u32(f);
-    report.whySequential = encoding.whySequential;
+    report.sequentialReason = encoding.sequentialReason;
     report.sizeBytes = result.bytes.size();
     report.normalBits = static_cast<int>(encoding.normalBits);
     report.deviation = encoding.deviation;

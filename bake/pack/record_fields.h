@@ -188,8 +188,8 @@ void visitMeshEncoding(Visitor&& visit, Encoded&... m) {
   visit(Field{.name = "flipped", .text = "number of flipped faces"}, m.deviation.flipped...);
   visit(Field{.name = "newDegenerate", .text = "number of faces that lost their area"}, m.deviation.newDegenerate...);
   visit(Field{.name = "degenerateFace", .text = "the first of them"}, m.deviation.degenerateFace...);
-  visit(Field{.name = "whySequential", .text = "reason for the sequential encoding; empty for edgebreaker"},
-        m.whySequential...);
+  visit(Field{.name = "sequentialReason", .text = "reason for the sequential encoding; empty for edgebreaker"},
+        m.sequentialReason...);
 }
 
 }  // namespace malus::pack

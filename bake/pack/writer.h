@@ -16,8 +16,8 @@ namespace malus::pack {
 
 struct WriteSettings {
   compress::Bounds bounds;
-  double movedBefore = 0;  // metres; how far positions are off already, by rounding to float
-  bool keepMap = false;    // keep the map from packed vertices and triangles to those of the source files
+  double conversionError = 0;  // metres; how far positions are off already, by rounding to float
+  bool keepMap = false;        // keep the map from packed vertices and triangles to those of the source files
 };
 
 // A pack that was written before, from which meshes that are the same are taken. Its versions of baker and codec must
@@ -29,8 +29,8 @@ struct OlderPack {
 
 // What compression did to a mesh.
 struct MeshCompression {
-  std::string method;         // "edgebreaker" or "sequential"
-  std::string whySequential;  // empty for edgebreaker
+  std::string method;            // "edgebreaker" or "sequential"
+  std::string sequentialReason;  // empty for edgebreaker
   std::size_t sizeBytes = 0;
   int normalBits = 0;  // 0 where the mesh has no normals
   compress::Deviation deviation;

@@ -160,8 +160,8 @@ void Triangulation::cut(std::size_t face, const FlatPolygon& flat) {
 
 void Triangulation::failTooComplex(std::size_t face) const {
   std::string where = fmt::format("face {}", face);
-  if (!polygons_.facePlaces.empty())
-    where += fmt::format(", {} {}", polygons_.placesAreBytes ? "byte" : "line", polygons_.facePlaces[face]);
+  if (!polygons_.faceLocations.empty())
+    where += fmt::format(", {} {}", polygons_.locationsAreBytes ? "byte" : "line", polygons_.faceLocations[face]);
   throw Error(where, "is too intricate to be cut into triangles", "faces of fewer corners",
               fmt::format("{} corners", polygons_.face(face).size()));
 }

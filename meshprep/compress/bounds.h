@@ -1,9 +1,9 @@
-// How many bits are enough: one number for the positions of all meshes, because they share a grid so that nothing
-// cracks, and one for each mesh's normals.
+// Choice of the numbers of bits: one for the positions of all meshes, which share a grid so that seams do not crack,
+// and one for the normals of each mesh.
 //
-// Bits are raised until every mesh keeps its bounds: distance of a vertex from its source, angle of a normal, tilt of a
-// face, no face that loses its area, and none that turns over (which its tilt tells). Choosing goes by the quantizers'
-// own arithmetic (grid_rounding.h); judging goes by what was decoded.
+// The numbers are raised until every mesh is within its bounds: distance of a vertex from its source, angle of a normal
+// from its source, tilt of a face; no face may lose its area or flip. chooseBits predicts the decoded values
+// (grid_rounding.h); checkBounds checks the values that were decoded.
 #pragma once
 
 #include <optional>
@@ -16,34 +16,35 @@
 
 namespace malus::compress {
 
-// Kept where nothing else is asked for; what cannot keep them gets the most bits and a warning.
+// Bounds that apply unless others are given. A mesh that exceeds them with the most bits gets a warning.
 inline constexpr double kDefaultNormalErrorDegrees = 0.05;
 inline constexpr double kDefaultTiltDegrees = 0.1;
 
-// Where raising begins, unless a bound is asked for: then every number of bits is tried.
+// First numbers of bits to try. If a bound is given, all numbers are tried.
 inline constexpr int kFirstPositionBits = 20;
 inline constexpr int kFirstNormalBits = 12;
 
 struct Bounds {
-  std::optional<double> maxError;               // asked for: metres, over 0
-  std::optional<double> maxNormalErrorDegrees;  // asked for: degrees, over 0
-  std::optional<int> positionBits;              // just these, whatever they bring: 1 to kMaxPositionBits
-  std::optional<int> normalBits;                // kMinNormalBits to kMaxNormalBits
+  std::optional<double> positionError;       // largest distance of a vertex from its source, metres, > 0
+  std::optional<double> normalErrorDegrees;  // largest angle of a normal from its source, degrees, > 0
+  std::optional<int> positionBits;           // exact number, 1 to kMaxPositionBits; positionError is still checked
+  std::optional<int> normalBits;             // exact number, kMinNormalBits to kMaxNormalBits
 };
 
 struct Bits {
-  Grid grid;                    // of all meshes
-  std::vector<int> normalBits;  // one a mesh
+  Grid grid;                    // shared by all meshes
+  std::vector<int> normalBits;  // per mesh
 };
 
-// The grid is the smallest cube about all meshes. Where no number of bits keeps a bound, the most. Throws Error: bits
-// or bounds out of range, a position that is not finite, an extent that a float does not hold.
-// movedBefore: how far positions are already off, by rounding to float; it counts towards maxError.
-Bits chooseBits(std::span<const MeshView> meshes, const Bounds& bounds, double movedBefore = 0);
+// Returns the smallest grid that encloses all meshes, and the smallest numbers of bits within the bounds, or the
+// largest numbers if none is. conversionError: distance in metres by which the conversion to float already moved
+// positions; it counts towards positionError. Throws Error: bits or bounds out of range, a position that is not finite,
+// an extent above the range of float.
+Bits chooseBits(std::span<const MeshView> meshes, const Bounds& bounds, double conversionError = 0);
 
-// What a mesh that was encoded does not keep of the defaults, one line each: which face, how much, with which bits.
-// Throws Error that begins with `where` for a bound that was asked for and is not kept, saying what was reached.
-std::vector<std::string> judge(const Deviation& deviation, const Settings& used, const Bounds& bounds,
-                               std::string_view where, double movedBefore = 0);
+// Checks an encoded mesh. Returns a warning for each exceeded default bound, with the value and the number of bits.
+// Throws Error if a bound that was given is exceeded. Both texts begin with `where`.
+std::vector<std::string> checkBounds(const Deviation& deviation, const Settings& used, const Bounds& bounds,
+                                     std::string_view where, double conversionError = 0);
 
 }  // namespace malus::compress

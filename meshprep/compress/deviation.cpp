@@ -19,18 +19,18 @@ double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-// The largest of many angles: the arc tangent is taken only where a cheap bound says that it may matter.
+// Largest of many angles. Computes the arc tangent only if a comparison of squared tangents cannot exclude the angle.
 class LargestAngle {
  public:
-  // Whether the angle between a and b is the largest so far.
+  // Returns true if the angle between a and b exceeds all earlier ones.
   bool add(const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec3 across = glm::cross(a, b);
-    const double along = glm::dot(a, b);
-    if (along > 0 && glm::dot(across, across) <= tangentSquared_ * along * along) return false;
-    const double angle = glm::degrees(std::atan2(glm::length(across), along));
+    const glm::dvec3 cross = glm::cross(a, b);
+    const double dot = glm::dot(a, b);
+    if (dot > 0 && glm::dot(cross, cross) <= tangentSquared_ * dot * dot) return false;
+    const double angle = glm::degrees(std::atan2(glm::length(cross), dot));
     if (angle <= degrees_) return false;
     degrees_ = angle;
-    tangentSquared_ = along > 0 ? glm::dot(across, across) / (along * along) : kNever;
+    tangentSquared_ = dot > 0 ? glm::dot(cross, cross) / (dot * dot) : kNever;
     return true;
   }
   double degrees() const { return degrees_; }
@@ -41,15 +41,15 @@ class LargestAngle {
   double tangentSquared_ = 0;
 };
 
-// Across the face, scaled so that no square leaves the range of double; nothing where it has no area.
+// Returns a vector along the normal, scaled so that squares stay in the range of double, or nothing without area.
 std::optional<glm::dvec3> faceNormal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const double scale = std::max({largest(b - a), largest(c - b), largest(a - c)});
   if (scale == 0) return std::nullopt;
   const glm::dvec3 u = (b - a) / scale, v = (c - a) / scale, w = v - u;
-  const glm::dvec3 across = glm::cross(u, v);
+  const glm::dvec3 normal = glm::cross(u, v);
   const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
-  if (glm::dot(across, across) <= kAreaTolerance * kAreaTolerance * longest * longest) return std::nullopt;
-  return across;
+  if (glm::dot(normal, normal) <= kAreaTolerance * kAreaTolerance * longest * longest) return std::nullopt;
+  return normal;
 }
 
 std::optional<glm::dvec3> faceNormal(std::span<const glm::vec3> positions, const glm::uvec3& t) {
@@ -60,18 +60,18 @@ std::optional<glm::dvec3> faceNormal(std::span<const glm::vec3> positions, const
 
 bool hasArea(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) { return faceNormal(a, b, c).has_value(); }
 
-Deviation deviationOf(const MeshView& source, std::span<const glm::vec3> positions,
-                      std::span<const glm::vec3> normals) {
+Deviation measureDeviation(const MeshView& source, std::span<const glm::vec3> positions,
+                           std::span<const glm::vec3> normals) {
   Deviation deviation;
 
-  // Step 1: vertices.
+  // Compare vertices.
   double farthest = 0;
-  LargestAngle turn;
+  LargestAngle normalAngle;
   for (std::size_t i = 0; i < positions.size(); ++i)
     farthest = std::max(farthest, glm::distance(glm::dvec3(positions[i]), glm::dvec3(source.positions[i])));
-  for (std::size_t i = 0; i < normals.size(); ++i) turn.add(source.normals[i], normals[i]);
+  for (std::size_t i = 0; i < normals.size(); ++i) normalAngle.add(source.normals[i], normals[i]);
 
-  // Step 2: faces that have area.
+  // Compare the faces that have area.
   LargestAngle tilt;
   for (std::size_t i = 0; i < source.triangles.size(); ++i) {
     const std::optional<glm::dvec3> before = faceNormal(source.positions, source.triangles[i]);
@@ -85,12 +85,12 @@ Deviation deviationOf(const MeshView& source, std::span<const glm::vec3> positio
     if (glm::dot(*before, *after) < 0) ++deviation.flipped;
   }
   deviation.positionMax = farthest;
-  deviation.normalMaxDegrees = turn.degrees();
+  deviation.normalMaxDegrees = normalAngle.degrees();
   deviation.tiltMaxDegrees = tilt.degrees();
   return deviation;
 }
 
-bool positionsKeep(const MeshView& source, std::span<const glm::vec3> positions, const DeviationLimits& limits) {
+bool positionsWithin(const MeshView& source, std::span<const glm::vec3> positions, const DeviationLimits& limits) {
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (glm::distance(glm::dvec3(positions[i]), glm::dvec3(source.positions[i])) > limits.position) return false;
   const double cosine = std::cos(glm::radians(limits.tiltDegrees));
@@ -100,24 +100,19 @@ bool positionsKeep(const MeshView& source, std::span<const glm::vec3> positions,
     const std::optional<glm::dvec3> after = faceNormal(positions, t);
     if (!after && !limits.newDegenerate) return false;
     if (!after) continue;
-    // The cosine alone cannot tell small angles apart: it only lets clear cases through.
-    const double along = glm::dot(*before, *after);
+    // Accept clear cases by the cosine, which cannot resolve small angles.
+    const double dot = glm::dot(*before, *after);
     const double lengths = std::sqrt(glm::dot(*before, *before) * glm::dot(*after, *after));
-    if (along >= lengths * (cosine + 1e-9)) continue;
+    if (dot >= lengths * (cosine + 1e-9)) continue;
     if (degreesBetween(*before, *after) > limits.tiltDegrees) return false;
   }
   return true;
 }
 
-bool normalsKeep(const MeshView& source, std::span<const glm::vec3> normals, const DeviationLimits& limits) {
+bool normalsWithin(const MeshView& source, std::span<const glm::vec3> normals, const DeviationLimits& limits) {
   for (std::size_t i = 0; i < normals.size(); ++i)
     if (degreesBetween(source.normals[i], normals[i]) > limits.normalDegrees) return false;
   return true;
-}
-
-bool keeps(const Deviation& deviation, const DeviationLimits& limits) {
-  return deviation.positionMax <= limits.position && deviation.normalMaxDegrees <= limits.normalDegrees &&
-         deviation.tiltMaxDegrees <= limits.tiltDegrees && (limits.newDegenerate || deviation.newDegenerate == 0);
 }
 
 }  // namespace malus::compress

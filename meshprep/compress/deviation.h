@@ -1,4 +1,4 @@
-// How far a mesh that was rounded is off its source: places, normals, and the tilt of faces.
+// Measures the deviation of a rounded mesh from its source: positions, normals and the tilt of faces.
 #pragma once
 
 #include <cstdint>
@@ -11,28 +11,28 @@
 
 namespace malus::compress {
 
-// A face has area where the height above its longest edge is over 1e-12 of that edge: a few thousand roundings of
-// a cross product in double, the rule by which cleaning drops faces. Faces without area in the source are exempt.
+// Returns true if the height above the longest edge exceeds 1e-12 times that edge: a few thousand rounding errors of a
+// cross product in double. Cleaning drops faces by the same rule (clean/degenerate_faces.h). Faces without area in the
+// source are exempt from all limits.
 bool hasArea(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-// What is allowed.
+// Largest allowed deviations.
 struct DeviationLimits {
-  double position = std::numeric_limits<double>::infinity();  // in the unit of positions
+  double position = std::numeric_limits<double>::infinity();  // metres
   double normalDegrees = 180;
   double tiltDegrees = 180;
-  bool newDegenerate = true;  // faces may lose their area
+  bool newDegenerate = true;  // allows faces to lose their area
 };
 
-// Compares vertex by vertex and face by face; the vertices are in one order. `normals` are both empty, or one a vertex.
-Deviation deviationOf(const MeshView& source, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
+// Compares vertices and faces of equal index. positions: one per vertex of source. normals: one per vertex, or empty if
+// source has none.
+Deviation measureDeviation(const MeshView& source, std::span<const glm::vec3> positions,
+                           std::span<const glm::vec3> normals);
 
-// Whether positions and the faces between them keep the limits; stops at the first that does not.
-bool positionsKeep(const MeshView& source, std::span<const glm::vec3> positions, const DeviationLimits& limits);
+// Returns true if all positions and faces are within the limits. Stops at the first that is not.
+bool positionsWithin(const MeshView& source, std::span<const glm::vec3> positions, const DeviationLimits& limits);
 
-// Whether normals keep the limits.
-bool normalsKeep(const MeshView& source, std::span<const glm::vec3> normals, const DeviationLimits& limits);
-
-// The same for what was measured.
-bool keeps(const Deviation& deviation, const DeviationLimits& limits);
+// Returns true if all normals are within the limits.
+bool normalsWithin(const MeshView& source, std::span<const glm::vec3> normals, const DeviationLimits& limits);
 
 }  // namespace malus::compress

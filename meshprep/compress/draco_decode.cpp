@@ -1,5 +1,5 @@
-// Decoding under guard: counts are compared before Draco runs, attributes before their values are
-// allocated, and every value afterwards.
+// Decoding of untrusted bytes: counts are checked before Draco runs, attributes before their values are allocated, and
+// all values afterwards.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -26,7 +26,7 @@ bool isPlainFloat3(const draco::PointAttribute& attribute) {
   return attribute.num_components() == 3 && attribute.data_type() == draco::DT_FLOAT32;
 }
 
-// One float position, at most one float normal, nothing else.
+// Returns true if the attributes are one float position and at most one float normal.
 bool hasExpectedAttributes(const draco::PointCloud& cloud) {
   if (cloud.NumNamedAttributes(draco::GeometryAttribute::POSITION) != 1) return false;
   const int normals = cloud.NumNamedAttributes(draco::GeometryAttribute::NORMAL);
@@ -36,12 +36,12 @@ bool hasExpectedAttributes(const draco::PointCloud& cloud) {
   return true;
 }
 
-// Draco's decoder, stopped between the description of the attributes and their values: a few bytes may
-// describe gigabytes.
+// Decoder of Draco that checks the attributes' descriptions before it decodes their values: a few bytes can declare
+// gigabytes.
 template <class Base>
-class Guarded : public Base {
+class CheckedDecoder : public Base {
  public:
-  explicit Guarded(const Limits& limits) : limits_(limits) {}
+  explicit CheckedDecoder(const Limits& limits) : limits_(limits) {}
 
  protected:
   bool DecodeConnectivity() override {
@@ -58,24 +58,24 @@ class Guarded : public Base {
 
 template <class Base>
 void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, draco::Mesh& mesh, std::string_view where) {
-  Guarded<Base> decoder(limits);
+  CheckedDecoder<Base> decoder(limits);
   const draco::DecoderOptions options;
   draco::Status status;
   try {
     status = decoder.Decode(options, &buffer, &mesh);
-  } catch (const std::exception& failure) {  // std::bad_alloc and std::length_error from damaged sizes
-    throw Error(where, "Draco data is damaged", "", failure.what());
+  } catch (const std::exception& failure) {  // std::bad_alloc and std::length_error, from corrupt sizes
+    throw Error(where, fmt::format("Draco data is corrupt: {}", failure.what()));
   }
-  if (!status.ok()) throw Error(where, "Draco data is damaged", "", status.error_msg_string());
+  if (!status.ok()) throw Error(where, fmt::format("Draco data is corrupt: {}", status.error_msg_string()));
 }
 
-// The values of one attribute, one a vertex.
+// Returns the values of an attribute, one per vertex.
 std::vector<glm::vec3> attributeValues(const draco::PointAttribute& attribute, std::uint32_t vertices,
                                        std::string_view what, std::string_view where) {
   static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
   std::vector<glm::vec3> values(vertices);
   const std::size_t available = attribute.buffer() == nullptr ? 0 : attribute.buffer()->data_size() / sizeof(glm::vec3);
-  // As Draco leaves the meshes that encode() writes: one value a vertex, one behind the other.
+  // Copy at once if values are contiguous and in vertex order, as in files by encode().
   const bool plain = attribute.is_mapping_identity() && attribute.byte_stride() == sizeof(glm::vec3) &&
                      attribute.byte_offset() == 0 && attribute.size() >= vertices && available >= vertices;
   if (plain) {
@@ -96,29 +96,30 @@ std::vector<glm::vec3> attributeValues(const draco::PointAttribute& attribute, s
 
 }  // namespace
 
-Limits claimedCounts(std::span<const std::byte> bytes, std::string_view where) {
+Limits declaredCounts(std::span<const std::byte> bytes, std::string_view where) {
   const DracoHeader header = parseHeader(bytes, where);
   return {header.vertices, header.triangles};
 }
 
 TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std::string_view where) {
-  // Step 1: what the file claims must be what the caller knows.
+  // Check the declared counts.
   const DracoHeader header = parseHeader(bytes, where);
   if (header.vertices != limits.vertices || header.triangles != limits.triangles)
-    throw Error(where, "Draco data of another mesh",
+    throw Error(where, "Draco data has unexpected counts",
                 fmt::format("{} vertices and {} triangles", limits.vertices, limits.triangles),
                 fmt::format("{} and {}", header.vertices, header.triangles));
   if (limits.triangles > kMaxTriangles || limits.vertices > kMaxTriangles || limits.vertices == 0)
-    throw Error(where, "Draco data of an impossible size", fmt::format("1 to {} vertices and triangles", kMaxTriangles),
+    throw Error(where, "Draco data has unsupported counts",
+                fmt::format("1 to {} vertices and triangles", kMaxTriangles),
                 fmt::format("{} and {}", limits.vertices, limits.triangles));
 
-  const std::uint64_t most = kMostPerByte * bytes.size();
+  const std::uint64_t most = kMaxPerByte * bytes.size();
   if (limits.triangles > most || limits.vertices > most)
-    throw Error(where, "Draco data too small for what it claims",
+    throw Error(where, "Draco data is too small for its declared counts",
                 fmt::format("at most {} vertices and triangles in {} bytes", most, bytes.size()),
                 fmt::format("{} and {}", limits.vertices, limits.triangles));
 
-  // Step 2: decode.
+  // Decode.
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Mesh mesh;
@@ -128,11 +129,11 @@ TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std:
     runDecoder<draco::MeshEdgebreakerDecoder>(buffer, limits, mesh, where);
   }
   if (mesh.num_points() != limits.vertices || mesh.num_faces() != limits.triangles)
-    throw Error(where, "Draco data decodes to other counts",
+    throw Error(where, "Draco data decodes to unexpected counts",
                 fmt::format("{} vertices and {} triangles", limits.vertices, limits.triangles),
                 fmt::format("{} and {}", mesh.num_points(), mesh.num_faces()));
 
-  // Step 3: copy out, checking every value.
+  // Copy and check all values.
   TriangleMesh result;
   result.positions =
       attributeValues(*mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION), limits.vertices, "position", where);
@@ -141,8 +142,7 @@ TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std:
     for (std::size_t i = 0; i < result.normals.size(); ++i) {
       const float length = glm::length(result.normals[i]);
       if (!(length > 0.5f && length < 2.0f))
-        throw Error(where, fmt::format("normal of vertex {} has no direction", i), "unit length",
-                    fmt::format("{}", length));
+        throw Error(where, fmt::format("normal of vertex {} has an invalid length", i), "1", fmt::format("{}", length));
       result.normals[i] /= length;
     }
   }
@@ -151,8 +151,8 @@ TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std:
     const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
     result.triangles[i] = {face[0].value(), face[1].value(), face[2].value()};
     if (std::max({face[0].value(), face[1].value(), face[2].value()}) >= limits.vertices)
-      throw Error(where, fmt::format("triangle {} names a vertex that is not there", i),
-                  fmt::format("below {}", limits.vertices));
+      throw Error(where, fmt::format("invalid vertex index in triangle {}", i),
+                  fmt::format("an index below {}", limits.vertices));
   }
   return result;
 }

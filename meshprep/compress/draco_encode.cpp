@@ -1,5 +1,5 @@
-// Encoding, proved by decoding. The sequential encoding is compared with the input; the edgebreaker
-// encoding is compared with the sequential one, whose values went through the same quantization.
+// Encoding with verification. The sequential result is compared with the input, the edgebreaker result with the
+// sequential one, which has the same quantized values.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,12 +23,12 @@ namespace malus::compress {
 
 namespace {
 
-constexpr float kMinExtent = 1e-30f;  // of a mesh: below, the inverse of a step leaves the range of float
-constexpr std::string_view kWhere = "mesh to compress";
+constexpr float kMinExtent = 1e-30f;  // smallest extent of a mesh: the inverse of a step must be in the range of float
+constexpr std::string_view kLocation = "mesh to compress";
 
 bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// What one position may be off, along one axis: half a step of the grid and the rounding of float.
+// Returns the largest error of a coordinate: half a step of the grid, and rounding to float.
 float axisTolerance(const Grid& grid) {
   const float step = grid.range / static_cast<float>((1u << static_cast<unsigned>(grid.positionBits)) - 1u);
   const float farthest =
@@ -36,68 +36,68 @@ float axisTolerance(const Grid& grid) {
   return 0.5f * step + 4 * std::numeric_limits<float>::epsilon() * farthest;
 }
 
-// An upper bound on the angle that octahedral quantization adds: measured .90 degrees at 8 bits, halved by
-// every further bit; doubled here for room, and a little for the rounding of float.
+// Returns an upper bound of the error of octahedral quantization in degrees: twice the measured 0.90 degrees at 8 bits,
+// halved by each further bit, and 0.05 degrees for rounding to float.
 double normalTolerance(int normalBits) { return 2.0 * 0.9 * std::pow(2.0, 8 - normalBits) + 0.05; }
 
 void checkInput(const MeshView& mesh, const Settings& settings) {
-  // Step 1: settings.
+  // Check the settings.
   const Grid& grid = settings.grid;
   if (grid.positionBits < 1 || grid.positionBits > kMaxPositionBits)
-    throw Error(kWhere, "bits of a position", fmt::format("1 to {}", kMaxPositionBits),
+    throw Error(kLocation, "number of position bits out of range", fmt::format("1 to {}", kMaxPositionBits),
                 fmt::to_string(grid.positionBits));
   if (settings.normalBits < kMinNormalBits || settings.normalBits > kMaxNormalBits)
-    throw Error(kWhere, "bits of a normal", fmt::format("{} to {}", kMinNormalBits, kMaxNormalBits),
-                fmt::to_string(settings.normalBits));
+    throw Error(kLocation, "number of normal bits out of range",
+                fmt::format("{} to {}", kMinNormalBits, kMaxNormalBits), fmt::to_string(settings.normalBits));
   if (!isFinite(grid.origin) || !std::isfinite(grid.range) || !(grid.range > 0) || !isFinite(grid.origin + grid.range))
-    throw Error(kWhere, "the grid is no cube", "a finite origin and a positive range");
+    throw Error(kLocation, "invalid grid", "a finite origin and a positive range");
 
-  // Step 2: sizes.
-  if (mesh.positions.empty() || mesh.triangles.empty()) throw Error(kWhere, "the mesh is empty");
+  // Check the sizes.
+  if (mesh.positions.empty() || mesh.triangles.empty()) throw Error(kLocation, "the mesh is empty");
   if (mesh.positions.size() > kMaxTriangles || mesh.triangles.size() > kMaxTriangles)
-    throw Error(kWhere, "too many vertices or triangles", fmt::format("at most {}", kMaxTriangles));
+    throw Error(kLocation, "too many vertices or triangles", fmt::format("at most {}", kMaxTriangles));
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
-    throw Error(kWhere, "number of normals", fmt::to_string(mesh.positions.size()),
+    throw Error(kLocation, "wrong number of normals", fmt::to_string(mesh.positions.size()),
                 fmt::to_string(mesh.normals.size()));
 
-  // Step 3: values. The far side gets room for the rounding of origin + range.
+  // Check the values. The tolerance at the far side covers the rounding of origin + range.
   const float room = 2 * std::numeric_limits<float>::epsilon() * (std::abs(grid.range) + glm::length(grid.origin));
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const glm::vec3 p = mesh.positions[i];
-    if (!isFinite(p)) throw Error(kWhere, fmt::format("position {} is not finite", i));
+    if (!isFinite(p)) throw Error(kLocation, fmt::format("position {} is not finite", i));
     const glm::vec3 local = p - grid.origin;
     if (glm::any(glm::lessThan(local, glm::vec3(0))) || glm::any(glm::greaterThan(local, glm::vec3(grid.range + room))))
-      throw Error(kWhere, fmt::format("position {} lies outside of the grid", i),
+      throw Error(kLocation, fmt::format("position {} is outside of the grid", i),
                   fmt::format("within {} of ({}, {}, {})", grid.range, grid.origin.x, grid.origin.y, grid.origin.z),
                   fmt::format("({}, {}, {})", p.x, p.y, p.z));
   }
   for (std::size_t i = 0; i < mesh.normals.size(); ++i)
     if (!isFinite(mesh.normals[i]) || std::abs(glm::length(mesh.normals[i]) - 1) > 1e-3f)
-      throw Error(kWhere, fmt::format("normal {} is not of unit length", i));
+      throw Error(kLocation, fmt::format("normal {} does not have unit length", i));
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3 t = mesh.triangles[i];
     if (std::max({t.x, t.y, t.z}) >= mesh.positions.size())
-      throw Error(kWhere, fmt::format("triangle {} names a vertex that is not there", i),
-                  fmt::format("below {}", mesh.positions.size()));
+      throw Error(kLocation, fmt::format("invalid vertex index in triangle {}", i),
+                  fmt::format("an index below {}", mesh.positions.size()));
   }
 }
 
-// The sequential result must be the input, in its order, within the steps of the grid.
+// Requires the sequential result to have the triangles of the input, and vertices within the tolerances.
 void compareWithSource(const MeshView& mesh, const Settings& settings, Encoded& encoded) {
   const TriangleMesh& decoded = encoded.decoded;
   if (!std::equal(decoded.triangles.begin(), decoded.triangles.end(), mesh.triangles.begin(), mesh.triangles.end()) ||
       decoded.positions.size() != mesh.positions.size() || decoded.normals.size() != mesh.normals.size())
-    throw Error(kWhere, "Draco changed the triangles", "the same indices in the same order");
+    throw Error(kLocation, "Draco changed the triangles", "the indices of the input");
   const float tolerance = axisTolerance(settings.grid);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const glm::vec3 off = glm::abs(decoded.positions[i] - mesh.positions[i]);
-    if (std::max({off.x, off.y, off.z}) > tolerance)
-      throw Error(kWhere, fmt::format("Draco moved position {}", i), fmt::format("at most {}", tolerance),
-                  fmt::format("{}", glm::length(off)));
+    const glm::vec3 error = glm::abs(decoded.positions[i] - mesh.positions[i]);
+    if (std::max({error.x, error.y, error.z}) > tolerance)
+      throw Error(kLocation, fmt::format("Draco moved position {} too far", i),
+                  fmt::format("at most {} m per axis", tolerance), fmt::format("{}", glm::length(error)));
   }
-  encoded.deviation = deviationOf(mesh, decoded.positions, decoded.normals);
+  encoded.deviation = measureDeviation(mesh, decoded.positions, decoded.normals);
   if (!(encoded.deviation.normalMaxDegrees <= normalTolerance(settings.normalBits)))
-    throw Error(kWhere, "Draco turned a normal",
+    throw Error(kLocation, "Draco rotated a normal too far",
                 fmt::format("at most {} degrees", normalTolerance(settings.normalBits)),
                 fmt::format("{}", encoded.deviation.normalMaxDegrees));
 }
@@ -114,22 +114,23 @@ std::vector<std::uint32_t> identity(std::size_t size) {
   return numbers;
 }
 
-// Replaces the sequential encoding by edgebreaker's where that is smaller and the same. Returns why not, or "".
+// Replaces the sequential encoding by the edgebreaker one if that is smaller and equivalent. Otherwise returns the
+// reason. Packs store this text, so its wording is fixed.
 std::string tryEdgebreaker(const MeshView& mesh, const Settings& settings, const Limits& limits, Encoded& encoded) {
-  // Step 1: bytes.
+  // Encode.
   const Clock::time_point start = Clock::now();
-  std::optional<std::vector<std::byte>> bytes = dracoBytes(Method::kEdgebreaker, mesh, settings);
+  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kEdgebreaker, mesh, settings);
   const double encodeMs = millisecondsSince(start);
   if (!bytes) return "edgebreaker refuses the mesh";
   if (bytes->size() >= encoded.bytes.size()) return "edgebreaker is no smaller";
-  if (std::max(limits.vertices, limits.triangles) > kMostPerByte * bytes->size())
+  if (std::max(limits.vertices, limits.triangles) > kMaxPerByte * bytes->size())
     return "edgebreaker makes the mesh smaller than a reader trusts";
 
-  // Step 2: decoded, the same in another order.
+  // Require the decoded mesh to be a permutation of the sequential result.
   const Clock::time_point decoding = Clock::now();
   TriangleMesh decoded;
   try {
-    decoded = decode(*bytes, limits, kWhere);
+    decoded = decode(*bytes, limits, kLocation);
   } catch (const Error&) {
     return "edgebreaker changes the counts: faces that are degenerate or not manifold, or loose vertices";
   }
@@ -157,7 +158,7 @@ Grid gridFor(std::span<const glm::vec3> positions, int positionBits) {
   if (positions.empty()) return grid;
   glm::vec3 low = positions.front(), high = positions.front();
   for (const glm::vec3& p : positions) {
-    if (!isFinite(p)) throw Error(kWhere, "a position is not finite");
+    if (!isFinite(p)) throw Error(kLocation, "a position is not finite");
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
@@ -165,10 +166,11 @@ Grid gridFor(std::span<const glm::vec3> positions, int positionBits) {
   const float largest = std::max({extent.x, extent.y, extent.z});
   grid.origin = low;
   if (largest > 0 && largest < kMinExtent)
-    throw Error(kWhere, "the mesh is too small", fmt::format("an extent of {} or more", kMinExtent),
+    throw Error(kLocation, "the mesh is too small", fmt::format("an extent of {} or more", kMinExtent),
                 fmt::to_string(largest));
   if (largest > 0) grid.range = largest * (1 + 4 * std::numeric_limits<float>::epsilon());
-  if (!isFinite(grid.origin + grid.range)) throw Error(kWhere, "the mesh is too large", "an extent that a float holds");
+  if (!isFinite(grid.origin + grid.range))
+    throw Error(kLocation, "the mesh is too large", "an extent within the range of float");
   return grid;
 }
 
@@ -177,23 +179,23 @@ Encoded encode(const MeshView& mesh, const Settings& settings) {
   const Limits limits{static_cast<std::uint32_t>(mesh.positions.size()),
                       static_cast<std::uint32_t>(mesh.triangles.size())};
 
-  // Step 1: sequential, compared with the input.
+  // Encode sequentially and compare with the input.
   Encoded encoded;
   const Clock::time_point start = Clock::now();
-  std::optional<std::vector<std::byte>> bytes = dracoBytes(Method::kSequential, mesh, settings);
+  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kSequential, mesh, settings);
   encoded.encodeMs = millisecondsSince(start);
-  if (!bytes) throw Error(kWhere, "Draco cannot encode it");
+  if (!bytes) throw Error(kLocation, "Draco cannot encode the mesh");
   encoded.bytes = std::move(*bytes);
   encoded.method = "sequential";
   const Clock::time_point decoding = Clock::now();
-  encoded.decoded = decode(encoded.bytes, limits, kWhere);
+  encoded.decoded = decode(encoded.bytes, limits, kLocation);
   encoded.decodeMs = millisecondsSince(decoding);
   compareWithSource(mesh, settings, encoded);
   encoded.sourceVertices = identity(mesh.positions.size());
   encoded.sourceTriangles = identity(mesh.triangles.size());
 
-  // Step 2: edgebreaker, kept where it is smaller and the same surface.
-  encoded.whySequential = tryEdgebreaker(mesh, settings, limits, encoded);
+  // Use edgebreaker if it is smaller and equivalent.
+  encoded.sequentialReason = tryEdgebreaker(mesh, settings, limits, encoded);
   return encoded;
 }
 

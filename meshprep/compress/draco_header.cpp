@@ -14,14 +14,14 @@ constexpr std::uint8_t kVersionMajor = 2;
 constexpr std::uint8_t kVersionMinor = 2;
 constexpr std::uint8_t kTriangularMesh = 1;
 
-// Reads forward and never past the end.
+// Sequential reader with bounds checks.
 class Cursor {
  public:
   Cursor(std::span<const std::byte> bytes, std::string_view where) : bytes_(bytes), where_(where) {}
 
   std::uint8_t byte(std::string_view what) {
     if (offset_ >= bytes_.size())
-      throw Error(fmt::format("{}, byte {}", where_, offset_), "Draco data is cut short", what, "the end");
+      throw Error(fmt::format("{}, byte {}", where_, offset_), "Draco data is truncated", what, "the end of the data");
     return std::to_integer<std::uint8_t>(bytes_[offset_++]);
   }
 
@@ -35,7 +35,7 @@ class Cursor {
       if (value <= 0xffffffffu) return static_cast<std::uint32_t>(value);
       break;
     }
-    fail("Draco data is damaged", fmt::format("{} of at most 32 bits", what), "more");
+    fail("Draco data is corrupt", fmt::format("{} of at most 32 bits", what), "more bits");
   }
 
   [[noreturn]] void fail(std::string_view problem, std::string_view expected, std::string_view found) const {
@@ -54,24 +54,24 @@ DracoHeader parseHeader(std::span<const std::byte> bytes, std::string_view where
   Cursor cursor(bytes, where);
   DracoHeader header;
 
-  // Step 1: magic, version, kind of geometry.
+  // Parse magic, version, kind of geometry, method and flags.
   for (const char expected : std::string_view("DRACO"))
     if (static_cast<char>(cursor.byte("DRACO")) != expected) cursor.fail("is not Draco data", "DRACO", "other bytes");
   const std::uint8_t major = cursor.byte("a version");
   const std::uint8_t minor = cursor.byte("a version");
   if (major != kVersionMajor || minor != kVersionMinor)
-    cursor.fail("Draco data of another version", fmt::format("{}.{}", kVersionMajor, kVersionMinor),
+    cursor.fail("unsupported version of Draco data", fmt::format("{}.{}", kVersionMajor, kVersionMinor),
                 fmt::format("{}.{}", major, minor));
   const std::uint8_t kind = cursor.byte("a geometry type");
-  if (kind != kTriangularMesh) cursor.fail("Draco data is no mesh", "geometry type 1", fmt::to_string(kind));
+  if (kind != kTriangularMesh) cursor.fail("Draco data is not a mesh", "geometry type 1", fmt::to_string(kind));
   const std::uint8_t method = cursor.byte("an encoding method");
-  if (method > 1) cursor.fail("unknown Draco method", "0 or 1", fmt::to_string(method));
+  if (method > 1) cursor.fail("unknown encoding method of Draco data", "0 or 1", fmt::to_string(method));
   header.method = static_cast<Method>(method);
   const unsigned flagsLow = cursor.byte("flags");
   const unsigned flags = flagsLow | static_cast<unsigned>(cursor.byte("flags")) << 8u;
-  if (flags != 0) cursor.fail("Draco data with flags or metadata", "none", fmt::format("{:#x}", flags));
+  if (flags != 0) cursor.fail("Draco data has flags or metadata", "flags 0", fmt::format("{:#x}", flags));
 
-  // Step 2: the counts of the connectivity, in the order of each method.
+  // Parse the counts of the connectivity, whose order depends on the method.
   if (header.method == Method::kSequential) {
     header.triangles = cursor.varint("a number of faces");
     header.vertices = cursor.varint("a number of points");
@@ -83,16 +83,16 @@ DracoHeader parseHeader(std::span<const std::byte> bytes, std::string_view where
   header.triangles = cursor.varint("a number of faces");
   const std::uint8_t attributeData = cursor.byte("a number of attribute connectivities");
   if (attributeData > maxSeams)
-    cursor.fail("Draco data with more attributes than a mesh has", fmt::format("at most {}", maxSeams),
+    cursor.fail("too many attributes in Draco data", fmt::format("at most {} with separate connectivity", maxSeams),
                 fmt::to_string(attributeData));
 
-  // Draco sizes its tables by vertices + split symbols; a symbol stands for one face.
+  // Draco allocates tables for vertices + split symbols. Each symbol stands for one face.
   const std::uint32_t symbols = cursor.varint("a number of symbols");
   const std::uint32_t splits = cursor.varint("a number of split symbols");
   if (symbols > header.triangles)
-    cursor.fail("Draco data is damaged", fmt::format("at most {} symbols", header.triangles), fmt::to_string(symbols));
+    cursor.fail("Draco data is corrupt", fmt::format("at most {} symbols", header.triangles), fmt::to_string(symbols));
   if (splits > symbols)
-    cursor.fail("Draco data is damaged", fmt::format("at most {} split symbols", symbols), fmt::to_string(splits));
+    cursor.fail("Draco data is corrupt", fmt::format("at most {} split symbols", symbols), fmt::to_string(splits));
   return header;
 }
 

@@ -1,5 +1,5 @@
-// The first bytes of a Draco 2.2 triangle mesh, parsed without Draco: what the file claims about its size
-// has to be judged before Draco allocates by it.
+// Parser of the first bytes of a Draco 2.2 triangle mesh. It does not call Draco: the declared sizes have to be checked
+// before Draco allocates memory for them.
 // Source: Draco bitstream specification 2.2, sections "DRACO decoder", "Sequential connectivity decoder" and
 // "EdgeBreaker connectivity decoder", https://google.github.io/draco/spec/.
 #pragma once
@@ -19,8 +19,9 @@ struct DracoHeader {
   std::uint32_t triangles = 0;
 };
 
-// Throws Error whose text begins with `where`: not Draco, another version, not a mesh, metadata, cut short,
-// counts that contradict each other, more than maxSeams attributes with a connectivity of their own (edgebreaker).
+// Throws Error at "WHERE, byte N" if the bytes are not Draco 2.2 data of a triangle mesh, have flags or metadata, are
+// truncated, declare contradictory counts, or (edgebreaker) have more than maxSeams attributes with separate
+// connectivity.
 DracoHeader parseHeader(std::span<const std::byte> bytes, std::string_view where, int maxSeams = 1);
 
 }  // namespace malus::compress

@@ -12,11 +12,11 @@ namespace malus::compress {
 
 namespace {
 
-// Of 0 (smallest) to 10: plain edgebreaker with one connectivity for positions and normals, parallelogram prediction.
-// Size against the time to decode, on a bumpy torus of a million triangles whose normals follow from its faces, in
-// bytes a triangle and ms: 3 (valence, normals predicted from faces) 1.39 and 246, 6 2.26 and 92, 6 with normals
-// predicted from faces 1.64 and 186. A pack is loaded more often than it is sent, so 6; the engine takes 6.0 to 6.1
-// bytes with any.
+// Draco's speed from 0 (smallest file) to 10. Speed 6: plain edgebreaker with one connectivity for positions and
+// normals, parallelogram prediction. Measured on a torus with bumps of a million triangles with smooth normals: speed 3
+// (valence, normals predicted from faces) 1.39 bytes per triangle, decoded in 246 ms; speed 6: 2.26 bytes, 92 ms; speed
+// 6 with normals predicted from faces: 1.64 bytes, 186 ms. Speed 6 is chosen because a pack is loaded more often than
+// transferred. The scanned engine has 6.0 to 6.1 bytes per triangle with all of them.
 constexpr int kSpeed = 6;
 
 int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::span<const glm::vec3> values) {
@@ -30,7 +30,7 @@ int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::sp
   return id;
 }
 
-// The numbers of the vertices, from 0, each as `components` equal integers.
+// Adds an attribute with the index of each vertex in all components.
 int addNumbers(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::int8_t components, std::size_t vertices) {
   draco::GeometryAttribute description;
   description.Init(type, nullptr, components, draco::DT_INT32, false,
@@ -44,7 +44,7 @@ int addNumbers(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::int8
   return id;
 }
 
-// One point a vertex, in our order: no deduplication.
+// Sets one point per vertex in the order of the mesh, without deduplication.
 void setTriangles(draco::Mesh& result, const MeshView& mesh) {
   result.set_num_points(static_cast<std::uint32_t>(mesh.positions.size()));
   result.SetNumFaces(mesh.triangles.size());
@@ -56,7 +56,7 @@ void setTriangles(draco::Mesh& result, const MeshView& mesh) {
 
 }  // namespace
 
-std::optional<std::vector<std::byte>> dracoBytes(Method method, const MeshView& mesh, const Settings& settings) {
+std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView& mesh, const Settings& settings) {
   draco::Mesh source;
   setTriangles(source, mesh);
   const int positions = addAttribute(source, draco::GeometryAttribute::POSITION, mesh.positions);
@@ -66,7 +66,7 @@ std::optional<std::vector<std::byte>> dracoBytes(Method method, const MeshView& 
   encoder.SetSpeedOptions(kSpeed, kSpeed);
   encoder.SetEncodingMethod(method == Method::kSequential ? draco::MESH_SEQUENTIAL_ENCODING
                                                           : draco::MESH_EDGEBREAKER_ENCODING);
-  // Plain quantization to the caller's grid; Draco's own would fit the grid to each mesh.
+  // Quantize to the given grid. By default, Draco fits a grid to each mesh.
   const Grid& grid = settings.grid;
   const std::array<float, 3> origin{grid.origin.x, grid.origin.y, grid.origin.z};
   encoder.SetAttributeExplicitQuantization(positions, grid.positionBits, 3, origin.data(), grid.range);
@@ -79,7 +79,7 @@ std::optional<std::vector<std::byte>> dracoBytes(Method method, const MeshView& 
 }
 
 std::optional<std::vector<std::uint32_t>> edgebreakerOrder(const MeshView& mesh) {
-  // Step 1: the same connectivity and as many attributes, on which the order depends; numbers instead of positions.
+  // Encode the same connectivity and the same number of attributes, on which the order depends.
   draco::Mesh source;
   setTriangles(source, mesh);
   addNumbers(source, draco::GeometryAttribute::POSITION, 3, mesh.positions.size());
@@ -90,7 +90,7 @@ std::optional<std::vector<std::uint32_t>> edgebreakerOrder(const MeshView& mesh)
   draco::EncoderBuffer buffer;
   if (!encoder.EncodeToBuffer(&buffer).ok()) return std::nullopt;
 
-  // Step 2: the numbers in the order of decoding.
+  // Read the numbers in the order of decoding.
   draco::DecoderBuffer input;
   input.Init(buffer.data(), buffer.size());
   draco::Decoder decoder;

@@ -1,4 +1,4 @@
-// The bytes of one Draco encoding, unproved, and the order that edgebreaker gives a mesh.
+// Draco encoding without verification, and the vertex order of edgebreaker.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace malus::compress {
 
-// Nothing where Draco refuses. The mesh and the settings are those that encode() lets through.
-std::optional<std::vector<std::byte>> dracoBytes(Method method, const MeshView& mesh, const Settings& settings);
+// Returns nothing if Draco fails. Mesh and settings must be valid inputs of encode().
+std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView& mesh, const Settings& settings);
 
-// For each vertex that edgebreaker decodes to, the vertex that it was, as far as Draco tells: the mesh is encoded once
-// more with the vertices' numbers in place of their positions, on which the order does not depend. Nothing where Draco
-// refuses. Whoever uses it compares.
+// Returns the source vertex of each vertex that edgebreaker decodes, or nothing if Draco fails. The mesh is encoded
+// again with vertex numbers in place of positions, on which the order does not depend. The caller must verify the
+// result.
 std::optional<std::vector<std::uint32_t>> edgebreakerOrder(const MeshView& mesh);
 
 }  // namespace malus::compress

@@ -10,7 +10,7 @@
 
 namespace malus::compress {
 
-std::vector<glm::vec3> roundedPositions(std::span<const glm::vec3> positions, const Grid& grid) {
+std::vector<glm::vec3> roundPositions(std::span<const glm::vec3> positions, const Grid& grid) {
   const auto steps = static_cast<std::int32_t>((1u << static_cast<unsigned>(grid.positionBits)) - 1u);
   draco::Quantizer quantizer;
   draco::Dequantizer dequantizer;
@@ -25,7 +25,7 @@ std::vector<glm::vec3> roundedPositions(std::span<const glm::vec3> positions, co
   return rounded;
 }
 
-std::vector<glm::vec3> roundedNormals(std::span<const glm::vec3> normals, int bits) {
+std::vector<glm::vec3> roundNormals(std::span<const glm::vec3> normals, int bits) {
   draco::OctahedronToolBox octahedron;
   octahedron.SetQuantizationBits(bits);
   std::vector<glm::vec3> rounded(normals.size());
@@ -36,7 +36,7 @@ std::vector<glm::vec3> roundedNormals(std::span<const glm::vec3> normals, int bi
     octahedron.FloatVectorToQuantizedOctahedralCoords(normal.data(), &s, &t);
     octahedron.QuantizedOctahedralCoordsToUnitVector(s, t, decoded.data());
     const glm::vec3 unit(decoded[0], decoded[1], decoded[2]);
-    rounded[i] = unit / glm::length(unit);  // as decode() does
+    rounded[i] = unit / glm::length(unit);  // normalize as decode() does
   }
   return rounded;
 }

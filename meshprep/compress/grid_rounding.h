@@ -1,5 +1,5 @@
-// The rounding that Draco's quantizers do, in their own arithmetic: what a mesh will decode to, without encoding it.
-// For choosing bits only; what was chosen is measured on decoded bytes.
+// Prediction of decoded values: the arithmetic of Draco's quantizers without encoding. Used to choose the numbers of
+// bits (bounds.h); the chosen encoding is measured on decoded bytes.
 //
 // Source: Draco 1.5.5, attribute_quantization_transform.cc, quantization_utils.h, normal_compression_utils.h.
 #pragma once
@@ -13,10 +13,10 @@
 
 namespace malus::compress {
 
-// Positions within the grid, each at its nearest point as floats give it.
-std::vector<glm::vec3> roundedPositions(std::span<const glm::vec3> positions, const Grid& grid);
+// Rounds positions to the grid. They must be inside it. The result has the rounding errors of Draco's float arithmetic.
+std::vector<glm::vec3> roundPositions(std::span<const glm::vec3> positions, const Grid& grid);
 
-// Unit normals through octahedral coordinates of `bits` bits (2 to 16), unit again.
-std::vector<glm::vec3> roundedNormals(std::span<const glm::vec3> normals, int bits);
+// Rounds unit normals to octahedral coordinates with `bits` bits (kMinNormalBits to kMaxNormalBits), and normalizes.
+std::vector<glm::vec3> roundNormals(std::span<const glm::vec3> normals, int bits);
 
 }  // namespace malus::compress

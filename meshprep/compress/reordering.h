@@ -1,4 +1,4 @@
-// Proof that one mesh is another in a different order.
+// Verification that a mesh is a permutation of another.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace malus::compress {
 
-// For each triangle of `decoded`, the triangle of `source` that it is, each named once; nothing where they are not the
-// same. vertices: for each vertex of `decoded`, the vertex of `source` that it is said to be: it must be a permutation,
-// under which positions and normals are equal bit by bit and the triangles the same with the same sides.
+// Returns the triangle of `source` for each triangle of `decoded`, a permutation, or nothing if the meshes differ.
+// vertices: the assumed vertex of `source` for each vertex of `decoded`. The meshes are equal if this is a permutation
+// under which positions and normals have equal values and triangles have equal corners and orientation.
 std::optional<std::vector<std::uint32_t>> sourceTriangles(const TriangleMesh& source, const TriangleMesh& decoded,
                                                           std::span<const std::uint32_t> vertices);
 

@@ -54,7 +54,7 @@ class Text : public Source {
     for (std::size_t i = 0; i < count; ++i) lines_.zero(word());
   }
 
-  bool placesAreBytes() const override { return false; }
+  bool locationsAreBytes() const override { return false; }
   std::uint64_t place() const override { return lines_.number(); }
   void fail(std::string_view problem, std::string_view expected, std::string_view found) const override {
     lines_.fail(fmt::format("a {} {}", what_, problem), expected, found);
@@ -115,7 +115,7 @@ class Binary : public Source {
     offset_ += count * sizeOf(type);
   }
 
-  bool placesAreBytes() const override { return true; }
+  bool locationsAreBytes() const override { return true; }
   std::uint64_t place() const override { return begin_; }
   void fail(std::string_view problem, std::string_view expected, std::string_view found) const override {
     failAt(fmt::format("{} {} {}", what_, index_, problem), expected, found);

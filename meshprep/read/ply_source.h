@@ -27,7 +27,7 @@ class Source {
   virtual std::int64_t whole(Type type) = 0;
   virtual void skip(Type type, std::size_t count) = 0;
 
-  virtual bool placesAreBytes() const = 0;
+  virtual bool locationsAreBytes() const = 0;
   virtual std::uint64_t place() const = 0;  // of the item
   // `problem` belongs to the item at hand.
   [[noreturn]] virtual void fail(std::string_view problem, std::string_view expected, std::string_view found) const = 0;

@@ -34,9 +34,9 @@ struct Polygons {
   std::vector<std::string> materialFiles;      // of each mtllib statement: one name, or several with blanks between
 
   // Where each vertex and face is written: a line, from 1, or a byte, from 0. Both empty where that is not told.
-  bool placesAreBytes = false;
-  std::vector<std::uint64_t> vertexPlaces;
-  std::vector<std::uint64_t> facePlaces;
+  bool locationsAreBytes = false;
+  std::vector<std::uint64_t> vertexLocations;
+  std::vector<std::uint64_t> faceLocations;
 
   // What the file holds and nobody here has a use for, once each: "colours of vertices".
   std::vector<std::string> notes;

@@ -158,7 +158,7 @@ std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vect
   return parseMtl(readTextFile(path), path.string(), notes);
 }
 
-std::vector<std::filesystem::path> materialFilesOf(const std::filesystem::path& obj,
+std::vector<std::filesystem::path> listMaterialFiles(const std::filesystem::path& obj,
                                                    const std::vector<std::string>& statements) {
   std::vector<std::filesystem::path> files;
   const auto add = [&](std::string_view name) {
@@ -179,7 +179,7 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
   // Step 1: what the files say, by name.
   std::map<std::string, SourceMaterial> described;
   std::vector<std::string> missing;
-  for (const std::filesystem::path& path : materialFilesOf(obj, files)) {
+  for (const std::filesystem::path& path : listMaterialFiles(obj, files)) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
       missing.push_back(path.filename().string());
@@ -207,7 +207,7 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
   }
 }
 
-std::vector<std::string> mtllibsOf(std::string text, std::string_view where) {
+std::vector<std::string> listMtllibs(std::string text, std::string_view where) {
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
   std::vector<std::string> statements;
   std::set<std::string> seen;

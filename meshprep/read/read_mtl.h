@@ -42,11 +42,11 @@ std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vect
 void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files);
 
 // The files that mtllib statements mean: the whole of a statement where that is a file, else its words.
-std::vector<std::filesystem::path> materialFilesOf(const std::filesystem::path& obj,
+std::vector<std::filesystem::path> listMaterialFiles(const std::filesystem::path& obj,
                                                    const std::vector<std::string>& statements);
 
 // The mtllib statements of an OBJ file, as Polygons::materialFiles has them, without its faces. Throws Error for what
 // is no text.
-std::vector<std::string> mtllibsOf(std::string objText, std::string_view where);
+std::vector<std::string> listMtllibs(std::string objText, std::string_view where);
 
 }  // namespace malus::prep

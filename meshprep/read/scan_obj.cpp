@@ -106,7 +106,7 @@ void ObjScan::scanVertex(std::string_view rest) {
     lines_.fail("a rational vertex", "a weight of 1", fmt::to_string(numbers[3]));
   if (count > 4) noteOnce(polygons_, "colours of vertices");
   polygons_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
-  polygons_.vertexPlaces.push_back(lines_.number());
+  polygons_.vertexLocations.push_back(lines_.number());
   ++counts_[0];
 }
 
@@ -116,7 +116,7 @@ void ObjScan::scanFace(std::string_view rest) {
   const std::size_t corners = polygons_.corners.size() - first;
   if (corners < 3) lines_.fail("a face without area", "at least 3 corners", fmt::to_string(corners));
   polygons_.closeFace();
-  polygons_.facePlaces.push_back(lines_.number());
+  polygons_.faceLocations.push_back(lines_.number());
   polygons_.partOf.push_back(parts_.current());
   if (smoothing_) polygons_.smoothingGroups.push_back(smoothingGroup_);
 }

@@ -92,14 +92,14 @@ Scan scanOff(std::string& bytes, std::string_view where) {
   Scan scan;
   Polygons& polygons = scan.polygons;
   polygons.positions.reserve(vertices);
-  polygons.vertexPlaces.reserve(vertices);
+  polygons.vertexLocations.reserve(vertices);
   if (header.normals) polygons.normals.reserve(vertices);
   for (std::size_t i = 0; i < vertices; ++i) {
     rest = nextLine(fmt::format("{} vertices, {} found", vertices, i));
     glm::dvec3 p(0);
     for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
     polygons.positions.push_back(p);
-    polygons.vertexPlaces.push_back(lines.number());
+    polygons.vertexLocations.push_back(lines.number());
     std::string_view more = rest;
     if (header.normals) {
       for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(more), lines);
@@ -112,7 +112,7 @@ Scan scanOff(std::string& bytes, std::string_view where) {
   }
 
   // Step 4: faces, a line each: number of corners, corners, perhaps a colour.
-  polygons.facePlaces.reserve(faces);
+  polygons.faceLocations.reserve(faces);
   for (std::size_t i = 0; i < faces; ++i) {
     rest = nextLine(fmt::format("{} faces, {} found", faces, i));
     const long long corners = wholeNumber(takeWord(rest), "a number of corners", lines);
@@ -127,7 +127,7 @@ Scan scanOff(std::string& bytes, std::string_view where) {
       polygons.corners.push_back(static_cast<std::uint32_t>(index));
     }
     polygons.closeFace();
-    polygons.facePlaces.push_back(lines.number());
+    polygons.faceLocations.push_back(lines.number());
     std::string_view more = rest;
     if (!takeWord(more).empty()) noteOnce(polygons, "colours of faces");
     blankFrom(rest, lines);

@@ -26,7 +26,7 @@ using ply::Role;
 class PlyScan {
  public:
   PlyScan(const ply::Header& header, ply::Source& source) : header_(header), source_(source) {
-    polygons_.placesAreBytes = source.placesAreBytes();
+    polygons_.locationsAreBytes = source.locationsAreBytes();
   }
 
   Polygons run() {
@@ -56,10 +56,10 @@ void PlyScan::scanElement(const Element& element) {
   constexpr std::array<std::string_view, 4> kNames = {"vertex", "face", "strip", "element"};
   if (element.kind == Kind::kVertices) {
     polygons_.positions.reserve(element.count);
-    polygons_.vertexPlaces.reserve(element.count);
+    polygons_.vertexLocations.reserve(element.count);
     if (header_.hasNormals) polygons_.normals.reserve(element.count);
   } else if (element.kind == Kind::kFaces) {
-    polygons_.facePlaces.reserve(element.count);
+    polygons_.faceLocations.reserve(element.count);
     polygons_.firstCorner.reserve(element.count + 1);
   }
   if (element.count > 0) noteSkipped(element);
@@ -97,7 +97,7 @@ void PlyScan::scanVertex(const Element& element) {
     }
   }
   polygons_.positions.push_back(p);
-  polygons_.vertexPlaces.push_back(source_.place());
+  polygons_.vertexLocations.push_back(source_.place());
   if (!header_.hasNormals) return;
   constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max());
   const bool finite = std::abs(n.x) <= kLargest && std::abs(n.y) <= kLargest && std::abs(n.z) <= kLargest;
@@ -110,7 +110,7 @@ void PlyScan::scanFace(const Property& list) {
   if (corners < 3) source_.fail("has a bad number of corners", "at least 3", fmt::to_string(corners));
   for (std::size_t c = 0; c < corners; ++c) polygons_.corners.push_back(corner(source_.whole(list.type)));
   polygons_.closeFace();
-  polygons_.facePlaces.push_back(source_.place());
+  polygons_.faceLocations.push_back(source_.place());
 }
 
 // Each corner after the second makes a triangle with the two before it; every other one is turned, so that all face
@@ -137,7 +137,7 @@ void PlyScan::addStripTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c
   if (a == b || b == c || c == a) return;
   polygons_.corners.insert(polygons_.corners.end(), {a, b, c});
   polygons_.closeFace();
-  polygons_.facePlaces.push_back(source_.place());
+  polygons_.faceLocations.push_back(source_.place());
 }
 
 std::size_t PlyScan::listLength(const Property& list) {

@@ -39,14 +39,14 @@ Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t face
   Scan scan;
   scan.isBinary = true;
   Polygons& polygons = scan.polygons;
-  polygons.placesAreBytes = true;
+  polygons.locationsAreBytes = true;
   polygons.positions.reserve(3 * faces);
   for (std::size_t f = 0; f < faces; ++f) {
     const std::size_t begin = kHeaderBytes + f * kFaceBytes;
-    polygons.facePlaces.push_back(begin);
+    polygons.faceLocations.push_back(begin);
     std::size_t offset = begin + kNormalBytes;
     for (int corner = 0; corner < 3; ++corner) {
-      polygons.vertexPlaces.push_back(offset);
+      polygons.vertexLocations.push_back(offset);
       glm::dvec3 p(0);
       for (int axis = 0; axis < 3; ++axis, offset += 4) {
         p[axis] = static_cast<double>(std::bit_cast<float>(littleEndian(bytes, offset)));
@@ -105,7 +105,7 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
       if (newPart) polygons.parts.push_back({name, {}});
       newPart = false;
       polygons.partOf.push_back(static_cast<std::uint32_t>(polygons.parts.size() - 1));
-      polygons.facePlaces.push_back(lines.number());
+      polygons.faceLocations.push_back(lines.number());
       nextLine("outer loop");
       expectWords("outer loop", lines);
       for (int corner = 0; corner < 3; ++corner) {
@@ -119,7 +119,7 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
         if (!takeWord(rest).empty()) lines.fail("a corner has too many numbers", "x y z");
         polygons.corners.push_back(static_cast<std::uint32_t>(polygons.positions.size()));
         polygons.positions.push_back(p);
-        polygons.vertexPlaces.push_back(lines.number());
+        polygons.vertexLocations.push_back(lines.number());
       }
       polygons.closeFace();
       nextLine("endloop");

@@ -29,7 +29,7 @@ std::string extensionOf(const std::filesystem::path& path) {
 // The faces, with what is known about each and the vertices that they use.
 void takeFaces(const Polygons& source, const std::vector<std::size_t>& faces, SourcePart& part) {
   Polygons& result = part.polygons;
-  result.placesAreBytes = source.placesAreBytes;
+  result.locationsAreBytes = source.locationsAreBytes;
 
   // Step 1: the vertices, in their order.
   std::vector<std::uint32_t>& kept = part.fileVertices;
@@ -40,7 +40,7 @@ void takeFaces(const Polygons& source, const std::vector<std::size_t>& faces, So
   for (const std::uint32_t v : kept) {
     result.positions.push_back(source.positions[v]);
     if (!source.normals.empty()) result.normals.push_back(source.normals[v]);
-    if (!source.vertexPlaces.empty()) result.vertexPlaces.push_back(source.vertexPlaces[v]);
+    if (!source.vertexLocations.empty()) result.vertexLocations.push_back(source.vertexLocations[v]);
   }
 
   // Step 2: the faces.
@@ -52,7 +52,7 @@ void takeFaces(const Polygons& source, const std::vector<std::size_t>& faces, So
     }
     result.closeFace();
     if (!source.smoothingGroups.empty()) result.smoothingGroups.push_back(source.smoothingGroups[f]);
-    if (!source.facePlaces.empty()) result.facePlaces.push_back(source.facePlaces[f]);
+    if (!source.faceLocations.empty()) result.faceLocations.push_back(source.faceLocations[f]);
     part.fileFaces.push_back(static_cast<std::uint32_t>(f));
   }
 }
@@ -163,7 +163,7 @@ Polygons merged(const SourceScene& scene) {
 std::vector<std::filesystem::path> referencedFiles(const std::filesystem::path& path) {
   if (isGltf(path)) return gltfBufferFiles(path);
   if (extensionOf(path) != ".obj") return {};
-  return materialFilesOf(path, mtllibsOf(readTextFile(path), path.string()));
+  return listMaterialFiles(path, listMtllibs(readTextFile(path), path.string()));
 }
 
 }  // namespace malus::prep

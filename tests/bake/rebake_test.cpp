@@ -89,7 +89,7 @@ TEST_F(Rebake, OnlyTheChangedMeshIsRedone) {
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(both.again.meshes[i].deviation.positionMax, both.fresh.meshes[i].deviation.positionMax);
     EXPECT_EQ(both.again.meshes[i].method, both.fresh.meshes[i].method);
-    EXPECT_EQ(both.again.meshes[i].whySequential, both.fresh.meshes[i].whySequential);
+    EXPECT_EQ(both.again.meshes[i].sequentialReason, both.fresh.meshes[i].sequentialReason);
   }
   // What is no mesh redoes none; nor does another order or another name.
   scene_["exposureEv"] = 1;
@@ -172,8 +172,8 @@ TEST_F(Rebake, SettingsAreInTheProvenance) {
   const SceneDescription d = description();
   const std::string plain = provenanceOf(d, {});
   std::vector<pack::WriteSettings> others(5);
-  others[0].bounds.maxError = 1e-4;
-  others[1].bounds.maxNormalErrorDegrees = 0.1;
+  others[0].bounds.positionError = 1e-4;
+  others[1].bounds.normalErrorDegrees = 0.1;
   others[2].bounds.positionBits = 20;
   others[3].bounds.normalBits = 12;
   others[4].keepMap = true;
@@ -181,12 +181,12 @@ TEST_F(Rebake, SettingsAreInTheProvenance) {
 }
 
 TEST_F(Rebake, ABoundThatCannotBeReachedNamesTheMesh) {
-  settings_.bounds.maxError = 1e-15;
+  settings_.bounds.positionError = 1e-15;
   const Baked baked = bake(description(), settings_, kSilent);
   const std::string error = test::errorOf([&] { pack::serialize(baked.scene, settings_); });
   EXPECT_TRUE(error.starts_with("mesh '")) << error;
-  EXPECT_CONTAINS(error, "': positions are farther off than asked for");
-  settings_.bounds.maxError = 1e-4;
+  EXPECT_CONTAINS(error, "': position error");
+  settings_.bounds.positionError = 1e-4;
   const pack::Written written = pack::serialize(baked.scene, settings_);
   EXPECT_LT(written.grid.positionBits, 20);
   for (const pack::MeshCompression& m : written.meshes) EXPECT_LE(m.deviation.positionMax, 1e-4);

@@ -49,7 +49,7 @@ TEST(Report, JsonHasEveryField) {
   EXPECT_TRUE(test::contains(toText(report), "component 2: 3 open edges; first at a; close it"));
 
   report.compression.method = "sequential";
-  report.compression.whySequential = "edgebreaker is no smaller";
+  report.compression.sequentialReason = "edgebreaker is no smaller";
   report.compression.bytes = 330;
   report.compression.positionBits = 21;
   report.compression.normalBits = 13;

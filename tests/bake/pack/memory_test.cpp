@@ -1,7 +1,7 @@
 // Claims far above a file's size, behind matching hashes, never make the reader allocate above the file's own bound.
 //
 // The bound: kFixedBytes for tables of Draco whose size does not depend on the file, and kPerByte for every byte of it.
-// A byte of Draco data may stand for 64 triangles and 64 vertices (compress::kMostPerByte), and decoding takes at most
+// A byte of Draco data may stand for 64 triangles and 64 vertices (compress::kMaxPerByte), and decoding takes at most
 // 300 bytes for each pair of them; records of other sections grow by less when they are taken apart. A binary of its
 // own, because it replaces operator new.
 #include <malloc.h>
@@ -85,7 +85,7 @@ void expectRefused(const Scene& scene, std::string_view what, Change change) {
   EXPECT_TRUE(contains(outcome.error, "file.pack")) << what << ": " << outcome.error;
   EXPECT_LE(outcome.allocated, boundOf(bytes)) << what << ", " << bytes.size() << " bytes";
   // None of these claims is worth more than a page or two of messages and names before it is refused.
-  if (!contains(outcome.error, "Draco data is damaged")) {
+  if (!contains(outcome.error, "Draco data is corrupt")) {
     EXPECT_LE(outcome.allocated, 64 * bytes.size()) << what << ", " << bytes.size() << " bytes";
   }
 }

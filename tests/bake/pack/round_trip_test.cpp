@@ -195,7 +195,7 @@ TEST(PackRoundTrip, LayoutIsThatOfTheDocument) {
   EXPECT_EQ(sections[5].bytes.size(), 4u + 2 * 40 + 11 + 5);
   const auto reasons = [&] {
     std::size_t letters = 0;
-    for (const MeshEncoding& m : parse(bytes, "test").encodings.meshes) letters += m.whySequential.size();
+    for (const MeshEncoding& m : parse(bytes, "test").encodings.meshes) letters += m.sequentialReason.size();
     return letters;
   };
   EXPECT_EQ(sections[7].bytes.size(), 40u + 2 * 64 + reasons());
@@ -216,7 +216,7 @@ TEST(PackRoundTrip, EncodingsComeBack) {
     EXPECT_EQ(m.deviation.positionMax, written.meshes[i].deviation.positionMax);
     EXPECT_EQ(m.deviation.normalMaxDegrees, written.meshes[i].deviation.normalMaxDegrees);
     EXPECT_EQ(m.deviation.tiltMaxDegrees, written.meshes[i].deviation.tiltMaxDegrees);
-    EXPECT_EQ(m.whySequential, written.meshes[i].whySequential);
+    EXPECT_EQ(m.sequentialReason, written.meshes[i].sequentialReason);
     EXPECT_EQ(pack.geometry[i].sizeBytes, written.meshes[i].sizeBytes);
     EXPECT_EQ(static_cast<char>(written.bytes[static_cast<std::size_t>(pack.geometry[i].offset)]), 'D');
   }

@@ -207,9 +207,9 @@ TEST(Triangulate, FacesThatTakeTooLongAreNamed) {
   TriangulateCounts counts;
   EXPECT_EQ(test::errorOf([&] { triangulate(polygons, counts); }),
             "face 0: is too intricate to be cut into triangles; expected faces of fewer corners, found 400003 corners");
-  polygons.facePlaces = {7};
+  polygons.faceLocations = {7};
   EXPECT_TRUE(test::contains(test::errorOf([&] { triangulate(polygons, counts); }), "face 0, line 7: "));
-  polygons.placesAreBytes = true;
+  polygons.locationsAreBytes = true;
   EXPECT_TRUE(test::contains(test::errorOf([&] { triangulate(polygons, counts); }), "face 0, byte 7: "));
 }
 

@@ -1,4 +1,4 @@
-// Bits that keep a bound, and the map that encoding gives.
+// Choice of bits, and the map from the encoded mesh to its source.
 #include "meshprep/compress/bounds.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using prep::test::contains;
 using prep::test::errorOf;
 
-TriangleMesh meshOf(prep::Mesh source, bool normals = true) {
+TriangleMesh makeMesh(prep::Mesh source, bool normals = true) {
   if (normals) prep::addCreaseNormals(source, 40);
   TriangleMesh mesh;
   for (const glm::dvec3& p : source.positions) mesh.positions.emplace_back(p);
@@ -31,7 +31,7 @@ TriangleMesh meshOf(prep::Mesh source, bool normals = true) {
   return mesh;
 }
 
-// One slanting triangle of about the given height over a base of 1, off the grid's points.
+// One slanted triangle of about the given height over a base of 1, between the points of the grid.
 TriangleMesh sliver(float height) {
   TriangleMesh mesh;
   mesh.positions = {{0.1234567f, 0.2345678f, 0.3456789f},
@@ -50,15 +50,15 @@ Encoded encodedWith(const TriangleMesh& mesh, const Bits& bits) {
   return encode(mesh, {bits.grid, bits.normalBits.front()});
 }
 
-TEST(Bounds, DefaultsRaiseNormalBitsUntilTheyAreKept) {
-  const TriangleMesh mesh = meshOf(prep::test::sphere(63, 128));
+TEST(Bounds, RaisesNormalBitsToTheDefaultBound) {
+  const TriangleMesh mesh = makeMesh(prep::test::sphere(63, 128));
   const Bits bits = bitsFor(mesh, {});
   EXPECT_EQ(bits.grid.positionBits, kFirstPositionBits);
   const Encoded encoded = encodedWith(mesh, bits);
   EXPECT_LE(encoded.deviation.normalMaxDegrees, kDefaultNormalErrorDegrees);
   EXPECT_LE(encoded.deviation.tiltMaxDegrees, kDefaultTiltDegrees);
-  EXPECT_TRUE(judge(encoded.deviation, {bits.grid, bits.normalBits.front()}, {}, "sphere").empty());
-  // One bit less is too few, unless it is where raising begins.
+  EXPECT_TRUE(checkBounds(encoded.deviation, {bits.grid, bits.normalBits.front()}, {}, "sphere").empty());
+  // One bit less is too few, unless it is the first number to try.
   Bits fewer = bits;
   if (--fewer.normalBits.front() >= kFirstNormalBits) {
     EXPECT_GT(encodedWith(mesh, fewer).deviation.normalMaxDegrees, kDefaultNormalErrorDegrees);
@@ -66,11 +66,11 @@ TEST(Bounds, DefaultsRaiseNormalBitsUntilTheyAreKept) {
   EXPECT_GT(bits.normalBits.front(), kFirstNormalBits);  // 12 bits reach 0.058 degrees on a sphere
 }
 
-TEST(Bounds, AskedForErrorsTakeTheFewestBits) {
-  const TriangleMesh mesh = meshOf(prep::test::sphere(31, 64));
+TEST(Bounds, ChoosesTheSmallestNumberWithinAGivenBound) {
+  const TriangleMesh mesh = makeMesh(prep::test::sphere(31, 64));
   for (const double error : {1e-4, 1e-5, 1e-6}) {
     Bounds bounds;
-    bounds.maxError = error;
+    bounds.positionError = error;
     const Bits bits = bitsFor(mesh, bounds);
     EXPECT_LE(encodedWith(mesh, bits).deviation.positionMax, error);
     Bits fewer = bits;
@@ -80,7 +80,7 @@ TEST(Bounds, AskedForErrorsTakeTheFewestBits) {
   }
   for (const double error : {2.0, 0.2, 0.02}) {
     Bounds bounds;
-    bounds.maxNormalErrorDegrees = error;
+    bounds.normalErrorDegrees = error;
     const Bits bits = bitsFor(mesh, bounds);
     EXPECT_LE(encodedWith(mesh, bits).deviation.normalMaxDegrees, error);
     Bits fewer = bits;
@@ -89,69 +89,69 @@ TEST(Bounds, AskedForErrorsTakeTheFewestBits) {
   }
 }
 
-TEST(Bounds, WhatCannotBeReachedIsAnErrorWhereItWasAskedFor) {
-  const TriangleMesh mesh = meshOf(prep::test::sphere(15, 32));
+TEST(Bounds, ThrowsIfAGivenBoundIsOutOfReach) {
+  const TriangleMesh mesh = makeMesh(prep::test::sphere(15, 32));
   Bounds bounds;
-  bounds.maxError = 1e-12;
+  bounds.positionError = 1e-12;
   Bits bits = bitsFor(mesh, bounds);
   EXPECT_EQ(bits.grid.positionBits, kMaxPositionBits);
-  const auto judged = [&] {
+  const auto message = [&] {
     return errorOf([&] {
-      judge(encodedWith(mesh, bits).deviation, {bits.grid, bits.normalBits.front()}, bounds, "mesh 'ball'");
+      checkBounds(encodedWith(mesh, bits).deviation, {bits.grid, bits.normalBits.front()}, bounds, "mesh 'ball'");
     });
   };
-  EXPECT_TRUE(contains(judged(), "mesh 'ball': positions are farther off than asked for")) << judged();
-  EXPECT_TRUE(contains(judged(), "expected at most 1e-12 m, found")) << judged();
-  EXPECT_TRUE(contains(judged(), "26 bits")) << judged();
+  EXPECT_TRUE(contains(message(), "mesh 'ball': position error")) << message();
+  EXPECT_TRUE(contains(message(), "1e-12 m")) << message();
+  EXPECT_TRUE(contains(message(), "26 bits")) << message();
   bounds = {};
-  bounds.maxNormalErrorDegrees = 1e-5;
+  bounds.normalErrorDegrees = 1e-5;
   bits = bitsFor(mesh, bounds);
   EXPECT_EQ(bits.normalBits.front(), kMaxNormalBits);
-  EXPECT_TRUE(contains(judged(), "normals are farther off than asked for")) << judged();
-  // What was lost before counts.
+  EXPECT_TRUE(contains(message(), "normal error")) << message();
+  // The error of the conversion to float counts.
   bounds = {};
-  bounds.maxError = 1e-5;
+  bounds.positionError = 1e-5;
   bits = bitsFor(mesh, bounds);
   const Deviation deviation = encodedWith(mesh, bits).deviation;
-  EXPECT_TRUE(errorOf([&] { judge(deviation, {bits.grid, 12}, bounds, "x"); }).empty());
-  EXPECT_FALSE(errorOf([&] { judge(deviation, {bits.grid, 12}, bounds, "x", 1e-5); }).empty());
+  EXPECT_TRUE(errorOf([&] { checkBounds(deviation, {bits.grid, 12}, bounds, "x"); }).empty());
+  EXPECT_FALSE(errorOf([&] { checkBounds(deviation, {bits.grid, 12}, bounds, "x", 1e-5); }).empty());
 }
 
-TEST(Bounds, OneGridForAllMeshes) {
+TEST(Bounds, ChoosesOneGridForAllMeshes) {
   TriangleMesh coarse = sliver(1.0f);
   TriangleMesh fine = sliver(2e-4f);
   for (glm::vec3& p : fine.positions) p += glm::vec3(3, 0.3f, 0.2f);
   const MeshView views[] = {coarse, fine};
   const Bits alone = chooseBits({views, 1}, {}), both = chooseBits(views, {});
   EXPECT_EQ(alone.grid.positionBits, kFirstPositionBits);
-  EXPECT_GT(both.grid.positionBits, kFirstPositionBits);  // for the fine one's sake
+  EXPECT_GT(both.grid.positionBits, kFirstPositionBits);  // for the fine mesh
   EXPECT_EQ(both.grid.origin, coarse.positions[0]);
   EXPECT_GT(both.grid.range, 3.9f);
   for (const TriangleMesh* mesh : {&coarse, &fine})
     EXPECT_LE(encode(*mesh, {both.grid, 12}).deviation.tiltMaxDegrees, kDefaultTiltDegrees);
 }
 
-TEST(Bounds, NoFaceLosesItsAreaOrTurnsOver) {
-  // At 20 bits of a metre the sliver's three corners fall on one line.
+TEST(Bounds, KeepsFacesFromLosingAreaAndFlipping) {
+  // With 20 bits the three corners become collinear.
   TriangleMesh mesh = sliver(2e-7f);
   Bits bits = bitsFor(mesh, {});
   bits.grid.positionBits = 20;
   const Deviation lost = encodedWith(mesh, bits).deviation;
   EXPECT_EQ(lost.newDegenerate + lost.flipped, 1u);
-  const std::vector<std::string> warnings = judge(lost, {bits.grid, 12}, {}, "mesh 'sliver'");
+  const std::vector<std::string> warnings = checkBounds(lost, {bits.grid, 12}, {}, "mesh 'sliver'");
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(contains(warnings[0], "mesh 'sliver': 1 faces lose their area with positions of 20 bits")) << warnings[0];
+  EXPECT_TRUE(contains(warnings[0], "mesh 'sliver': 1 faces lose their area")) << warnings[0];
   bits = bitsFor(mesh, {});
   EXPECT_GT(bits.grid.positionBits, 20);
   EXPECT_EQ(encodedWith(mesh, bits).deviation.newDegenerate, 0u);
-  // A face without area in the source asks for nothing.
+  // A face without area in the source is exempt.
   mesh.positions[2] = mesh.positions[0];
   EXPECT_EQ(bitsFor(mesh, {}).grid.positionBits, kFirstPositionBits);
   EXPECT_EQ(encodedWith(mesh, bitsFor(mesh, {})).deviation.newDegenerate, 0u);
 }
 
-TEST(Bounds, TheMostBitsAndAWarningWhereDefaultsCannotBeKept) {
-  // A sliver a few roundings of float high: no grid in float keeps its side.
+TEST(Bounds, WarnsIfTheDefaultsAreOutOfReach) {
+  // The height of the sliver is a few rounding errors of float: every grid may flip it.
   TriangleMesh mesh = sliver(0);
   mesh.positions[2].y = std::nextafter(mesh.positions[2].y, 1.0f);
   mesh.positions.push_back({1000, 1000, 1000});
@@ -160,59 +160,59 @@ TEST(Bounds, TheMostBitsAndAWarningWhereDefaultsCannotBeKept) {
   const Bits bits = bitsFor(mesh, {});
   EXPECT_EQ(bits.grid.positionBits, kMaxPositionBits);
   const Encoded encoded = encodedWith(mesh, bits);
-  const auto warnings = judge(encoded.deviation, {bits.grid, bits.normalBits.front()}, {}, "mesh 'm'");
+  const auto warnings = checkBounds(encoded.deviation, {bits.grid, bits.normalBits.front()}, {}, "mesh 'm'");
   ASSERT_FALSE(warnings.empty());
   EXPECT_TRUE(contains(warnings[0], "face 0")) << warnings[0];
 }
 
-TEST(Bounds, GivenBitsAreTakenAsTheyAre) {
-  const TriangleMesh mesh = meshOf(prep::test::sphere(31, 64));
+TEST(Bounds, UsesGivenNumbersOfBits) {
+  const TriangleMesh mesh = makeMesh(prep::test::sphere(31, 64));
   Bounds bounds;
   bounds.positionBits = 9;
   bounds.normalBits = 7;
   const Bits bits = bitsFor(mesh, bounds);
   EXPECT_EQ(bits.grid.positionBits, 9);
   EXPECT_EQ(bits.normalBits.front(), 7);
-  const auto warnings = judge(encodedWith(mesh, bits).deviation, {bits.grid, 7}, bounds, "mesh 'ball'");
+  const auto warnings = checkBounds(encodedWith(mesh, bits).deviation, {bits.grid, 7}, bounds, "mesh 'ball'");
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_TRUE(contains(warnings[0], "mesh 'ball': normals are off by up to 1.")) << warnings[0];
-  EXPECT_TRUE(contains(warnings[1], "is tilted by")) << warnings[1];
+  EXPECT_TRUE(contains(warnings[0], "mesh 'ball': normal error 1.")) << warnings[0];
+  EXPECT_TRUE(contains(warnings[1], "tilts")) << warnings[1];
   bounds.positionBits = 27;
-  EXPECT_TRUE(contains(errorOf([&] { bitsFor(mesh, bounds); }), "expected 1 to 26, found 27"));
+  EXPECT_TRUE(contains(errorOf([&] { bitsFor(mesh, bounds); }), "1 to 26"));
   bounds = {};
-  bounds.maxError = 0;
-  EXPECT_TRUE(contains(errorOf([&] { bitsFor(mesh, bounds); }), "over 0"));
+  bounds.positionError = 0;
+  EXPECT_TRUE(contains(errorOf([&] { bitsFor(mesh, bounds); }), "position error"));
 }
 
-TEST(Deviation, OfAKnownMove) {
+TEST(Deviation, MeasuresAKnownMove) {
   TriangleMesh source;
   source.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 1, 0}};
   source.triangles = {{0, 1, 2}};
   source.normals.assign(3, {0, 0, 1});
   std::vector<glm::vec3> positions = source.positions, normals = source.normals;
-  EXPECT_EQ(deviationOf(source, positions, normals).tiltMaxDegrees, 0);
-  positions[2].z += 1;  // the apex, 1 above the base: 45 degrees
+  EXPECT_EQ(measureDeviation(source, positions, normals).tiltMaxDegrees, 0);
+  positions[2].z += 1;  // tilts the face by 45 degrees
   normals[1] = {0, 0.6f, 0.8f};
-  const Deviation moved = deviationOf(source, positions, normals);
+  const Deviation moved = measureDeviation(source, positions, normals);
   EXPECT_NEAR(moved.positionMax, 1, 1e-6);
   EXPECT_NEAR(moved.tiltMaxDegrees, 45, 1e-4);
   EXPECT_NEAR(moved.normalMaxDegrees, std::asin(0.6) * 180 / std::numbers::pi, 1e-4);
   EXPECT_EQ(moved.flipped, 0u);
   positions = source.positions;
   positions[2].y -= 2;
-  EXPECT_EQ(deviationOf(source, positions, normals).flipped, 1u);
-  EXPECT_NEAR(deviationOf(source, positions, normals).tiltMaxDegrees, 180, 1e-9);
+  EXPECT_EQ(measureDeviation(source, positions, normals).flipped, 1u);
+  EXPECT_NEAR(measureDeviation(source, positions, normals).tiltMaxDegrees, 180, 1e-9);
   positions[2].y += 1;
-  EXPECT_EQ(deviationOf(source, positions, normals).newDegenerate, 1u);
+  EXPECT_EQ(measureDeviation(source, positions, normals).newDegenerate, 1u);
 }
 
-TEST(GridRounding, IsWhatDecodingGives) {
-  const TriangleMesh mesh = meshOf(prep::test::sphere(15, 32));
+TEST(GridRounding, PredictsDecodedValues) {
+  const TriangleMesh mesh = makeMesh(prep::test::sphere(15, 32));
   for (const int bits : {3, 12, 20, 23, 24, 26}) {
     Settings settings{gridFor(mesh.positions, bits), std::min(bits, 16)};
     const Encoded encoded = encode(mesh, settings);
-    const std::vector<glm::vec3> positions = roundedPositions(mesh.positions, settings.grid),
-                                 normals = roundedNormals(mesh.normals, settings.normalBits);
+    const std::vector<glm::vec3> positions = roundPositions(mesh.positions, settings.grid),
+                                 normals = roundNormals(mesh.normals, settings.normalBits);
     for (std::size_t i = 0; i < positions.size(); ++i) {
       EXPECT_EQ(encoded.decoded.positions[i], positions[encoded.sourceVertices[i]]) << bits;
       EXPECT_EQ(encoded.decoded.normals[i], normals[encoded.sourceVertices[i]]) << bits;
@@ -220,7 +220,7 @@ TEST(GridRounding, IsWhatDecodingGives) {
   }
 }
 
-// The map is a permutation under which every decoded triangle is its source, corner by corner.
+// Expects a permutation under which every decoded triangle has the corners of its source.
 void expectMap(const TriangleMesh& mesh, const Encoded& encoded) {
   std::vector<std::uint32_t> vertices = encoded.sourceVertices, triangles = encoded.sourceTriangles;
   ASSERT_EQ(vertices.size(), mesh.positions.size());
@@ -241,58 +241,58 @@ void expectMap(const TriangleMesh& mesh, const Encoded& encoded) {
   for (std::size_t i = 0; i < triangles.size(); ++i) EXPECT_EQ(triangles[i], i);
 }
 
-TEST(SourceMap, NamesEveryVertexAndTriangleOnce) {
+TEST(SourceMap, IsAPermutation) {
   prep::Mesh open = prep::test::sphere(15, 32);
   open.triangles.erase(open.triangles.begin() + 100, open.triangles.begin() + 300);
   for (const bool normals : {false, true})
     for (const prep::Mesh& m : {prep::test::sphere(15, 32), prep::test::cube(), open,
                                 prep::test::joined(prep::test::sphere(7, 9), prep::test::cube(1, {5, 5, 5})),
-                                prep::test::joined(prep::test::cube(), prep::test::cube())}) {  // every vertex twice
-      const TriangleMesh mesh = meshOf(m, normals);
+                                prep::test::joined(prep::test::cube(), prep::test::cube())}) {  // every position twice
+      const TriangleMesh mesh = makeMesh(m, normals);
       const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
-      EXPECT_EQ(encoded.whySequential.empty(), encoded.method == "edgebreaker");
+      EXPECT_EQ(encoded.sequentialReason.empty(), encoded.method == "edgebreaker");
       expectMap(mesh, encoded);
     }
-  const TriangleMesh sphere = meshOf(prep::test::sphere(15, 32));
+  const TriangleMesh sphere = makeMesh(prep::test::sphere(15, 32));
   const Encoded encoded = encode(sphere, {gridFor(sphere.positions, 20), 12});
   EXPECT_EQ(encoded.method, "edgebreaker");
-  EXPECT_NE(encoded.decoded.triangles, sphere.triangles);  // so that there was something to map
+  EXPECT_NE(encoded.decoded.triangles, sphere.triangles);  // the map is not the identity
 }
 
-TEST(SourceMap, AnOpenSurfaceGoesThroughEdgebreakerWithAndWithoutNormals) {
-  // Draco orders the two differently: with positions alone it fills gaps of its list from the end.
+TEST(SourceMap, CoversOpenSurfacesWithAndWithoutNormals) {
+  // Draco's order depends on the presence of normals: without them it fills gaps of its vertex list from the end.
   prep::Mesh half = prep::test::sphere(15, 32);
   std::erase_if(half.triangles, [&](const glm::uvec3& t) { return half.positions[t.x].y < 0; });
   std::vector<std::uint32_t> at(half.positions.size(), 0);
   prep::Mesh open;
   for (glm::uvec3 t : half.triangles) {
     for (int c = 0; c < 3; ++c) {
-      std::uint32_t& place = at[t[c]];
-      if (place == 0)
-        open.positions.push_back(half.positions[t[c]]), place = static_cast<std::uint32_t>(open.positions.size());
-      t[c] = place - 1;
+      std::uint32_t& number = at[t[c]];
+      if (number == 0)
+        open.positions.push_back(half.positions[t[c]]), number = static_cast<std::uint32_t>(open.positions.size());
+      t[c] = number - 1;
     }
     open.triangles.push_back(t);
   }
   for (const bool normals : {false, true}) {
-    const TriangleMesh mesh = meshOf(open, normals);
+    const TriangleMesh mesh = makeMesh(open, normals);
     const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
-    EXPECT_EQ(encoded.method, "edgebreaker") << encoded.whySequential;
+    EXPECT_EQ(encoded.method, "edgebreaker") << encoded.sequentialReason;
     expectMap(mesh, encoded);
   }
 }
 
-TEST(SourceMap, AnotherMeshIsNoReordering) {
-  const TriangleMesh mesh = meshOf(prep::test::cube());
+TEST(SourceMap, RefusesAnotherMesh) {
+  const TriangleMesh mesh = makeMesh(prep::test::cube());
   const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
   std::vector<std::uint32_t> identity(mesh.positions.size());
   for (std::uint32_t i = 0; i < identity.size(); ++i) identity[i] = i;
   EXPECT_TRUE(sourceTriangles(mesh, mesh, identity).has_value());
   TriangleMesh changed = mesh;
-  std::swap(changed.triangles[3].x, changed.triangles[3].y);  // turned over
+  std::swap(changed.triangles[3].x, changed.triangles[3].y);  // flipped
   EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
   changed = mesh;
-  changed.triangles[3] = changed.triangles[4];  // one twice, one not
+  changed.triangles[3] = changed.triangles[4];  // one triangle twice, one missing
   EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
   changed = mesh;
   changed.positions[5].x += 1e-6f;
@@ -300,17 +300,17 @@ TEST(SourceMap, AnotherMeshIsNoReordering) {
   changed = mesh;
   changed.normals[5] = -changed.normals[5];
   EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
-  identity[2] = 1;  // named twice
+  identity[2] = 1;  // not a permutation
   EXPECT_FALSE(sourceTriangles(mesh, mesh, identity).has_value());
 }
 
-TEST(SourceMap, TellsWhyEdgebreakerWasNotTaken) {
+TEST(SourceMap, GivesTheReasonAgainstEdgebreaker) {
   prep::Mesh degenerate = prep::test::sphere(15, 32);
   degenerate.triangles.emplace_back(3, 3, 4);
-  const TriangleMesh mesh = meshOf(degenerate, false);
-  EXPECT_TRUE(contains(encode(mesh, {gridFor(mesh.positions, 20), 12}).whySequential, "degenerate"));
+  const TriangleMesh mesh = makeMesh(degenerate, false);
+  EXPECT_TRUE(contains(encode(mesh, {gridFor(mesh.positions, 20), 12}).sequentialReason, "degenerate"));
   const TriangleMesh one = sliver(1);
-  EXPECT_EQ(encode(one, {gridFor(one.positions, 20), 12}).whySequential, "edgebreaker is no smaller");
+  EXPECT_EQ(encode(one, {gridFor(one.positions, 20), 12}).sequentialReason, "edgebreaker is no smaller");
 }
 
 }  // namespace

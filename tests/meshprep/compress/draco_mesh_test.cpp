@@ -32,7 +32,7 @@ TriangleMesh withNormals(prep::Mesh mesh, double creaseDegrees = 40) {
   return fromMesh(mesh);
 }
 
-Limits limitsOf(const TriangleMesh& mesh) {
+Limits counts(const TriangleMesh& mesh) {
   return {static_cast<std::uint32_t>(mesh.positions.size()), static_cast<std::uint32_t>(mesh.triangles.size())};
 }
 
@@ -48,15 +48,16 @@ void expectEqual(const TriangleMesh& a, const TriangleMesh& b) {
   EXPECT_EQ(a.triangles, b.triangles);
 }
 
-// Whether every vertex of `decoded` lies within the tolerance of one of `source`, and the other way around.
-void expectSamePlaces(const TriangleMesh& source, const TriangleMesh& decoded, float tolerance) {
+// Expects a vertex of `source` within the tolerance of each vertex of `decoded`, and vice versa.
+void expectSamePositions(const TriangleMesh& source, const TriangleMesh& decoded, float tolerance) {
   for (const auto& [from, to] : {std::pair{&source, &decoded}, std::pair{&decoded, &source}})
     for (const glm::vec3& p : from->positions)
-      EXPECT_TRUE(std::any_of(to->positions.begin(), to->positions.end(),
-                              [&, &place = p](const glm::vec3& q) { return glm::distance(place, q) <= tolerance; }));
+      EXPECT_TRUE(std::any_of(to->positions.begin(), to->positions.end(), [&, &position = p](const glm::vec3& q) {
+        return glm::distance(position, q) <= tolerance;
+      }));
 }
 
-TEST(DracoMesh, SphereGoesThroughEdgebreaker) {
+TEST(DracoMesh, EncodesASphereByEdgebreaker) {
   const TriangleMesh mesh = withNormals(prep::test::sphere(31, 64));
   const Encoded encoded = encode(mesh, settingsFor(mesh));
   EXPECT_EQ(encoded.method, "edgebreaker");
@@ -64,14 +65,14 @@ TEST(DracoMesh, SphereGoesThroughEdgebreaker) {
   EXPECT_LT(encoded.deviation.positionMax, 3e-6f);
   EXPECT_GT(encoded.deviation.normalMaxDegrees, 0);
   EXPECT_LT(encoded.deviation.normalMaxDegrees, 0.06f);
-  expectEqual(decode(encoded.bytes, limitsOf(mesh), "x"), encoded.decoded);
-  expectSamePlaces(mesh, encoded.decoded, static_cast<float>(encoded.deviation.positionMax) * 1.001f);
-  const Limits claimed = claimedCounts(encoded.bytes, "x");
-  EXPECT_EQ(claimed.vertices, limitsOf(mesh).vertices);
-  EXPECT_EQ(claimed.triangles, limitsOf(mesh).triangles);
+  expectEqual(decode(encoded.bytes, counts(mesh), "x"), encoded.decoded);
+  expectSamePositions(mesh, encoded.decoded, static_cast<float>(encoded.deviation.positionMax) * 1.001f);
+  const Limits claimed = declaredCounts(encoded.bytes, "x");
+  EXPECT_EQ(claimed.vertices, counts(mesh).vertices);
+  EXPECT_EQ(claimed.triangles, counts(mesh).triangles);
 }
 
-TEST(DracoMesh, PlainDracoReadsBothEncodings) {
+TEST(DracoMesh, WritesFilesThatDracoReads) {
   prep::Mesh loose = prep::test::sphere(15, 32);
   loose.positions.emplace_back(0, 0, 0);
   for (const prep::Mesh& m : {prep::test::sphere(15, 32), loose}) {
@@ -88,7 +89,7 @@ TEST(DracoMesh, PlainDracoReadsBothEncodings) {
   }
 }
 
-TEST(DracoMesh, OrientationAndVolumeSurvive) {
+TEST(DracoMesh, KeepsOrientationAndVolume) {
   const TriangleMesh mesh = fromMesh(prep::test::sphere(31, 64));
   const auto volume = [](const TriangleMesh& m) {
     double sum = 0;
@@ -102,7 +103,7 @@ TEST(DracoMesh, OrientationAndVolumeSurvive) {
   EXPECT_GT(volume(mesh), 4.1);
 }
 
-TEST(DracoMesh, SplitCubeOpenSurfaceAndSeveralBodies) {
+TEST(DracoMesh, EncodesOpenAndDisconnectedMeshes) {
   prep::Mesh open = prep::test::sphere(15, 32);
   open.triangles.resize(open.triangles.size() - 200);
   std::vector<bool> used(open.positions.size());
@@ -112,17 +113,17 @@ TEST(DracoMesh, SplitCubeOpenSurfaceAndSeveralBodies) {
     const Encoded encoded = encode(mesh, settingsFor(mesh));
     EXPECT_EQ(encoded.decoded.positions.size(), mesh.positions.size());
     EXPECT_EQ(encoded.decoded.triangles.size(), mesh.triangles.size());
-    expectEqual(decode(encoded.bytes, limitsOf(mesh), "x"), encoded.decoded);
+    expectEqual(decode(encoded.bytes, counts(mesh), "x"), encoded.decoded);
   }
 }
 
-TEST(DracoMesh, SameInputSameBytes) {
+TEST(DracoMesh, IsDeterministic) {
   const TriangleMesh mesh = withNormals(prep::test::sphere(15, 32));
   EXPECT_EQ(encode(mesh, settingsFor(mesh)).bytes, encode(mesh, settingsFor(mesh)).bytes);
 }
 
-TEST(DracoMesh, EqualPositionsDecodeEquallyInEveryMesh) {
-  // Two halves of a sphere on one grid, one with normals: their common rim must stay common, bit by bit.
+TEST(DracoMesh, DecodesEqualPositionsEquallyInAllMeshes) {
+  // Two halves of a sphere on one grid, one with normals: the vertices of their common rim must stay equal.
   const prep::Mesh whole = prep::test::sphere(16, 24);
   std::map<std::vector<float>, int> rim;
   prep::Mesh halves[2];
@@ -144,7 +145,7 @@ TEST(DracoMesh, EqualPositionsDecodeEquallyInEveryMesh) {
   }
   EXPECT_EQ(decodedAt[0], decodedAt[1]);
 
-  // And edgebreaker decodes to the same values as sequential.
+  // Edgebreaker decodes to the values of the sequential encoding.
   const TriangleMesh mesh = fromMesh(whole);
   const Encoded encoded = encode(mesh, settings);
   EXPECT_EQ(encoded.method, "edgebreaker");
@@ -152,8 +153,8 @@ TEST(DracoMesh, EqualPositionsDecodeEquallyInEveryMesh) {
     EXPECT_TRUE(std::any_of(decodedAt[0].begin(), decodedAt[0].end(), [&](const auto& q) { return q.second == p; }));
 }
 
-TEST(DracoMesh, NonManifoldDegenerateAndLooseFallBackToSequential) {
-  // Many copies around a common edge, so that edgebreaker would be smaller if it were right.
+TEST(DracoMesh, FallsBackToSequential) {
+  // Many triangles around one edge, so that edgebreaker is smaller, but changes the connectivity.
   prep::Mesh fan;
   fan.positions = {{0, 0, 0}, {0, 0, 1}};
   for (std::uint32_t i = 0; i < 64; ++i) {
@@ -169,11 +170,11 @@ TEST(DracoMesh, NonManifoldDegenerateAndLooseFallBackToSequential) {
     const Encoded encoded = encode(mesh, settingsFor(mesh));
     EXPECT_EQ(encoded.method, "sequential");
     EXPECT_EQ(encoded.decoded.triangles, mesh.triangles);
-    expectEqual(decode(encoded.bytes, limitsOf(mesh), "x"), encoded.decoded);
+    expectEqual(decode(encoded.bytes, counts(mesh), "x"), encoded.decoded);
   }
 }
 
-TEST(DracoMesh, CoarseGridMayCollapseTrianglesButNotLoseThem) {
+TEST(DracoMesh, KeepsCountsOnCoarseGrids) {
   const TriangleMesh mesh = withNormals(prep::test::sphere(31, 64));
   for (const int bits : {1, 2, 4, 8, 11, 16, 22, 26}) {
     const Encoded encoded = encode(mesh, settingsFor(mesh, bits));
@@ -182,7 +183,7 @@ TEST(DracoMesh, CoarseGridMayCollapseTrianglesButNotLoseThem) {
   }
 }
 
-TEST(DracoMesh, NormalBits) {
+TEST(DracoMesh, ReducesNormalErrorsByMoreBits) {
   const TriangleMesh mesh = withNormals(prep::test::sphere(31, 64));
   double last = 180;
   for (const int bits : {4, 8, 10, 12, 14}) {
@@ -195,7 +196,7 @@ TEST(DracoMesh, NormalBits) {
   }
 }
 
-TEST(DracoMesh, GridOfAPointAndOfAFarMesh) {
+TEST(DracoMesh, FitsAGrid) {
   const std::vector<glm::vec3> point = {glm::vec3(3)};
   EXPECT_EQ(gridFor(point, 20).range, 1);
   const TriangleMesh far = fromMesh(prep::test::cube(0.5, {1e5, 1e5, -1e5}));
@@ -208,7 +209,7 @@ TEST(DracoMesh, GridOfAPointAndOfAFarMesh) {
   EXPECT_TRUE(contains(errorOf([&] { gridFor(tiny, 20); }), "too small"));
 }
 
-TEST(DracoMesh, RefusesBadInput) {
+TEST(DracoMesh, RefusesInvalidInput) {
   const TriangleMesh good = withNormals(prep::test::cube());
   const Settings settings = settingsFor(good);
   const auto refused = [&](auto change) {
@@ -223,25 +224,24 @@ TEST(DracoMesh, RefusesBadInput) {
   EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = -0.5f; }), "outside of the grid"));
   EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.normals[2] = glm::vec3(0); }), "unit length"));
   EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.normals.pop_back(); }), "number of normals"));
-  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.triangles[1].z = 24; }), "not there"));
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.triangles[1].z = 24; }), "invalid vertex index"));
   EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.triangles.clear(); }), "empty"));
   EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.positionBits = 0; }), "1 to 26"));
   EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.normalBits = 31; }), "2 to 16"));
-  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.range = 0; }), "no cube"));
+  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.range = 0; }), "grid"));
 }
 
-TEST(DracoMesh, OtherCountsAreRefusedBeforeDecoding) {
+TEST(DracoMesh, RefusesUnexpectedCounts) {
   const TriangleMesh mesh = withNormals(prep::test::cube());
   const Encoded encoded = encode(mesh, settingsFor(mesh));
   EXPECT_TRUE(contains(errorOf([&] {
                          decode(encoded.bytes, {23, 12}, "a.drc");
                        }),
-                       "a.drc: Draco data of another mesh"));
+                       "a.drc: Draco data has unexpected counts"));
   EXPECT_FALSE(errorOf([&] { decode(encoded.bytes, {24, 13}, "x"); }).empty());
 }
 
-// Sets the most memory that this process may take, for a scope. Not under the address sanitizer, which maps
-// terabytes of shadow.
+// Limits the memory of this process within a scope. Disabled under the address sanitizer, which maps terabytes.
 class MemoryLimit {
  public:
   explicit MemoryLimit(rlim_t bytes) {
@@ -266,7 +266,7 @@ class MemoryLimit {
   [[maybe_unused]] rlimit before_{};
 };
 
-// Decodes bytes that may be anything; what comes back must be a mesh of the promised size.
+// Decodes arbitrary bytes, and expects an error or a valid mesh with these counts.
 void expectErrorOrMesh(const std::vector<std::byte>& bytes, const Limits& limits) {
   try {
     const TriangleMesh mesh = decode(bytes, limits, "damaged");
@@ -281,7 +281,7 @@ void expectErrorOrMesh(const std::vector<std::byte>& bytes, const Limits& limits
   }
 }
 
-// Both encodings, with and without normals.
+// Returns meshes of both encodings, with and without normals.
 std::vector<Encoded> samples() {
   std::vector<Encoded> result;
   prep::Mesh loose = prep::test::sphere(3, 5);
@@ -295,42 +295,42 @@ std::vector<Encoded> samples() {
   return result;
 }
 
-TEST(DracoMesh, EveryFlippedBitIsAnErrorOrAMesh) {
+TEST(DracoMesh, SurvivesEveryFlippedBit) {
   const MemoryLimit limit(rlim_t{4} << 30);
   for (const Encoded& sample : samples()) {
     for (std::size_t bit = 0; bit < 8 * sample.bytes.size(); ++bit) {
       std::vector<std::byte> flipped = sample.bytes;
       flipped[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
-      expectErrorOrMesh(flipped, limitsOf(sample.decoded));
+      expectErrorOrMesh(flipped, counts(sample.decoded));
     }
   }
 }
 
-TEST(DracoMesh, EveryByteOfEveryValueIsAnErrorOrAMesh) {
+TEST(DracoMesh, SurvivesChangedBytes) {
   const MemoryLimit limit(rlim_t{4} << 30);
   for (const Encoded& sample : samples()) {
     for (std::size_t i = 0; i < sample.bytes.size(); ++i)
       for (const unsigned value : {0x00u, 0x01u, 0x7fu, 0x80u, 0xffu}) {
         std::vector<std::byte> changed = sample.bytes;
         changed[i] = static_cast<std::byte>(value);
-        expectErrorOrMesh(changed, limitsOf(sample.decoded));
+        expectErrorOrMesh(changed, counts(sample.decoded));
         if (i + 4 > changed.size()) continue;
         std::fill_n(changed.begin() + static_cast<std::ptrdiff_t>(i), 4, static_cast<std::byte>(value));
-        expectErrorOrMesh(changed, limitsOf(sample.decoded));
+        expectErrorOrMesh(changed, counts(sample.decoded));
       }
   }
 }
 
-TEST(DracoMesh, TruncatedAnywhereIsAnErrorOrAMesh) {
+TEST(DracoMesh, SurvivesTruncation) {
   const MemoryLimit limit(rlim_t{4} << 30);
   for (const Encoded& sample : samples())
     for (std::size_t size = 0; size < sample.bytes.size(); ++size)
       expectErrorOrMesh({sample.bytes.begin(), sample.bytes.begin() + static_cast<std::ptrdiff_t>(size)},
-                        limitsOf(sample.decoded));
+                        counts(sample.decoded));
 }
 
-TEST(DracoMesh, HugeClaimsAreRefusedWithoutAllocating) {
-  // A header that claims 2^31 points, and an edgebreaker one that claims 2^32 - 1 split symbols.
+TEST(DracoMesh, RefusesHugeCountsWithoutAllocation) {
+  // Sequential header with 2^31 points, and edgebreaker header with 2^32 - 1 split symbols.
   const auto bytes = [](std::initializer_list<unsigned> values) {
     std::vector<std::byte> result;
     for (const char c : std::string_view("DRACO")) result.push_back(static_cast<std::byte>(c));
@@ -350,11 +350,11 @@ TEST(DracoMesh, HugeClaimsAreRefusedWithoutAllocating) {
                          decode(bytes({2, 2, 1, 0, 0, 0, 1, 0xff, 0xff, 0xff, 0xff, 0xff, 1}), {3, 1}, "x");
                        }),
                        "32 bits"));
-  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 1, 1, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "another version"));
-  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 2, 0, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "no mesh"));
+  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 1, 1, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "version"));
+  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 2, 0, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "not a mesh"));
   EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 2, 1, 0, 0, 0x80, 1, 3}), {3, 1}, "x"); }), "metadata"));
-  EXPECT_TRUE(contains(errorOf([&] { decode({}, {3, 1}, "x"); }), "cut short"));
-  EXPECT_TRUE(contains(errorOf([&] { claimedCounts(bytes({2}), "x"); }), "cut short"));
+  EXPECT_TRUE(contains(errorOf([&] { decode({}, {3, 1}, "x"); }), "truncated"));
+  EXPECT_TRUE(contains(errorOf([&] { declaredCounts(bytes({2}), "x"); }), "truncated"));
 }
 
 }  // namespace

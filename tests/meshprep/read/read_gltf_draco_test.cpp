@@ -122,10 +122,10 @@ TEST(ReadGltfDraco, CountsAreThoseOfTheAccessors) {
     for (const int change : {-3, 3}) {
       GltfFile bad = good;
       bad.document["accessors"][2]["count"] = bad.document["accessors"][2]["count"].get<int>() + change;
-      EXPECT_CONTAINS(errorIn(bad), "meshes[0].primitives[0]: Draco data of another mesh");
+      EXPECT_CONTAINS(errorIn(bad), "meshes[0].primitives[0]: Draco data has unexpected counts");
       bad = good;
       bad.document["accessors"][0]["count"] = bad.document["accessors"][0]["count"].get<int>() + change;
-      EXPECT_CONTAINS(errorIn(bad), "meshes[0].primitives[0]: Draco data of another mesh");
+      EXPECT_CONTAINS(errorIn(bad), "meshes[0].primitives[0]: Draco data has unexpected counts");
     }
     GltfFile bad = good;
     bad.document["accessors"][2]["count"] = 100;
@@ -164,7 +164,7 @@ TEST(ReadGltfDraco, AFewBytesCannotAskForGigabytes) {
   huge.faces = 1'000'000;
   EXPECT_CONTAINS(errorIn(fileOf(huge)), "has more vertices than a file of its size may");
   huge.points = 1'000'000;
-  EXPECT_CONTAINS(errorIn(fileOf(huge)), "Draco data of another mesh");
+  EXPECT_CONTAINS(errorIn(fileOf(huge)), "Draco data has unexpected counts");
 }
 
 TEST(ReadGltfDraco, MetadataIsRefused) {

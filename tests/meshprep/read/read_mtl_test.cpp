@@ -106,7 +106,7 @@ TEST(ReadMtl, NamesMayHaveBlanks) {
   EXPECT_EQ(materials[0].name, "red  paint");
   EXPECT_EQ(materials[1].name, "b\xc3\xa4");
   EXPECT_EQ(
-      mtllibsOf(
+      listMtllibs(
           "\xef\xbb\xbfmtllib my file \xc3\xa4.mtl\r\nv 0 0 0\n mtllib b.mtl\nmtllib \\\nb.mtl\n#mtllib c\nmtllib "
           "\xe4.mtl\nmtllib\n",
           "a.obj"),

@@ -111,8 +111,8 @@ TEST(ScanObj, ContinuationLinesAreJoined) {
   const Polygons polygons = read("v 0 0 0\nv 1 \\\n 0 \\\r\n0\nv 1 1 0\nv 0 1 0\nf 1 2\\\n3\\\n\\\n4\nf 1 2 3\n");
   EXPECT_EQ(polygons.positions[1], glm::dvec3(1, 0, 0));
   EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 3, 0, 1, 2}));
-  EXPECT_EQ(polygons.vertexPlaces, (std::vector<std::uint64_t>{1, 2, 5, 6}));
-  EXPECT_EQ(polygons.facePlaces, (std::vector<std::uint64_t>{7, 11}));
+  EXPECT_EQ(polygons.vertexLocations, (std::vector<std::uint64_t>{1, 2, 5, 6}));
+  EXPECT_EQ(polygons.faceLocations, (std::vector<std::uint64_t>{7, 11}));
 }
 
 TEST(ScanObj, MessagesNameTheFirstOfContinuedLines) {
@@ -195,7 +195,7 @@ TEST(ScanObj, FacesOfVeryManyCorners) {
   ASSERT_EQ(polygons.faceCount(), 2u);
   EXPECT_EQ(polygons.face(0).size(), 1000u);
   EXPECT_EQ(polygons.face(0)[999], 999u);
-  EXPECT_EQ(polygons.facePlaces, (std::vector<std::uint64_t>{1001, 1002}));
+  EXPECT_EQ(polygons.faceLocations, (std::vector<std::uint64_t>{1001, 1002}));
 }
 
 TEST(ScanObj, VerticesNamedFarTooOftenAreNoSurface) {

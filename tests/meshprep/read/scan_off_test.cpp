@@ -64,9 +64,9 @@ TEST(ScanOff, NormalsOfVerticesAreKept) {
 
 TEST(ScanOff, PlacesAreLines) {
   const Polygons polygons = read("# a\nOFF # b\n\n4 2 0\n# c\n" + kPoints + "\n3 0 1 2\n# d\n4 0 1 2 3\n");
-  EXPECT_FALSE(polygons.placesAreBytes);
-  EXPECT_EQ(polygons.vertexPlaces, (std::vector<std::uint64_t>{6, 7, 8, 9}));
-  EXPECT_EQ(polygons.facePlaces, (std::vector<std::uint64_t>{11, 13}));
+  EXPECT_FALSE(polygons.locationsAreBytes);
+  EXPECT_EQ(polygons.vertexLocations, (std::vector<std::uint64_t>{6, 7, 8, 9}));
+  EXPECT_EQ(polygons.faceLocations, (std::vector<std::uint64_t>{11, 13}));
 }
 
 TEST(ScanOff, CoordinatesAreDouble) {

@@ -130,7 +130,7 @@ TEST(PlyVariants, TriangleStripsTurnEveryOtherTriangle) {
   const Corners expected = {0, 1, 2, 2, 1, 3, 2, 3, 4, 3, 5, 4, 0, 1, 2};
   EXPECT_EQ(text.corners, expected);
   EXPECT_EQ(text.faceCount(), 5u);
-  EXPECT_EQ(text.facePlaces, (std::vector<std::uint64_t>{16, 16, 16, 16, 17}));
+  EXPECT_EQ(text.faceLocations, (std::vector<std::uint64_t>{16, 16, 16, 16, 17}));
   EXPECT_TRUE(text.notes.empty());
 
   for (const bool bigEndian : {false, true}) {
@@ -143,8 +143,8 @@ TEST(PlyVariants, TriangleStripsTurnEveryOtherTriangle) {
     }
     const Polygons binary = read(bytes);
     EXPECT_EQ(binary.corners, expected);
-    EXPECT_EQ(binary.facePlaces.front(), begin + 72);
-    EXPECT_EQ(binary.facePlaces.back(), begin + 72 + 40);
+    EXPECT_EQ(binary.faceLocations.front(), begin + 72);
+    EXPECT_EQ(binary.faceLocations.back(), begin + 72 + 40);
   }
 
   // Sewn strips go on in the same sense: the parity counts the corners.
@@ -271,17 +271,17 @@ TEST(PlyVariants, PlacesAreLinesOrBytes) {
   const std::string elements =
       "element vertex 3\n" + kXyz + "element face 2\nproperty list uchar uchar vertex_indices\n";
   const Polygons text = read(header(elements) + "0 0 0\n\n1 0 0\n0 1 0\n3 0 1 2\n\n3 2 1 0\n");
-  EXPECT_FALSE(text.placesAreBytes);
-  EXPECT_EQ(text.vertexPlaces, (std::vector<std::uint64_t>{10, 12, 13}));
-  EXPECT_EQ(text.facePlaces, (std::vector<std::uint64_t>{14, 16}));
+  EXPECT_FALSE(text.locationsAreBytes);
+  EXPECT_EQ(text.vertexLocations, (std::vector<std::uint64_t>{10, 12, 13}));
+  EXPECT_EQ(text.faceLocations, (std::vector<std::uint64_t>{14, 16}));
   std::string bytes = header(elements, "binary_little_endian");
   const std::size_t begin = bytes.size();
   for (const double x : {0, 0, 0, 1, 0, 0, 0, 1, 0}) putReal(bytes, x, false);
   bytes += std::string("\3\0\1\2\3\2\1\0", 8);
   const Polygons binary = read(bytes);
-  EXPECT_TRUE(binary.placesAreBytes);
-  EXPECT_EQ(binary.vertexPlaces, (std::vector<std::uint64_t>{begin, begin + 12, begin + 24}));
-  EXPECT_EQ(binary.facePlaces, (std::vector<std::uint64_t>{begin + 36, begin + 40}));
+  EXPECT_TRUE(binary.locationsAreBytes);
+  EXPECT_EQ(binary.vertexLocations, (std::vector<std::uint64_t>{begin, begin + 12, begin + 24}));
+  EXPECT_EQ(binary.faceLocations, (std::vector<std::uint64_t>{begin + 36, begin + 40}));
 }
 
 }  // namespace

@@ -65,15 +65,15 @@ TEST(ScanStl, SolidsAreParts) {
 
 TEST(ScanStl, PlacesAreLinesOrBytes) {
   const Polygons text = read("solid a\n\n" + kFacet + kFacet + "endsolid a\n");
-  EXPECT_FALSE(text.placesAreBytes);
-  EXPECT_EQ(text.vertexPlaces, (std::vector<std::uint64_t>{5, 6, 7, 12, 13, 14}));
-  EXPECT_EQ(text.facePlaces, (std::vector<std::uint64_t>{3, 10}));
+  EXPECT_FALSE(text.locationsAreBytes);
+  EXPECT_EQ(text.vertexLocations, (std::vector<std::uint64_t>{5, 6, 7, 12, 13, 14}));
+  EXPECT_EQ(text.faceLocations, (std::vector<std::uint64_t>{3, 10}));
   auto triangles = test::tetrahedronTriangles();
   triangles.resize(2);
   const Polygons binary = read(binaryStl(triangles));
-  EXPECT_TRUE(binary.placesAreBytes);
-  EXPECT_EQ(binary.vertexPlaces, (std::vector<std::uint64_t>{96, 108, 120, 146, 158, 170}));
-  EXPECT_EQ(binary.facePlaces, (std::vector<std::uint64_t>{84, 134}));
+  EXPECT_TRUE(binary.locationsAreBytes);
+  EXPECT_EQ(binary.vertexLocations, (std::vector<std::uint64_t>{96, 108, 120, 146, 158, 170}));
+  EXPECT_EQ(binary.faceLocations, (std::vector<std::uint64_t>{84, 134}));
 }
 
 TEST(ScanStl, AttributesAreNoted) {

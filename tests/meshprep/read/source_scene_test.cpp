@@ -19,8 +19,8 @@ Polygons fourFaces() {
   p.partOf = {0, 1, 2, 3};
   p.smoothingGroups = {1, 2, 3, 4};
   for (std::size_t c = 0; c < p.corners.size(); ++c) p.cornerNormals.emplace_back(c, 0, 1);
-  p.facePlaces = {10, 20, 30, 40};
-  p.vertexPlaces = {1, 2, 3, 4, 5, 6, 7};
+  p.faceLocations = {10, 20, 30, 40};
+  p.vertexLocations = {1, 2, 3, 4, 5, 6, 7};
   p.notes = {"lines"};
   return p;
 }
@@ -38,11 +38,11 @@ TEST(SourceScene, CutByMaterial) {
   EXPECT_EQ(red.positions.size(), 6u);
   EXPECT_EQ(red.corners, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(red.smoothingGroups, (std::vector<std::uint32_t>{1, 3}));
-  EXPECT_EQ(red.facePlaces, (std::vector<std::uint64_t>{10, 30}));
+  EXPECT_EQ(red.faceLocations, (std::vector<std::uint64_t>{10, 30}));
   EXPECT_EQ(red.cornerNormals[3], glm::vec3(6, 0, 1));
   const Polygons& blue = scene.parts[1].polygons;
   EXPECT_EQ(blue.positions, (std::vector<glm::dvec3>{{1, 1, 0}, {2, 4, 0}, {3, 9, 0}}));
-  EXPECT_EQ(blue.vertexPlaces, (std::vector<std::uint64_t>{2, 3, 4}));
+  EXPECT_EQ(blue.vertexLocations, (std::vector<std::uint64_t>{2, 3, 4}));
   EXPECT_FALSE(scene.parts[2].material.has_value());
   EXPECT_EQ(scene.parts[2].polygons.face(0).size(), 4u);
 }

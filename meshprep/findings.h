@@ -23,6 +23,9 @@ struct Finding {
   std::string place;  // in the file, as messages name it; prepare() fills it in where the reader told it
 };
 
+// Returns "faces 3, 4, vertex 7 at (1, 2, 3), model.obj:17", without unknown parts.
+std::string describe(const Finding& finding);
+
 // No step lists more than this; all are counted.
 inline constexpr std::size_t kListed = 1000;
 

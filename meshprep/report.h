@@ -86,7 +86,4 @@ nlohmann::json toJson(const Report& report);
 // finding is shown.
 std::string toText(const Report& report);
 
-// "vertices 3, 4 at (1, 2, 3) in model.obj:17", as far as it is known.
-std::string describe(const Finding& finding);
-
 }  // namespace malus::prep

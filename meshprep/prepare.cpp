@@ -261,7 +261,7 @@ void addPlaces(const Polygons& polygons, Report& report) {
                          const std::vector<std::uint32_t>& ids) -> std::string {
     if (ids.empty() || ids.front() >= places.size()) return {};
     return polygons.locationsAreBytes ? fmt::format("{}, byte {}", report.source, places[ids.front()])
-                                   : fmt::format("{}:{}", report.source, places[ids.front()]);
+                                      : fmt::format("{}:{}", report.source, places[ids.front()]);
   };
   for (Step& step : report.steps)
     for (Finding& finding : step.findings) {

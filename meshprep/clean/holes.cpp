@@ -83,13 +83,13 @@ FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t 
   const std::vector<std::uint32_t> place = placeOfVertices(mesh);
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   std::set<std::array<std::uint32_t, 3>> faces;
-  const auto facePlaces = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const auto faceLocations = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     std::array<std::uint32_t, 3> places{place[a], place[b], place[c]};
     std::sort(places.begin(), places.end());
     return places;
   };
   for (const glm::uvec3& t : mesh.triangles) {
-    faces.insert(facePlaces(t.x, t.y, t.z));
+    faces.insert(faceLocations(t.x, t.y, t.z));
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t from = place[t[k]], to = place[t[(k + 1) % 3]];
       edges.emplace(std::min(from, to), std::max(from, to));
@@ -104,9 +104,9 @@ FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t 
     for (const auto& edge : inner)
       if (edges.contains(edge)) return false;
     for (const glm::uvec3& t : lid.triangles)
-      if (faces.contains(facePlaces(loop[t.x], loop[t.y], loop[t.z]))) return false;
+      if (faces.contains(faceLocations(loop[t.x], loop[t.y], loop[t.z]))) return false;
     edges.insert(inner.begin(), inner.end());
-    for (const glm::uvec3& t : lid.triangles) faces.insert(facePlaces(loop[t.x], loop[t.y], loop[t.z]));
+    for (const glm::uvec3& t : lid.triangles) faces.insert(faceLocations(loop[t.x], loop[t.y], loop[t.z]));
     return true;
   };
 

@@ -21,8 +21,8 @@ Number numberAt(const std::byte* bytes) {
   return value;
 }
 
-// Bytes of a component.
-std::size_t sizeOfComponent(ComponentType type) {
+// Returns the size of a component in bytes.
+std::size_t componentSize(ComponentType type) {
   switch (type) {
     case ComponentType::int8:
     case ComponentType::uint8:
@@ -37,7 +37,7 @@ std::size_t sizeOfComponent(ComponentType type) {
   return 0;
 }
 
-// A component as a number. Normalized ones by section 3.6.2.2: -1 to 1 or 0 to 1.
+// Returns a component as a number; normalized ones by section 3.6.2.2, -1 to 1 or 0 to 1.
 double component(const std::byte* bytes, ComponentType type, bool normalized) {
   const auto whole = [normalized](auto value) {
     if (!normalized) return static_cast<double>(value);
@@ -70,13 +70,13 @@ bool isUnsigned(ComponentType type) {
   return type == ComponentType::uint8 || type == ComponentType::uint16 || type == ComponentType::uint32;
 }
 
-// `count` elements from `offset` on, `stride` apart, must lie within the view.
-std::span<const std::byte> elementsOf(std::span<const std::byte> view, std::size_t offset, std::size_t count,
-                                      std::size_t stride, std::size_t elementBytes, const std::string& place) {
+// Requires `count` elements from `offset` on, at distances of `stride`, to be inside the view.
+std::span<const std::byte> findElements(std::span<const std::byte> view, std::size_t offset, std::size_t count,
+                                        std::size_t stride, std::size_t elementBytes, const std::string& location) {
   const bool first = offset <= view.size() && elementBytes <= view.size() - offset;
   const std::size_t fit = first ? (view.size() - offset - elementBytes) / stride + 1 : 0;
   if (count > fit)
-    throw Error(place, "has more elements than bytes",
+    throw Error(location, "elements exceed the buffer view",
                 fmt::format("at most {} in a buffer view of {} bytes", fit, view.size()), fmt::to_string(count));
   return view.subspan(offset);
 }
@@ -85,67 +85,67 @@ std::span<const std::byte> elementsOf(std::span<const std::byte> view, std::size
 
 std::span<const std::byte> gltfViewBytes(const gltf::Document& document, GltfBuffers& buffers, std::size_t index,
                                          const std::string& where) {
-  const std::string place = fmt::format("{}: bufferViews[{}]", where, index);
+  const std::string location = fmt::format("{}: bufferViews[{}]", where, index);
   if (index >= document.bufferViews.size())
-    throw Error(place, "is not there", fmt::format("one of {} buffer views", document.bufferViews.size()));
+    throw Error(location, "does not exist", fmt::format("one of {} buffer views", document.bufferViews.size()));
   const gltf::BufferView& view = document.bufferViews[index];
   const std::span<const std::byte> buffer = buffers.bytes(view.buffer);
   if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
-    throw Error(place, "ends behind its buffer", fmt::format("at most {} bytes", buffer.size()),
-                fmt::format("{} from byte {} on", view.byteLength, view.byteOffset));
+    throw Error(location, "buffer view exceeds its buffer", fmt::format("at most {} bytes", buffer.size()),
+                fmt::format("{} bytes from byte {} on", view.byteLength, view.byteOffset));
   return buffer.subspan(view.byteOffset, view.byteLength);
 }
 
 GltfAccessor::GltfAccessor(const gltf::Document& document, GltfBuffers& buffers, std::size_t index,
                            const std::string& where)
-    : place_(fmt::format("{}: accessors[{}]", where, index)) {
+    : location_(fmt::format("{}: accessors[{}]", where, index)) {
   if (index >= document.accessors.size())
-    throw Error(place_, "is not there", fmt::format("one of {} accessors", document.accessors.size()));
+    throw Error(location_, "does not exist", fmt::format("one of {} accessors", document.accessors.size()));
   const gltf::Accessor& accessor = document.accessors[index];
 
-  // Step 1: how large an element is.
-  if (accessor.count == 0) throw Error(place_, "has no elements", "1 or more", "0");
+  // Compute the size of an element.
+  if (accessor.count == 0) throw Error(location_, "no elements", "1 or more", "0");
   components_ = accessor.components;
   componentType_ = accessor.componentType;
   normalized_ = accessor.normalized;
   count_ = accessor.count;
-  elementBytes_ = sizeOfComponent(componentType_) * components_;
+  elementBytes_ = componentSize(componentType_) * components_;
 
-  // Step 2: the dense elements.
+  // Locate the dense elements.
   stride_ = elementBytes_;
   if (accessor.bufferView) {
     const std::size_t view = *accessor.bufferView;
     const std::span<const std::byte> bytes = gltfViewBytes(document, buffers, view, where);
     if (const std::size_t stride = document.bufferViews[view].byteStride; stride != 0) {
       if (stride < elementBytes_)
-        throw Error(place_, "has elements that overlap", fmt::format("a stride of {} bytes or more", elementBytes_),
+        throw Error(location_, "overlapping elements", fmt::format("a stride of {} bytes or more", elementBytes_),
                     fmt::to_string(stride));
       stride_ = stride;
     }
-    data_ = elementsOf(bytes, accessor.byteOffset, count_, stride_, elementBytes_, place_);
+    data_ = findElements(bytes, accessor.byteOffset, count_, stride_, elementBytes_, location_);
   }
 
-  // Step 3: what a sparse accessor puts in their place.
+  // Locate the elements that a sparse accessor replaces.
   if (!accessor.sparse) return;
   const gltf::SparseElements& sparse = *accessor.sparse;
   if (!isUnsigned(sparse.indicesType))
-    throw Error(place_, "has sparse indices of an unknown type", "5121, 5123 or 5125",
+    throw Error(location_, "unknown type of sparse indices", "5121, 5123 or 5125",
                 fmt::to_string(static_cast<std::uint32_t>(sparse.indicesType)));
   if (sparse.count == 0 || sparse.count > count_)
-    throw Error(place_, "replaces more elements than it has, or none", fmt::format("1 to {}", count_),
+    throw Error(location_, "invalid number of sparse elements", fmt::format("1 to {}", count_),
                 fmt::to_string(sparse.count));
-  const std::size_t indexBytes = sizeOfComponent(sparse.indicesType);
+  const std::size_t indexBytes = componentSize(sparse.indicesType);
   const auto viewBytes = [&](std::size_t view) { return gltfViewBytes(document, buffers, view, where); };
   const std::span<const std::byte> indices =
-      elementsOf(viewBytes(sparse.indicesView), sparse.indicesByteOffset, sparse.count, indexBytes, indexBytes,
-                 place_ + ".sparse.indices");
-  sparseData_ = elementsOf(viewBytes(sparse.valuesView), sparse.valuesByteOffset, sparse.count, elementBytes_,
-                           elementBytes_, place_ + ".sparse.values");
+      findElements(viewBytes(sparse.indicesView), sparse.indicesByteOffset, sparse.count, indexBytes, indexBytes,
+                   location_ + ".sparse.indices");
+  sparseData_ = findElements(viewBytes(sparse.valuesView), sparse.valuesByteOffset, sparse.count, elementBytes_,
+                             elementBytes_, location_ + ".sparse.values");
   sparseIndices_.reserve(sparse.count);
   for (std::size_t i = 0; i < sparse.count; ++i) {
     const std::uint32_t value = unsignedAt(indices.data() + i * indexBytes, sparse.indicesType);
     if (value >= count_ || (i > 0 && value <= sparseIndices_.back()))
-      throw Error(place_ + ".sparse.indices", fmt::format("index {} is out of order or range", i),
+      throw Error(location_ + ".sparse.indices", fmt::format("index {} is out of order or range", i),
                   fmt::format("ascending, below {}", count_), fmt::to_string(value));
     sparseIndices_.push_back(value);
   }
@@ -153,21 +153,21 @@ GltfAccessor::GltfAccessor(const gltf::Document& document, GltfBuffers& buffers,
 
 void GltfAccessor::requireVectors(bool quantized) const {
   const bool isFloat = componentType_ == ComponentType::float32;
-  if (components_ != 3 || (!isFloat && !(quantized && sizeOfComponent(componentType_) <= 2)))
-    throw Error(place_, "is of the wrong type", quantized ? "VEC3 of floats, shorts or bytes" : "VEC3 of floats (5126)",
+  if (components_ != 3 || (!isFloat && !(quantized && componentSize(componentType_) <= 2)))
+    throw Error(location_, "wrong type", quantized ? "VEC3 of floats, shorts or bytes" : "VEC3 of floats (5126)",
                 fmt::format("{} components of type {}", components_, static_cast<std::uint32_t>(componentType_)));
   if (!isFloat) return;
   for (std::size_t i = 0; i < count_; ++i) {
     const glm::dvec3 v = vector(i);
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-      throw Error(place_, fmt::format("element {} is not finite", i), "finite numbers",
+      throw Error(location_, fmt::format("element {} is not finite", i), "finite numbers",
                   fmt::format("({}, {}, {})", v.x, v.y, v.z));
   }
 }
 
 void GltfAccessor::requireIndices() const {
   if (components_ != 1 || normalized_ || !isUnsigned(componentType_))
-    throw Error(place_, "is of the wrong type for indices", "SCALAR of 5121, 5123 or 5125",
+    throw Error(location_, "wrong type of indices", "SCALAR of 5121, 5123 or 5125",
                 fmt::format("{} components of type {}", components_, static_cast<std::uint32_t>(componentType_)));
 }
 
@@ -183,7 +183,7 @@ const std::byte* GltfAccessor::element(std::size_t i) const {
 glm::dvec3 GltfAccessor::vector(std::size_t i) const {
   const std::byte* bytes = element(i);
   if (bytes == nullptr) return glm::dvec3(0);
-  const std::size_t step = sizeOfComponent(componentType_);
+  const std::size_t step = componentSize(componentType_);
   return {component(bytes, componentType_, normalized_), component(bytes + step, componentType_, normalized_),
           component(bytes + 2 * step, componentType_, normalized_)};
 }
@@ -194,7 +194,7 @@ std::uint32_t GltfAccessor::wholeNumber(std::size_t i) const {
 }
 
 std::uint32_t GltfAccessor::restart() const {
-  return static_cast<std::uint32_t>((std::uint64_t{1} << (8 * sizeOfComponent(componentType_))) - 1);
+  return static_cast<std::uint32_t>((std::uint64_t{1} << (8 * componentSize(componentType_))) - 1);
 }
 
 }  // namespace malus::prep

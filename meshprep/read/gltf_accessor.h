@@ -1,6 +1,5 @@
-// The numbers of a glTF accessor, read where they lie: nothing is copied. Sparse accessors put other values in place
-// of some; without a buffer view the others are zero.
-// Source: glTF 2.0 Specification, section 3.6.2, "Accessors".
+// View of the elements of a glTF accessor in its buffer, without copies. Sparse accessors replace some elements;
+// without a buffer view the others are zero. Source: glTF 2.0 Specification, section 3.6.2, "Accessors".
 #pragma once
 
 #include <cstddef>
@@ -18,28 +17,27 @@ namespace malus::prep {
 
 class GltfAccessor {
  public:
-  // Checks that every element lies within its bytes, and that what a sparse accessor replaces is there. `where` is
-  // the file. Throws Error: no such accessor, view or buffer, elements that overlap, bytes that are missing.
+  // Checks that all elements are inside the buffer views. `where` is the file for messages. Throws Error: an accessor,
+  // view or buffer that does not exist, overlapping elements, missing bytes, sparse indices out of order or range.
   GltfAccessor(const gltf::Document& document, GltfBuffers& buffers, std::size_t index, const std::string& where);
 
   std::size_t count() const { return count_; }
-  const std::string& place() const { return place_; }  // for messages
+  const std::string& location() const { return location_; }  // for messages
   bool hasBytes() const { return !data_.empty(); }
 
-  // Throws Error unless it is what vertices may have: vectors of three floats, or, quantized, of whole numbers that
-  // are bytes or shorts. A float that is not finite is an error too.
+  // Throws Error unless the elements are vectors of three finite floats or, if quantized, of three bytes or shorts.
   void requireVectors(bool quantized) const;
-  // Throws Error unless it is what indices may be: scalars of 8, 16 or 32 unsigned bits.
+  // Throws Error unless the elements are unsigned integers of 8, 16 or 32 bits.
   void requireIndices() const;
 
-  glm::dvec3 vector(std::size_t i) const;  // normalized where the accessor says so
+  glm::dvec3 vector(std::size_t i) const;  // normalized if the accessor is
   std::uint32_t wholeNumber(std::size_t i) const;
-  std::uint32_t restart() const;  // the index that is none: the largest of its type
+  std::uint32_t restart() const;  // primitive restart value: the largest of its type, not a valid index
 
  private:
   const std::byte* element(std::size_t i) const;  // nullptr: zero
 
-  std::string place_;
+  std::string location_;
   std::size_t count_ = 0;
   gltf::ComponentType componentType_{};
   std::size_t components_ = 0;
@@ -51,7 +49,7 @@ class GltfAccessor {
   std::span<const std::byte> sparseData_;
 };
 
-// The bytes of a buffer view. Throws Error: no such view or buffer, bytes that are missing.
+// Returns the bytes of a buffer view. Throws Error: a view or buffer that does not exist, missing bytes.
 std::span<const std::byte> gltfViewBytes(const gltf::Document& document, GltfBuffers& buffers, std::size_t view,
                                          const std::string& where);
 

@@ -24,12 +24,12 @@ std::uint32_t littleEndian(std::span<const std::byte> bytes, std::size_t offset)
   return value;
 }
 
-std::string_view textOf(std::span<const std::byte> bytes) {
+std::string_view toText(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 // Source: S. Josefsson, RFC 4648, section 4.
-std::vector<std::byte> decodeBase64(std::string_view text, const std::string& place) {
+std::vector<std::byte> decodeBase64(std::string_view text, const std::string& location) {
   static constexpr auto kValues = [] {
     std::array<int, 256> values{};
     values.fill(-1);
@@ -39,7 +39,7 @@ std::vector<std::byte> decodeBase64(std::string_view text, const std::string& pl
     return values;
   }();
   for (int padding = 0; padding < 2 && text.ends_with('='); ++padding) text.remove_suffix(1);
-  if (text.size() % 4 == 1) throw Error(place, "is no base64", "whole groups of letters", "one letter too many");
+  if (text.size() % 4 == 1) throw Error(location, "is not base64", "groups of 4 characters", "one character too many");
   std::vector<std::byte> bytes;
   bytes.reserve(text.size() / 4 * 3 + 2);
   std::uint32_t bits = 0;
@@ -47,7 +47,7 @@ std::vector<std::byte> decodeBase64(std::string_view text, const std::string& pl
   for (std::size_t i = 0; i < text.size(); ++i) {
     const int value = kValues[static_cast<unsigned char>(text[i])];
     if (value < 0)
-      throw Error(place, fmt::format("is no base64 at letter {}", i), "A-Z, a-z, 0-9, + or /",
+      throw Error(location, fmt::format("is not base64 at character {}", i), "A-Z, a-z, 0-9, + or /",
                   fmt::format("byte {:#04x}", static_cast<unsigned>(static_cast<unsigned char>(text[i]))));
     bits = (bits << 6 | static_cast<std::uint32_t>(value)) & 0xffffffu;
     held += 6;
@@ -58,7 +58,7 @@ std::vector<std::byte> decodeBase64(std::string_view text, const std::string& pl
   return bytes;
 }
 
-std::string percentDecoded(std::string_view uri, const std::string& place) {
+std::string decodePercent(std::string_view uri, const std::string& location) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
     if (uri[i] != '%') {
@@ -68,7 +68,7 @@ std::string percentDecoded(std::string_view uri, const std::string& place) {
     unsigned value = 0;
     const char* const begin = uri.data() + i + 1;
     if (i + 2 >= uri.size() || std::from_chars(begin, begin + 2, value, 16).ptr != begin + 2)
-      throw Error(place, "has a bad percent code", "% and two hexadecimal digits", std::string(uri.substr(i, 3)));
+      throw Error(location, "invalid percent-encoding", "% and two hexadecimal digits", std::string(uri.substr(i, 3)));
     text += static_cast<char>(value);
     i += 2;
   }
@@ -81,38 +81,39 @@ GltfContainer::GltfContainer(const std::filesystem::path& path) : bytes_(readFil
   const std::string where = path.string();
   const std::span<const std::byte> bytes(bytes_);
   const auto at = [&](std::size_t offset) { return fmt::format("{}, byte {}", where, offset); };
-  if (bytes.empty()) throw Error(where, "is empty", "glTF");
+  if (bytes.empty()) throw Error(where, "file is empty", "glTF");
 
-  // Step 1: JSON, perhaps behind a byte order mark.
-  json_ = textOf(bytes);
+  // Accept JSON, optionally after a byte order mark.
+  json_ = toText(bytes);
   if (!json_.starts_with("glTF")) {
     if (json_.starts_with("\xef\xbb\xbf")) json_.remove_prefix(3);
     return;
   }
 
-  // Step 2: a GLB says how long it is.
+  // Check the header of a GLB.
   if (bytes.size() < kHeaderBytes + kChunkHeaderBytes)
-    throw Error(at(bytes.size()), "is cut short", "the header of a GLB", "the end");
+    throw Error(at(bytes.size()), "unexpected end of file", "the header of a GLB");
   if (const std::uint32_t version = littleEndian(bytes, 4); version != 2)
-    throw Error(at(4), "is a GLB of another version", "2", fmt::to_string(version));
+    throw Error(at(4), "unsupported version of GLB", "2", fmt::to_string(version));
   const std::size_t length = littleEndian(bytes, 8);
   if (length != bytes.size())
-    throw Error(at(8), "has another length than it says", fmt::format("{} bytes", length),
-                fmt::format("{}", bytes.size()));
+    throw Error(at(8), "wrong length in the header", fmt::format("{} bytes", length),
+                fmt::format("{} bytes", bytes.size()));
 
-  // Step 3: its chunks, JSON first, then perhaps the buffer, then what is of no concern.
+  // Locate its chunks: JSON, optionally a buffer, then ignored ones.
   json_ = {};
   std::size_t chunks = 0;
   for (std::size_t offset = kHeaderBytes; offset < length; ++chunks) {
-    if (length - offset < kChunkHeaderBytes) throw Error(at(offset), "has a bad chunk", "8 bytes of header", "the end");
+    if (length - offset < kChunkHeaderBytes)
+      throw Error(at(offset), "unexpected end of file", "a chunk header of 8 bytes");
     const std::size_t size = littleEndian(bytes, offset);
     const std::uint32_t type = littleEndian(bytes, offset + 4);
     const std::size_t begin = offset + kChunkHeaderBytes;
     if (size > length - begin)
-      throw Error(at(offset), "has a chunk that ends behind the file", fmt::format("at most {} bytes", length - begin),
+      throw Error(at(offset), "chunk exceeds the file", fmt::format("at most {} bytes", length - begin),
                   fmt::to_string(size));
-    if (chunks == 0 && type != kJsonChunk) throw Error(at(offset + 4), "has another first chunk", "JSON");
-    if (chunks == 0) json_ = textOf(bytes.subspan(begin, size));
+    if (chunks == 0 && type != kJsonChunk) throw Error(at(offset + 4), "wrong type of the first chunk", "JSON");
+    if (chunks == 0) json_ = toText(bytes.subspan(begin, size));
     if (chunks == 1 && type == kBinChunk) {
       chunk_ = bytes.subspan(begin, size);
       hasChunk_ = true;
@@ -125,33 +126,35 @@ GltfBuffers::GltfBuffers(std::vector<gltf::Buffer> buffers, const GltfContainer&
     : container_(container), file_(std::move(file)), buffers_(std::move(buffers)), loaded_(buffers_.size()) {}
 
 std::span<const std::byte> GltfBuffers::bytes(std::size_t index) {
-  const std::string place = fmt::format("{}: buffers[{}]", file_.string(), index);
-  if (index >= buffers_.size()) throw Error(place, "is not there", fmt::format("one of {} buffers", buffers_.size()));
+  const std::string location = fmt::format("{}: buffers[{}]", file_.string(), index);
+  if (index >= buffers_.size())
+    throw Error(location, "does not exist", fmt::format("one of {} buffers", buffers_.size()));
   const gltf::Buffer& buffer = buffers_[index];
 
   std::span<const std::byte> data;
   if (!buffer.uri.empty()) {
-    if (loaded_[index] == nullptr) loaded_[index] = load(buffer.uri, place + ".uri");
+    if (loaded_[index] == nullptr) loaded_[index] = load(buffer.uri, location + ".uri");
     data = *loaded_[index];
   } else if (index == 0 && container_.hasChunk()) {
     data = container_.chunk();
   } else {
-    throw Error(place, "has no bytes", "a uri, or the second chunk of a GLB for buffer 0", "neither");
+    throw Error(location, "buffer has no bytes", "a uri, or for buffer 0 the second chunk of a GLB");
   }
   if (data.size() < buffer.byteLength)
-    throw Error(place, "has fewer bytes than it says", fmt::to_string(buffer.byteLength), fmt::to_string(data.size()));
+    throw Error(location, "buffer is shorter than its byteLength", fmt::to_string(buffer.byteLength),
+                fmt::to_string(data.size()));
   return data.first(buffer.byteLength);
 }
 
-std::shared_ptr<const std::vector<std::byte>> GltfBuffers::load(const std::string& uri, const std::string& place) {
+std::shared_ptr<const std::vector<std::byte>> GltfBuffers::load(const std::string& uri, const std::string& location) {
   if (isDataUri(uri)) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64"))
-      throw Error(place, "is a data URI of another kind", "data:application/octet-stream;base64,", uri.substr(0, 40));
+      throw Error(location, "unsupported data URI", "data:application/octet-stream;base64,", uri.substr(0, 40));
     const std::string_view text = std::string_view(uri).substr(comma + 1);
-    return std::make_shared<const std::vector<std::byte>>(decodeBase64(text, place));
+    return std::make_shared<const std::vector<std::byte>>(decodeBase64(text, location));
   }
-  const std::filesystem::path path = gltfFileOf(file_, uri, place);
+  const std::filesystem::path path = resolveGltfUri(file_, uri, location);
   std::shared_ptr<const std::vector<std::byte>>& data = files_[path];
   if (data == nullptr) {
     data = std::make_shared<const std::vector<std::byte>>(readFile(path));
@@ -160,10 +163,11 @@ std::shared_ptr<const std::vector<std::byte>> GltfBuffers::load(const std::strin
   return data;
 }
 
-std::filesystem::path gltfFileOf(const std::filesystem::path& file, std::string_view uri, const std::string& place) {
-  const std::string name = percentDecoded(uri, place);
+std::filesystem::path resolveGltfUri(const std::filesystem::path& file, std::string_view uri,
+                                     const std::string& location) {
+  const std::string name = decodePercent(uri, location);
   const auto fail = [&] {
-    throw Error(place, "names a file that is not read", "one beside the glTF file or below",
+    throw Error(location, "file reference is not allowed", "a file in the folder of the glTF file or below it",
                 "'" + name.substr(0, 80) + "'");
   };
   const std::size_t colon = name.find(':');

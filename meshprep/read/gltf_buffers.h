@@ -49,7 +49,7 @@ class GltfBuffers {
   std::size_t bytesRead() const { return bytesRead_; }  // of buffers outside the container
 
  private:
-  std::shared_ptr<const std::vector<std::byte>> load(const std::string& uri, const std::string& place);
+  std::shared_ptr<const std::vector<std::byte>> load(const std::string& uri, const std::string& location);
 
   const GltfContainer& container_;
   std::filesystem::path file_;
@@ -59,9 +59,10 @@ class GltfBuffers {
   std::size_t bytesRead_ = 0;
 };
 
-// Path of the file that a buffer's URI names, percent-decoded, in the folder of `file` or below it. `place` is for
+// Path of the file that a buffer's URI names, percent-decoded, in the folder of `file` or below it. `location` is for
 // messages. Throws Error: a URI with a scheme, an absolute path, a path that leaves the folder.
-std::filesystem::path gltfFileOf(const std::filesystem::path& file, std::string_view uri, const std::string& place);
+std::filesystem::path resolveGltfUri(const std::filesystem::path& file, std::string_view uri,
+                                     const std::string& location);
 
 inline bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
 

@@ -32,7 +32,7 @@ const json& child(const json& object, const char* key) {
   return found == object.end() ? kEmpty : *found;
 }
 
-ComponentType componentType(const json& object, const std::string& place) {
+ComponentType componentType(const json& object, const std::string& location) {
   const auto type = object.at("componentType").get<std::uint32_t>();
   switch (static_cast<ComponentType>(type)) {
     case ComponentType::int8:
@@ -43,35 +43,36 @@ ComponentType componentType(const json& object, const std::string& place) {
     case ComponentType::float32:
       return static_cast<ComponentType>(type);
   }
-  throw Error(place + ".componentType", "unknown component type", "5120 to 5123, 5125 or 5126", fmt::to_string(type));
+  throw Error(location + ".componentType", "unknown component type", "5120 to 5123, 5125 or 5126",
+              fmt::to_string(type));
 }
 
-std::size_t componentCount(const json& accessor, const std::string& place) {
+std::size_t componentCount(const json& accessor, const std::string& location) {
   constexpr std::array<std::pair<std::string_view, std::size_t>, 7> kTypes = {
       {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
   const auto& type = accessor.at("type").get_ref<const std::string&>();
   const auto* const found = std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& t) { return t.first == type; });
   if (found == kTypes.end())
-    throw Error(place + ".type", "unknown element type", "SCALAR, VEC2 to VEC4 or MAT2 to MAT4",
+    throw Error(location + ".type", "unknown element type", "SCALAR, VEC2 to VEC4 or MAT2 to MAT4",
                 "'" + type.substr(0, 40) + "'");
   return found->second;
 }
 
-Accessor toAccessor(const json& object, const std::string& place) {
+Accessor toAccessor(const json& object, const std::string& location) {
   Accessor accessor;
   get(object, "bufferView", accessor.bufferView);
   get(object, "byteOffset", accessor.byteOffset);
-  accessor.componentType = componentType(object, place);
+  accessor.componentType = componentType(object, location);
   get(object, "normalized", accessor.normalized);
   accessor.count = object.at("count").get<std::size_t>();
-  accessor.components = componentCount(object, place);
+  accessor.components = componentCount(object, location);
   if (const auto sparse = object.find("sparse"); sparse != object.end()) {
     const json &indices = sparse->at("indices"), &values = sparse->at("values");
     SparseElements elements;
     elements.count = sparse->at("count").get<std::size_t>();
     elements.indicesView = indices.at("bufferView").get<std::size_t>();
     get(indices, "byteOffset", elements.indicesByteOffset);
-    elements.indicesType = componentType(indices, place + ".sparse.indices");
+    elements.indicesType = componentType(indices, location + ".sparse.indices");
     elements.valuesView = values.at("bufferView").get<std::size_t>();
     get(values, "byteOffset", elements.valuesByteOffset);
     accessor.sparse = elements;
@@ -79,14 +80,14 @@ Accessor toAccessor(const json& object, const std::string& place) {
   return accessor;
 }
 
-BufferView toBufferView(const json& object, const std::string& place) {
+BufferView toBufferView(const json& object, const std::string& location) {
   BufferView view;
   view.buffer = object.at("buffer").get<std::size_t>();
   get(object, "byteOffset", view.byteOffset);
   view.byteLength = object.at("byteLength").get<std::size_t>();
   get(object, "byteStride", view.byteStride);
   if (view.byteStride > kMaxStride || view.byteStride % 4 != 0)
-    throw Error(place + ".byteStride", "invalid stride", fmt::format("a multiple of 4 up to {}", kMaxStride),
+    throw Error(location + ".byteStride", "invalid stride", fmt::format("a multiple of 4 up to {}", kMaxStride),
                 fmt::to_string(view.byteStride));
   return view;
 }
@@ -160,7 +161,7 @@ json takeList(json& document, const char* key) {
 
 Document toDocument(json document, const std::string& where) {
   Document result;
-  const auto place = [&](const char* list, std::size_t i) { return fmt::format("{}: {}[{}]", where, list, i); };
+  const auto location = [&](const char* list, std::size_t i) { return fmt::format("{}: {}[{}]", where, list, i); };
   get(document, "scene", result.defaultScene);
   for (const json& name : takeList(document, "extensionsUsed"))
     result.quantized = result.quantized || name == "KHR_mesh_quantization";
@@ -168,9 +169,9 @@ Document toDocument(json document, const std::string& where) {
   for (const json& node : takeList(document, "nodes")) result.nodes.push_back(toNode(node));
   for (const json& mesh : takeList(document, "meshes")) result.meshes.push_back(toMesh(mesh));
   for (const json& accessor : takeList(document, "accessors"))
-    result.accessors.push_back(toAccessor(accessor, place("accessors", result.accessors.size())));
+    result.accessors.push_back(toAccessor(accessor, location("accessors", result.accessors.size())));
   for (const json& view : takeList(document, "bufferViews"))
-    result.bufferViews.push_back(toBufferView(view, place("bufferViews", result.bufferViews.size())));
+    result.bufferViews.push_back(toBufferView(view, location("bufferViews", result.bufferViews.size())));
   for (json& buffer : takeList(document, "buffers")) {
     std::string uri;
     if (const auto found = buffer.find("uri"); found != buffer.end()) uri = std::move(found->get_ref<std::string&>());

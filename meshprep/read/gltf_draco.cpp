@@ -22,20 +22,20 @@ namespace {
 constexpr int kMaxAttributes = 16;
 constexpr int kMaxVertexBytes = 128;
 
-// Draco's decoder, stopped where its counts are not those of the accessors, and between the description of the
-// attributes and their values.
+// Decoder of Draco that fails unless its counts equal those of the accessors, and checks the attributes' descriptions
+// before it decodes their values.
 template <class Base>
-class Guarded : public Base {
+class CheckedDecoder : public Base {
  public:
-  explicit Guarded(const GltfDracoClaims& claims) : claims_(claims) {}
-  const std::string& refusal() const { return refusal_; }
+  explicit CheckedDecoder(const GltfDracoCounts& counts) : counts_(counts) {}
+  const std::string& mismatch() const { return mismatch_; }
 
  protected:
   bool DecodeConnectivity() override {
     if (!Base::DecodeConnectivity()) return false;
     const std::size_t points = this->point_cloud()->num_points(), faces = this->mesh()->num_faces();
-    if (points == claims_.vertices && faces == claims_.triangles) return true;
-    refusal_ = fmt::format("{} vertices and {} triangles", points, faces);
+    if (points == counts_.vertices && faces == counts_.triangles) return true;
+    mismatch_ = fmt::format("{} vertices and {} triangles", points, faces);
     return false;
   }
   bool DecodeAllAttributes() override {
@@ -44,44 +44,45 @@ class Guarded : public Base {
     for (int i = 0; i < cloud.num_attributes(); ++i)
       vertexBytes += cloud.attribute(i)->num_components() * draco::DataTypeLength(cloud.attribute(i)->data_type());
     if (cloud.num_attributes() <= kMaxAttributes && vertexBytes <= kMaxVertexBytes) return Base::DecodeAllAttributes();
-    refusal_ = fmt::format("{} attributes of {} bytes a vertex", cloud.num_attributes(), vertexBytes);
+    mismatch_ = fmt::format("{} attributes of {} bytes per vertex", cloud.num_attributes(), vertexBytes);
     return false;
   }
 
  private:
-  GltfDracoClaims claims_;
-  std::string refusal_;
+  GltfDracoCounts counts_;
+  std::string mismatch_;
 };
 
-std::string expectedOf(const GltfDracoClaims& claims) {
-  return fmt::format("{} vertices and {} triangles, in at most {} attributes of {} bytes a vertex", claims.vertices,
-                     claims.triangles, kMaxAttributes, kMaxVertexBytes);
+std::string describeExpected(const GltfDracoCounts& counts) {
+  return fmt::format("{} vertices and {} triangles, in at most {} attributes of {} bytes per vertex", counts.vertices,
+                     counts.triangles, kMaxAttributes, kMaxVertexBytes);
 }
 
 template <class Base>
-void run(std::span<const std::byte> bytes, const GltfDracoClaims& claims, draco::Mesh& mesh, const std::string& place) {
+void run(std::span<const std::byte> bytes, const GltfDracoCounts& counts, draco::Mesh& mesh,
+         const std::string& location) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  Guarded<Base> decoder(claims);
+  CheckedDecoder<Base> decoder(counts);
   draco::Status status;
   try {
     status = decoder.Decode(draco::DecoderOptions(), &buffer, &mesh);
-  } catch (const std::exception& failure) {  // std::bad_alloc and std::length_error from damaged sizes
-    throw Error(place, "Draco data is damaged", "", failure.what());
+  } catch (const std::exception& failure) {  // std::bad_alloc and std::length_error, from corrupt sizes
+    throw Error(location, fmt::format("Draco data is corrupt: {}", failure.what()));
   }
   if (status.ok()) return;
-  if (!decoder.refusal().empty())
-    throw Error(place, "Draco data of another mesh", expectedOf(claims), decoder.refusal());
-  throw Error(place, "Draco data is damaged", "", status.error_msg_string());
+  if (!decoder.mismatch().empty())
+    throw Error(location, "Draco data has unexpected counts", describeExpected(counts), decoder.mismatch());
+  throw Error(location, fmt::format("Draco data is corrupt: {}", status.error_msg_string()));
 }
 
-// The values of the attribute with this id, one a vertex.
-std::vector<glm::vec3> valuesOf(const draco::Mesh& mesh, std::uint32_t id, std::string_view what,
-                                const std::string& place) {
+// Returns the values of the attribute with this id, one per vertex.
+std::vector<glm::vec3> attributeValues(const draco::Mesh& mesh, std::uint32_t id, std::string_view what,
+                                       const std::string& location) {
   const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);
   if (attribute == nullptr || attribute->num_components() != 3 || attribute->data_type() != draco::DT_FLOAT32 ||
       attribute->buffer() == nullptr)
-    throw Error(place, fmt::format("Draco data has no {} of that id", what), "an attribute of three floats",
+    throw Error(location, fmt::format("missing {} attribute in the Draco data", what), "an attribute of three floats",
                 fmt::format("attribute {}", id));
   std::vector<glm::vec3> values;
   values.reserve(mesh.num_points());
@@ -89,11 +90,11 @@ std::vector<glm::vec3> valuesOf(const draco::Mesh& mesh, std::uint32_t id, std::
   for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
     const draco::AttributeValueIndex index = attribute->mapped_index(draco::PointIndex(i));
     if (index.value() >= attribute->size() || index.value() >= available)
-      throw Error(place, fmt::format("the {} of vertex {} is missing", what, i));
+      throw Error(location, fmt::format("the {} of vertex {} is missing", what, i));
     std::array<float, 3> v{};
     attribute->GetValue(index, v.data());
     if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
-      throw Error(place, fmt::format("the {} of vertex {} is not finite", what, i));
+      throw Error(location, fmt::format("the {} of vertex {} is not finite", what, i));
     values.emplace_back(v[0], v[1], v[2]);
   }
   return values;
@@ -101,34 +102,35 @@ std::vector<glm::vec3> valuesOf(const draco::Mesh& mesh, std::uint32_t id, std::
 
 }  // namespace
 
-GltfDracoMesh decodeGltfDraco(std::span<const std::byte> bytes, const GltfDracoClaims& claims,
-                              const std::string& place) {
-  // Step 1: what the data claims. An edgebreaker's vertices are split at seams, so they may be fewer, never more.
-  const compress::DracoHeader header = compress::parseHeader(bytes, place, kMaxAttributes);
+GltfDracoMesh decodeGltfDraco(std::span<const std::byte> bytes, const GltfDracoCounts& counts,
+                              const std::string& location) {
+  // Check the declared counts. Edgebreaker declares fewer vertices if it splits them at seams.
+  const compress::DracoHeader header = compress::parseHeader(bytes, location, kMaxAttributes);
   const bool sequential = header.method == compress::Method::kSequential;
-  if (header.triangles != claims.triangles || header.vertices > claims.vertices ||
-      (sequential && header.vertices != claims.vertices))
-    throw Error(place, "Draco data of another mesh", expectedOf(claims),
+  if (header.triangles != counts.triangles || header.vertices > counts.vertices ||
+      (sequential && header.vertices != counts.vertices))
+    throw Error(location, "Draco data has unexpected counts", describeExpected(counts),
                 fmt::format("{} and {}", header.vertices, header.triangles));
 
-  // Step 2: decode.
+  // Decode.
   draco::Mesh mesh;
   if (sequential) {
-    run<draco::MeshSequentialDecoder>(bytes, claims, mesh, place);
+    run<draco::MeshSequentialDecoder>(bytes, counts, mesh, location);
   } else {
-    run<draco::MeshEdgebreakerDecoder>(bytes, claims, mesh, place);
+    run<draco::MeshEdgebreakerDecoder>(bytes, counts, mesh, location);
   }
 
-  // Step 3: copy out, checking every value.
+  // Copy and check all values.
   GltfDracoMesh result;
-  for (const glm::vec3& p : valuesOf(mesh, claims.positionId, "position", place)) result.positions.emplace_back(p);
-  if (claims.normalId) result.normals = valuesOf(mesh, *claims.normalId, "normal", place);
-  result.corners.reserve(3 * claims.triangles);
+  for (const glm::vec3& p : attributeValues(mesh, counts.positionId, "position", location))
+    result.positions.emplace_back(p);
+  if (counts.normalId) result.normals = attributeValues(mesh, *counts.normalId, "normal", location);
+  result.corners.reserve(3 * counts.triangles);
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i)
     for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(i))) {
-      if (corner.value() >= claims.vertices)
-        throw Error(place, fmt::format("triangle {} of the Draco data names a vertex that is not there", i),
-                    fmt::format("below {}", claims.vertices), fmt::to_string(corner.value()));
+      if (corner.value() >= counts.vertices)
+        throw Error(location, fmt::format("invalid vertex index in triangle {} of the Draco data", i),
+                    fmt::format("an index below {}", counts.vertices), fmt::to_string(corner.value()));
       result.corners.push_back(corner.value());
     }
   return result;

@@ -1,6 +1,6 @@
-// One primitive of KHR_draco_mesh_compression, decoded under guard: what the bytes claim must be what the accessors
-// say before Draco allocates by it (61 bytes can claim 20 GB). Attributes that nobody here needs (texture
-// coordinates, tangents, colours) may be there; they are decoded, because Draco cannot pass over them, and dropped.
+// Decoding of a primitive with KHR_draco_mesh_compression. The declared counts must equal those of the accessors before
+// Draco allocates memory (61 bytes can declare 20 GB). Other attributes (texture coordinates, tangents, colours) are
+// decoded, because Draco cannot skip them, and dropped.
 // Source: KHR_draco_mesh_compression; Draco bitstream specification 2.2, https://google.github.io/draco/spec/.
 #pragma once
 
@@ -15,8 +15,8 @@
 
 namespace malus::prep {
 
-// What the file's accessors say about the primitive, and the ids of the attributes in the Draco data.
-struct GltfDracoClaims {
+// Counts of the accessors, and ids of the attributes in the Draco data.
+struct GltfDracoCounts {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::uint32_t positionId = 0;
@@ -25,13 +25,14 @@ struct GltfDracoClaims {
 
 struct GltfDracoMesh {
   std::vector<glm::dvec3> positions;
-  std::vector<glm::vec3> normals;      // one a position, or none
-  std::vector<std::uint32_t> corners;  // three a triangle
+  std::vector<glm::vec3> normals;      // one per position, or empty
+  std::vector<std::uint32_t> corners;  // three per triangle
 };
 
-// place: the primitive, for messages. Throws Error: no Draco 2.2 mesh, other counts, an attribute that is not there
-// or not three floats, more than 16 attributes or 128 bytes a vertex, numbers that are not finite, damaged data.
-GltfDracoMesh decodeGltfDraco(std::span<const std::byte> bytes, const GltfDracoClaims& claims,
-                              const std::string& place);
+// location: the primitive, for messages. Throws Error: not a Draco 2.2 mesh, unexpected counts, an attribute that is
+// missing or not three floats, more than 16 attributes or 128 bytes per vertex, values that are not finite, corrupt
+// data.
+GltfDracoMesh decodeGltfDraco(std::span<const std::byte> bytes, const GltfDracoCounts& counts,
+                              const std::string& location);
 
 }  // namespace malus::prep

@@ -21,12 +21,12 @@ using nlohmann::json;
 namespace {
 
 constexpr int kMaxNesting = 64;
-constexpr std::size_t kMinObjects = 200'000;  // are always allowed
+constexpr std::size_t kMinObjects = 200'000;  // lower bound of the limit
 constexpr std::size_t kBytesPerObject = 50;
 constexpr std::int64_t kMaxIndex = 0x7fffffff;
-constexpr std::int64_t kMaxSize = std::int64_t{1} << 53;  // what every JSON reader holds
+constexpr std::int64_t kMaxSize = std::int64_t{1} << 53;  // exact in every JSON reader
 
-// Extensions that are read, and those that touch nothing but textures, which are left out anyway.
+// Extensions that are read, and those that affect ignored textures only.
 constexpr std::array<std::string_view, 10> kKnownExtensions = {
     "KHR_draco_mesh_compression", "KHR_mesh_quantization",
     "KHR_materials_ior",          "KHR_materials_transmission",
@@ -34,8 +34,8 @@ constexpr std::array<std::string_view, 10> kKnownExtensions = {
     "KHR_texture_transform",      "KHR_texture_basisu",
     "EXT_texture_webp",           "EXT_texture_avif"};
 
-// Makes a document of what is kept, event by event of nlohmann's parser. (Its own filter by callback looks through the
-// whole list for every object that ends: quadratic.)
+// Builds the document of kept keys from the parser's events. nlohmann's filter by callback needs quadratic time,
+// because it searches the whole list at the end of each object.
 class Builder : public json::json_sax_t {
  public:
   Builder(std::size_t textBytes, const std::string& where, std::vector<std::string>& notes)
@@ -52,7 +52,7 @@ class Builder : public json::json_sax_t {
     if (isKept()) count();
     return put(std::move(value));
   }
-  bool binary(json::binary_t&) override { return false; }  // JSON has none
+  bool binary(json::binary_t&) override { return false; }  // not in JSON
   bool start_object(std::size_t) override {
     if (isKept()) count();
     return open(json::object());
@@ -72,30 +72,30 @@ class Builder : public json::json_sax_t {
     isDropped_ = rule == nullptr || rule->type == Type::noted;
     if (isDropped_) return true;
     if (object.value->contains(key))
-      throw Error(where_, fmt::format("key '{}' is there twice in one object", path_), "each key once");
+      throw Error(where_, fmt::format("duplicate key '{}'", path_), "each key once per object");
     key_ = std::move(key);
     return true;
   }
 
   bool parse_error(std::size_t byte, const std::string&, const json::exception& error) override {
     constexpr int kNumberOutOfRange = 406;
-    const std::string place = fmt::format("{}, byte {} of the JSON", where_, byte > 0 ? byte - 1 : 0);
+    const std::string location = fmt::format("{}, byte {} of the JSON", where_, byte > 0 ? byte - 1 : 0);
     if (error.id == kNumberOutOfRange)
-      throw Error(place, "holds a number that no double holds", "glTF 2.0", error.what());
-    throw Error(place, "is not JSON", "glTF 2.0", error.what());
+      throw Error(location, fmt::format("number out of the range of double: {}", error.what()));
+    throw Error(location, fmt::format("is not JSON: {}", error.what()), "glTF 2.0");
   }
 
  private:
-  // A list or object that is being filled.
+  // List or object that has not ended.
   struct Open {
     json* value;
-    std::size_t pathSize;  // of its own path; lists have that of their key
+    std::size_t pathSize;  // length of its path; lists have the path of their key
   };
 
   bool isKept() const { return droppedLevels_ == 0 && !isDropped_; }
 
-  // Puts a kept value where it belongs.
-  json* place(json value) {
+  // Inserts a kept value into the document.
+  json* insert(json value) {
     if (open_.empty()) {
       root_ = std::move(value);
       return &root_;
@@ -109,22 +109,22 @@ class Builder : public json::json_sax_t {
   }
 
   bool put(json value) {
-    if (isKept()) place(std::move(value));
+    if (isKept()) insert(std::move(value));
     if (droppedLevels_ == 0) isDropped_ = false;
     return true;
   }
 
   bool open(json value) {
     if (++levels_ > kMaxNesting)
-      throw Error(where_, "JSON is nested too deep", fmt::format("at most {} levels", kMaxNesting));
+      throw Error(where_, "JSON is nested too deeply", fmt::format("at most {} levels", kMaxNesting));
     if (!isKept()) {
       ++droppedLevels_;
       isDropped_ = false;
       return true;
     }
-    // In a list the path is that of the list's key, which the last object may have gone below.
+    // Restore the path of the list, which the last object may have extended.
     if (!open_.empty() && open_.back().value->is_array()) path_.resize(open_.back().pathSize);
-    open_.push_back({place(std::move(value)), path_.size()});
+    open_.push_back({insert(std::move(value)), path_.size()});
     return true;
   }
 
@@ -139,8 +139,8 @@ class Builder : public json::json_sax_t {
 
   void count() {
     if (objectsLeft_-- == 0)
-      throw Error(where_, "holds more objects than its size gives reason for",
-                  fmt::format("at most {}, or one for {} bytes", kMinObjects, kBytesPerObject));
+      throw Error(where_, "too many objects for the file size",
+                  fmt::format("at most {}, or one per {} bytes", kMinObjects, kBytesPerObject));
   }
 
   const std::string& where_;
@@ -148,85 +148,86 @@ class Builder : public json::json_sax_t {
   std::size_t objectsLeft_;
   json root_;
   std::vector<Open> open_;
-  std::string path_;  // of the last key
+  std::string path_;  // path of the last key
   std::string key_;
   int levels_ = 0;
-  int droppedLevels_ = 0;   // how deep inside of a dropped value
-  bool isDropped_ = false;  // the value of the last key is to be dropped
+  int droppedLevels_ = 0;   // levels within a dropped value
+  bool isDropped_ = false;  // the value of the last key is dropped
 };
 
-// Checks that every kept value has the type of its rule.
+// Checks the types of kept values by their rules.
 class TypeCheck {
  public:
   explicit TypeCheck(const std::string& where) : where_(where) {}
 
-  // path: of rules; place: for messages.
-  void object(const json& value, const std::string& path, const std::string& place) const {
+  // path: of the rules, without indices. location: for messages.
+  void object(const json& value, const std::string& path, const std::string& location) const {
     for (const std::string_view key : requiredKeys(path))
-      if (!value.contains(key)) throw Error(fmt::format("{}: {}", where_, joined(place, key)), "is missing", "it");
+      if (!value.contains(key))
+        throw Error(fmt::format("{}: {}", where_, joined(location, key)), "missing key", fmt::format("'{}'", key));
     for (auto item = value.begin(); item != value.end(); ++item)
-      check(item.value(), path.empty() ? item.key() : path + "/" + item.key(), joined(place, item.key()));
+      check(item.value(), path.empty() ? item.key() : path + "/" + item.key(), joined(location, item.key()));
   }
 
  private:
-  static std::string joined(const std::string& place, std::string_view key) {
-    return place.empty() ? std::string(key) : fmt::format("{}.{}", place, key);
+  static std::string joined(const std::string& location, std::string_view key) {
+    return location.empty() ? std::string(key) : fmt::format("{}.{}", location, key);
   }
 
-  [[noreturn]] void fail(const std::string& place, std::string_view expected, const json& found) const {
+  [[noreturn]] void fail(const std::string& location, std::string_view expected, const json& found) const {
     std::string text = found.is_structured() ? std::string(found.type_name()) : found.dump();
     if (text.size() > 40) text = text.substr(0, 40) + "...";
-    throw Error(fmt::format("{}: {}", where_, place), "is of the wrong type", expected, text);
+    throw Error(fmt::format("{}: {}", where_, location), "wrong type", expected, text);
   }
 
-  void wholeNumber(const json& value, const std::string& place, std::int64_t most) const {
+  void wholeNumber(const json& value, const std::string& location, std::int64_t most) const {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most))
-      fail(place, fmt::format("a whole number of 0 to {}", most), value);
+      fail(location, fmt::format("an integer from 0 to {}", most), value);
   }
 
-  void check(const json& value, const std::string& path, const std::string& place) const {
-    const Rule& rule = *findRule(path);  // nothing else is kept
+  void check(const json& value, const std::string& path, const std::string& location) const {
+    const Rule& rule = *findRule(path);  // exists for every kept value
     switch (rule.type) {
       case Type::object:
-        if (!value.is_object()) fail(place, "an object", value);
-        object(value, path, place);
+        if (!value.is_object()) fail(location, "an object", value);
+        object(value, path, location);
         break;
       case Type::objects:
-        if (!value.is_array()) fail(place, "a list of objects", value);
+        if (!value.is_array()) fail(location, "a list of objects", value);
         for (std::size_t i = 0; i < value.size(); ++i) {
-          const std::string item = fmt::format("{}[{}]", place, i);
+          const std::string item = fmt::format("{}[{}]", location, i);
           if (!value[i].is_object()) fail(item, "an object", value[i]);
           object(value[i], path, item);
         }
         break;
       case Type::index:
-        wholeNumber(value, place, kMaxIndex);
+        wholeNumber(value, location, kMaxIndex);
         break;
       case Type::size:
-        wholeNumber(value, place, kMaxSize);
+        wholeNumber(value, location, kMaxSize);
         break;
       case Type::indices:
-        if (!value.is_array()) fail(place, "a list of whole numbers", value);
-        for (const json& item : value) wholeNumber(item, place, kMaxIndex);
+        if (!value.is_array()) fail(location, "a list of integers", value);
+        for (const json& item : value) wholeNumber(item, location, kMaxIndex);
         break;
       case Type::number:
-        if (!value.is_number()) fail(place, "a number", value);
+        if (!value.is_number()) fail(location, "a number", value);
         break;
       case Type::numbers:
-        if (!value.is_array() || value.size() != rule.size) fail(place, fmt::format("{} numbers", rule.size), value);
+        if (!value.is_array() || value.size() != rule.size) fail(location, fmt::format("{} numbers", rule.size), value);
         for (const json& item : value)
-          if (!item.is_number()) fail(place, fmt::format("{} numbers", rule.size), item);
+          if (!item.is_number()) fail(location, fmt::format("{} numbers", rule.size), item);
         break;
       case Type::text:
-        if (!value.is_string()) fail(place, "a string", value);
+        if (!value.is_string()) fail(location, "a string", value);
         break;
       case Type::texts:
-        if (!value.is_array()) fail(place, "a list of strings", value);
+        if (!value.is_array()) fail(location, "a list of strings", value);
         for (const json& item : value)
-          if (!item.is_string()) fail(place, "a list of strings", item);
+          if (!item.is_string()) fail(location, "a list of strings", item);
         break;
       case Type::flag:
-        if (!value.is_boolean()) fail(place, "true or false", value);
+        if (!value.is_boolean()) fail(location, "true or false", value);
         break;
       case Type::noted:
         break;
@@ -239,9 +240,9 @@ class TypeCheck {
 void checkVersion(const json& asset, const std::string& where) {
   const auto isTwo = [](const std::string& version) { return version == "2" || version.starts_with("2."); };
   const std::string version = asset.at("version").get<std::string>();
-  if (!isTwo(version)) throw Error(where + ": asset.version", "is of another version", "2.0", "'" + version + "'");
+  if (!isTwo(version)) throw Error(where + ": asset.version", "unsupported version", "2.0", "'" + version + "'");
   const std::string least = asset.value("minVersion", "2.0");
-  if (least != "2.0" && least != "2") throw Error(where + ": asset.minVersion", "is of a later version", "2.0", least);
+  if (least != "2.0" && least != "2") throw Error(where + ": asset.minVersion", "unsupported version", "2.0", least);
 }
 
 void checkExtensions(const json& document, const std::string& where, std::vector<std::string>& notes) {
@@ -251,7 +252,7 @@ void checkExtensions(const json& document, const std::string& where, std::vector
   const auto names = [&](const char* key) { return document.value(key, std::vector<std::string>()); };
   for (const std::string& name : names("extensionsRequired"))
     if (!known(name))
-      throw Error(where + ": extensionsRequired", "names an extension that is not known",
+      throw Error(where + ": extensionsRequired", "unknown extension",
                   fmt::format("{}", fmt::join(kKnownExtensions, ", ")), "'" + name.substr(0, 60) + "'");
   for (const std::string& name : names("extensionsUsed"))
     if (!known(name)) addNote(notes, fmt::format("extension {}", name.substr(0, 60)));
@@ -262,13 +263,13 @@ void checkExtensions(const json& document, const std::string& where, std::vector
 GltfJson parseGltfJson(std::string_view text, const std::string& where) {
   GltfJson result;
 
-  // Step 1: parse what is on the whitelist.
+  // Parse the keys of the whitelist.
   Builder builder(text.size(), where, result.notes);
   json::sax_parse(text, &builder);
   result.document = builder.take();
 
-  // Step 2: types, version, extensions.
-  if (!result.document.is_object()) throw Error(where, "is no glTF", "a JSON object", result.document.type_name());
+  // Check types, version and extensions.
+  if (!result.document.is_object()) throw Error(where, "is not glTF", "a JSON object", result.document.type_name());
   TypeCheck(where).object(result.document, "", "");
   checkVersion(result.document.at("asset"), where);
   checkExtensions(result.document, where, result.notes);

@@ -13,14 +13,13 @@
 namespace malus::prep {
 
 struct GltfJson {
-  nlohmann::json document;         // of the whitelist's keys
-  std::vector<std::string> notes;  // "textures"
+  nlohmann::json document;         // keys of the whitelist only
+  std::vector<std::string> notes;  // ignored content: "textures"
 };
 
-// `where` is the file for messages; errors add the place: "file: nodes[3].matrix", or a byte of the JSON. Throws
-// Error: no JSON, nested deeper than 64, a kept key that is there twice, a value of the wrong type, a required key
-// that is missing, a version other than 2, a required extension that is not known, more than max(200000, bytes / 50)
-// objects.
+// `where` is the file for messages; errors add the location: "FILE: nodes[3].matrix", or a byte of the JSON. Throws
+// Error: not JSON, more than 64 levels, a duplicate key, a value of the wrong type, a missing required key, a version
+// other than 2, an unknown required extension, more than max(200000, bytes / 50) objects.
 GltfJson parseGltfJson(std::string_view text, const std::string& where);
 
 }  // namespace malus::prep

@@ -18,11 +18,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Bounds of the numbers of one material.
 class BoundsCheck {
  public:
-  explicit BoundsCheck(const std::string& place) : place_(place) {}
+  explicit BoundsCheck(const std::string& location) : location_(location) {}
 
   double operator()(std::string_view key, double value, double low, double high) const {
     if (!(value >= low && value <= high))
-      throw Error(fmt::format("{}.{}", place_, key), "is out of range",
+      throw Error(fmt::format("{}.{}", location_, key), "is out of range",
                   high == kInfinity ? fmt::format("{} or more", low) : fmt::format("{} to {}", low, high),
                   fmt::to_string(value));
     return value;
@@ -35,13 +35,14 @@ class BoundsCheck {
   }
 
  private:
-  const std::string& place_;
+  const std::string& location_;
 };
 
 }  // namespace
 
-SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& place, std::vector<std::string>& notes) {
-  const BoundsCheck checked(place);
+SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& location,
+                            std::vector<std::string>& notes) {
+  const BoundsCheck checked(location);
   SourceMaterial result;
   result.name = material.name;
 
@@ -51,7 +52,7 @@ SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& p
   result.roughness = checked("pbrMetallicRoughness.roughnessFactor", material.roughnessFactor, 0, 1);
   result.emissive = checked("emissiveFactor", material.emissiveFactor);
   result.emissive *= checked("emissiveStrength", material.emissiveStrength, 0, 1e12);
-  if (material.alphaMode != "OPAQUE") addNote(notes, "coverage by alpha");
+  if (material.alphaMode != "OPAQUE") addNote(notes, "alpha coverage");
 
   // Transmission and volume. KHR_materials_ior reserves 0 for older shading models.
   result.ior = material.ior == 0 ? 1.5 : checked("ior", material.ior, 1, kInfinity);
@@ -60,9 +61,10 @@ SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& p
   result.attenuationColour = checked("attenuationColor", material.attenuationColor);
   result.attenuationDistance = material.attenuationDistance;
   if (!(result.attenuationDistance > 0))
-    throw Error(place + ".attenuationDistance", "is out of range", "more than 0 metres",
+    throw Error(location + ".attenuationDistance", "is out of range", "a positive distance in metres",
                 fmt::to_string(result.attenuationDistance));
-  if (result.transmission > 0 && !result.hasVolume) addNote(notes, "that walls without a volume are thin");
+  if (result.transmission > 0 && !result.hasVolume)
+    addNote(notes, "thin walls of transmissive materials without a volume");
   return result;
 }
 

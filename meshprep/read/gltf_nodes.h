@@ -1,4 +1,4 @@
-// The node graph of a glTF file as a flat list: every node of the scene that has a mesh, with its transform.
+// Instances of a glTF file: the nodes of the scene that have a mesh, with their transforms.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@ namespace malus::prep {
 
 struct GltfPlacement {
   std::size_t mesh = 0;
-  std::string name;  // of the node; "node 3" where it has none
+  std::string name;  // name of the node, or "node 3"
   glm::dmat4 worldFromObject{1.0};
 };
 
-// In the order of the graph, depth first. Adds notes about what is left out. Throws Error: an index of something that
-// is not there, a node with two parents or below itself, a scene that names a node twice or one with a parent, a
-// matrix whose last row is not (0, 0, 0, 1), a rotation without length, a transform of a mesh that flattens it or is
-// not finite, more than `most` placements.
+// Returns the placements in depth-first order. Adds notes about ignored content. Throws Error: an index out of range, a
+// node with two parents, a cycle, a scene with a duplicate node or one that has a parent, a matrix whose last row is
+// not (0, 0, 0, 1), a rotation of length 0, a transform of a mesh that is singular or not finite, more than `most`
+// placements.
 std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
                                           std::vector<std::string>& notes);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Rule noted(std::string_view path, std::string_view note) { return {path, Type::noted, 0, false, note}; }
 
-// Array levels do not show in a path.
+// Paths have no indices of arrays.
 constexpr std::array kRules = {
     Rule{"asset", Type::object, 0, true},
     Rule{"asset/version", Type::text, 0, true},
@@ -27,7 +27,7 @@ constexpr std::array kRules = {
     Rule{"nodes/translation", Type::numbers, 3},
     Rule{"nodes/rotation", Type::numbers, 4},
     Rule{"nodes/scale", Type::numbers, 3},
-    noted("nodes/skin", "skins: the pose of the file is taken"),
+    noted("nodes/skin", "skins (the pose of the file is used)"),
     noted("nodes/camera", "cameras"),
     Rule{"meshes", Type::objects},
     Rule{"meshes/name", Type::text},
@@ -41,8 +41,8 @@ constexpr std::array kRules = {
     noted("meshes/primitives/attributes/TANGENT", "tangents"),
     noted("meshes/primitives/attributes/TEXCOORD_0", "texture coordinates"),
     noted("meshes/primitives/attributes/COLOR_0", "colours of vertices"),
-    noted("meshes/primitives/attributes/JOINTS_0", "skins: the pose of the file is taken"),
-    noted("meshes/primitives/targets", "morph targets: the shape of the file is taken"),
+    noted("meshes/primitives/attributes/JOINTS_0", "skins (the pose of the file is used)"),
+    noted("meshes/primitives/targets", "morph targets (the shape of the file is used)"),
     Rule{"meshes/primitives/extensions", Type::object},
     Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression", Type::object},
     Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/bufferView", Type::index, 0, true},
@@ -94,8 +94,8 @@ constexpr std::array kRules = {
     Rule{"materials/extensions/KHR_materials_emissive_strength/emissiveStrength", Type::number},
     noted("textures", "textures"),
     noted("images", "textures"),
-    noted("animations", "animations: the pose of the file is taken"),
-    noted("skins", "skins: the pose of the file is taken"),
+    noted("animations", "animations (the pose of the file is used)"),
+    noted("skins", "skins (the pose of the file is used)"),
     noted("cameras", "cameras"),
 };
 
@@ -111,7 +111,6 @@ const Rule* findRule(std::string_view path) {
   return found == kByPath.end() ? nullptr : found->second;
 }
 
-// The required keys of the objects at each path.
 const std::vector<std::string_view>& requiredKeys(std::string_view path) {
   static const std::map<std::string_view, std::vector<std::string_view>> kByPath = [] {
     std::map<std::string_view, std::vector<std::string_view>> keys;

@@ -1,4 +1,4 @@
-// The keys of glTF's JSON that are read, each with its type: a whitelist for gltf_json.h.
+// Keys of a glTF document that are read, with their types: the whitelist of gltf_json.h.
 // Source: glTF 2.0 Specification, appendix A, "JSON Schema Reference", and the schemas of the extensions.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace malus::prep::gltf {
 
 enum class Type { object, objects, index, indices, size, number, numbers, text, texts, flag, noted };
 
-// `size` numbers of an array; `required` where the object that holds it cannot do without; `note` of what is dropped.
+// size: length of an array of numbers. required: the parent object must have the key. note: for a key that is dropped.
 struct Rule {
   std::string_view path;
   Type type;
@@ -19,10 +19,10 @@ struct Rule {
   std::string_view note = {};
 };
 
-// The rule of a path such as "meshes/primitives/indices", in which lists do not show; nullptr: not on the whitelist.
+// Returns the rule of a path without indices ("meshes/primitives/indices"), or nullptr if it is not on the whitelist.
 const Rule* findRule(std::string_view path);
 
-// The keys that an object at this path ("": the document) must have.
+// Returns the keys that an object at this path must have. "" is the document.
 const std::vector<std::string_view>& requiredKeys(std::string_view path);
 
 }  // namespace malus::prep::gltf

@@ -23,7 +23,7 @@ std::string_view trimmed(std::string_view line) {
   return line.substr(first, line.find_last_not_of(kBlanks) - first + 1);
 }
 
-// As RFC 3629 has it: no overlong forms, no surrogates, nothing above U+10FFFF.
+// Validates UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
 bool isUtf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
@@ -53,7 +53,7 @@ std::string_view Lines::takeRaw() {
   const std::string_view raw = std::string_view(text_).substr(begin, stop - begin);
   for (const char c : raw)
     if (static_cast<unsigned char>(c) < 0x20 && c != '\t')
-      fail("is not plain text", "lines of ASCII or UTF-8", fmt::format("byte {:#04x}", static_cast<unsigned>(c)));
+      fail("control character in a text file", "ASCII or UTF-8", fmt::format("byte {:#04x}", static_cast<unsigned>(c)));
   return raw;
 }
 
@@ -69,7 +69,7 @@ void Lines::joinContinued() {
   if (!raw_.ends_with('\\')) return;
   const auto begin = static_cast<std::size_t>(raw_.data() - text_.data());
   while (raw_.ends_with('\\')) {
-    if (end_ >= text_.size()) fail("the last line ends in a backslash", "a line that continues it");
+    if (end_ >= text_.size()) fail("the file ends after a backslash", "a continuation line");
     const std::size_t backslash = begin + raw_.size() - 1;
     for (std::size_t i = backslash; i < end_; ++i) text_[i] = ' ';
     const std::string_view next = takeRaw();
@@ -110,10 +110,10 @@ std::string_view takeWord(std::string_view& rest) {
   return word;
 }
 
-std::string nameOf(std::string_view rest, const Lines& at, std::size_t maxBytes) {
+std::string parseName(std::string_view rest, const Lines& at, std::size_t maxBytes) {
   const std::string_view name = trimmed(rest);
   if (name.size() > maxBytes)
-    at.fail("a name that is too long", fmt::format("at most {} bytes", maxBytes), fmt::format("{}", name.size()));
+    at.fail("name is too long", fmt::format("at most {} bytes", maxBytes), fmt::format("{} bytes", name.size()));
   if (isUtf8(name)) return std::string(name);
   std::string converted;
   for (const char c : name) {
@@ -136,32 +136,32 @@ std::string quoted(std::string_view word) {
 }
 
 double coordinate(std::string_view word, const Lines& at) {
-  // from_chars would take "inf" and "nan" but no plus sign.
+  // from_chars accepts "inf" and "nan", and rejects a plus sign.
   std::string_view digits = word;
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
   const std::size_t sign = !digits.empty() && digits.front() == '-' ? 1 : 0;
-  if (sign == 1 && digits.size() != word.size()) at.fail("a bad number", "a decimal number", quoted(word));
+  if (sign == 1 && digits.size() != word.size()) at.fail("invalid number", "a decimal number", quoted(word));
   const bool decimal =
       digits.size() > sign && (std::isdigit(static_cast<unsigned char>(digits[sign])) != 0 || digits[sign] == '.');
   double value = 0;
   const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  // Out of range is too large or too small: from_chars does not say which, strtod does.
+  // from_chars does not distinguish overflow from underflow; strtod does.
   const bool tooLarge =
       status == std::errc::result_out_of_range && std::isinf(std::strtod(std::string(digits).c_str(), nullptr));
   if (!decimal || stop != digits.data() + digits.size() ||
       (status != std::errc() && status != std::errc::result_out_of_range))
-    at.fail("a bad number", "a finite decimal number", quoted(word));
+    at.fail("invalid number", "a finite decimal number", quoted(word));
   if (status == std::errc::result_out_of_range && !tooLarge) return sign == 1 ? -0.0 : 0.0;  // underflow
   if (tooLarge || std::abs(value) > static_cast<double>(std::numeric_limits<float>::max()))
-    at.fail("a number out of range", "a number that a float holds", quoted(word));
+    at.fail("number out of range", "a magnitude of at most 3.4e38", quoted(word));
   return value;
 }
 
-long long wholeNumber(std::string_view word, std::string_view what, const Lines& at) {
+long long wholeNumber(std::string_view word, std::string_view expected, const Lines& at) {
   long long value = 0;
   const auto [stop, status] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (word.empty() || status != std::errc() || stop != word.data() + word.size())
-    at.fail("a bad number", what, quoted(word));
+    at.fail("invalid number", expected, quoted(word));
   return value;
 }
 

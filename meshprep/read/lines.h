@@ -1,4 +1,4 @@
-// The lines of a text file and the words and numbers in them, for the scans of the mesh formats.
+// Lines of a text file, and the words and numbers in them, for the scans of the mesh formats.
 #pragma once
 
 #include <cstddef>
@@ -7,60 +7,63 @@
 
 namespace malus::prep {
 
-// The lines of a text, one after the other, without their ends (LF or CR LF) and outer blanks. A line that
-// holds a control character, as binary files and UTF-16 do, is an error.
+// Iterates over the lines of a text, without line ends (LF or CR LF) and outer blanks (spaces and tabs). A control
+// character, as in binary files and UTF-16, is an error. `where` is the path for messages; text and where must outlive
+// this object.
 class Lines {
  public:
   Lines(std::string& text, std::string_view where, std::size_t begin = 0, std::size_t number = 1)
       : text_(text), where_(where), end_(begin), nextNumber_(number) {}
 
-  bool next();  // to the next line; false at the end
-  // To the next line that is not empty and does not start with `comment`; blanks comments.
+  // Advances to the next line. Returns false at the end.
+  bool next();
+  // Advances to the next line that is not empty and does not start with `comment`. Replaces comments by blanks.
   bool nextStatement(char comment);
-  // Where the line ends in a backslash, adds the next one to it, and so on; backslash and line end become blanks, so
-  // that words do not grow together.
+  // Appends the next line while the line ends in a backslash. Replaces backslash and line end by blanks, so that words
+  // stay separate.
   void joinContinued();
 
   std::string_view line() const { return line_; }
-  std::size_t number() const { return number_; }          // of the line, or the first one of those joined, from 1
-  std::size_t nextNumber() const { return nextNumber_; }  // of the line after it
-  std::size_t endOffset() const { return end_; }          // of the byte after the line and its end
+  std::size_t number() const { return number_; }          // of the line, or of the first joined one, from 1
+  std::size_t nextNumber() const { return nextNumber_; }  // of the following line
+  std::size_t endOffset() const { return end_; }          // of the first byte after the line end
 
-  // Replaces the line, or what follows the first `keep` characters of it, by blanks.
+  // Replaces the line after its first `keep` characters by blanks.
   void blank(std::size_t keep = 0);
   // Replaces a word of the line by the number 0.
   void zero(std::string_view word);
 
+  // Throws Error at "WHERE:LINE".
   [[noreturn]] void fail(std::string_view problem, std::string_view expected = {}, std::string_view found = {}) const;
 
  private:
-  std::string_view takeRaw();  // to the end of the line; moves end_ past it
+  std::string_view takeRaw();  // up to the line end; advances end_
 
   std::string& text_;
   std::string_view where_;
-  std::string_view raw_;  // with outer blanks
+  std::string_view raw_;  // including outer blanks
   std::string_view line_;
   std::size_t number_ = 0;
   std::size_t end_ = 0;
   std::size_t nextNumber_ = 1;
 };
 
-// Takes the next word off the front of `rest`; empty at the end.
+// Removes the next word from the front of `rest` and returns it; empty at the end.
 std::string_view takeWord(std::string_view& rest);
 
-// A coordinate: a finite decimal number that a float holds. Anything else is an error at the line.
+// Parses a finite decimal number within the range of float. Throws Error at the line.
 double coordinate(std::string_view word, const Lines& at);
 
-// A whole number in decimal. Anything else is an error at the line that says what was expected.
-long long wholeNumber(std::string_view word, std::string_view what, const Lines& at);
+// Parses a decimal integer. Throws Error at the line, with `expected`.
+long long wholeNumber(std::string_view word, std::string_view expected, const Lines& at);
 
-// What follows a keyword, without outer blanks, as a name in UTF-8. Bytes that are no UTF-8 are taken for Latin-1, as
-// old exporters write it. Longer than kMaxNameBytes is an error at the line.
+// Returns the text after a keyword, without outer blanks, in UTF-8. Invalid UTF-8 is read as Latin-1, which old
+// exporters write. Throws Error at the line if the text is longer than maxBytes.
 constexpr std::size_t kMaxNameBytes = 255;
 constexpr std::size_t kMaxPathBytes = 4096;  // of a mtllib statement
-std::string nameOf(std::string_view rest, const Lines& at, std::size_t maxBytes = kMaxNameBytes);
+std::string parseName(std::string_view rest, const Lines& at, std::size_t maxBytes = kMaxNameBytes);
 
-// A word for messages: shortened, never empty.
+// Returns the word in quotes for messages, at most 40 characters of it; "nothing" if it is empty.
 std::string quoted(std::string_view word);
 
 }  // namespace malus::prep

@@ -1,6 +1,6 @@
-// The parts of a file whose faces follow statements that name a group and a material: a part for each pair of names
-// that has faces, in the order of their first faces. Names are kept once, so that a file of nothing but names costs
-// no more than its own size.
+// Parts of a file whose statements set a group name and a material for the following faces: one part for each pair of
+// names with faces, in the order of their first faces. Each name is stored once, so that memory is proportional to the
+// file size.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ class PartList {
   void setName(std::string name) { select(name_, std::move(name)); }
   void setMaterial(std::string material) { select(material_, std::move(material)); }
 
-  // The index of the part of a face that is written here.
+  // Returns the index of the part for the next face.
   std::uint32_t current();
   std::vector<Part> take() { return std::move(parts_); }
 
  private:
-  // A name in effect and its number among all that the file has.
+  // Current name, and its number among all names of the file.
   struct Selected {
     std::string text;
     std::uint32_t number = 0;

@@ -56,7 +56,7 @@ constexpr std::array<NamedRole, 14> kVertexRoles = {{{"x", Role::kX},
 Type typeNamed(std::string_view name, const Lines& at) {
   for (const NamedType& type : kTypes)
     if (type.name == name) return type.type;
-  at.fail("an unknown property type", "char to double, or int8 to float64", quoted(name));
+  at.fail("unknown type of a property", "char to double, or int8 to float64", quoted(name));
 }
 
 Role roleNamed(std::string_view name, const Property& property, Kind kind) {
@@ -74,48 +74,47 @@ Property scanProperty(std::string_view rest, Kind kind, const Lines& at) {
     const std::string_view length = takeWord(rest);
     property.countType = typeNamed(length, at);
     property.openMeshReadsLength = length == "uchar" || length == "uint8" || length == "int";
-    if (isReal(*property.countType))
-      at.fail("a list whose length is no whole number", "char to uint", quoted(at.line()));
+    if (isReal(*property.countType)) at.fail("list length is not an integer", "char to uint", quoted(at.line()));
     word = takeWord(rest);
   }
   property.type = typeNamed(word, at);
   const std::string_view name = takeWord(rest);
-  if (name.empty() || !takeWord(rest).empty()) at.fail("a bad property", "a type and a name", quoted(at.line()));
+  if (name.empty() || !takeWord(rest).empty()) at.fail("invalid property", "a type and a name", quoted(at.line()));
   property.role = roleNamed(name, property, kind);
   if (property.role == Role::kCorners && isReal(property.type))
-    at.fail("corners that are no whole numbers", "a list of char to uint", quoted(at.line()));
+    at.fail("corners are not integers", "a list of char to uint", quoted(at.line()));
   return property;
 }
 
-std::ptrdiff_t countOf(Role role, const Element& element) {
+std::ptrdiff_t countProperties(Role role, const Element& element) {
   return std::count_if(element.properties.begin(), element.properties.end(),
                        [role](const Property& p) { return p.role == role; });
 }
 
-// The fewest bytes of data that an item of the element takes: a digit and a blank or line end each in text.
-std::size_t fewestBytes(const Element& element, Encoding encoding) {
+// Returns the smallest size of an item in bytes; a value of text has a digit and a separator.
+std::size_t minItemBytes(const Element& element, Encoding encoding) {
   std::size_t bytes = 0;
   for (const Property& p : element.properties)
-    bytes += encoding == Encoding::kAscii ? 2 : sizeOf(p.countType.value_or(p.type));
+    bytes += encoding == Encoding::kAscii ? 2 : byteSize(p.countType.value_or(p.type));
   return bytes;
 }
 
 void checkVertices(Element& element, Header& header, const Lines& at) {
   constexpr std::array<std::pair<Role, char>, 3> kAxes = {{{Role::kX, 'x'}, {Role::kY, 'y'}, {Role::kZ, 'z'}}};
   for (const auto& [role, name] : kAxes) {
-    const std::ptrdiff_t count = countOf(role, element);
-    if (count == 0) at.fail("the vertices have no coordinates", "properties x, y and z");
-    if (count > 1) at.fail("a coordinate is there twice", "one x, one y, one z", std::string(1, name));
+    const std::ptrdiff_t count = countProperties(role, element);
+    if (count == 0) at.fail("missing coordinates of vertices", "properties x, y and z");
+    if (count > 1) at.fail("duplicate coordinate", "one x, one y, one z", std::string(1, name));
   }
   for (const Property& p : element.properties)
     if (p.countType || (p.role >= Role::kX && p.role <= Role::kZ && !isReal(p.type))) header.openMeshReads = false;
 
-  // Normals where all three are there, once and as real numbers; else they are properties like others.
+  // Use normals if all three components exist once as real numbers; otherwise ignore them as other properties.
   header.hasNormals = true;
   for (const Role role : {Role::kNormalX, Role::kNormalY, Role::kNormalZ}) {
     const auto isNormal = [role](const Property& p) { return p.role == role && isReal(p.type); };
     if (std::count_if(element.properties.begin(), element.properties.end(), isNormal) != 1 ||
-        countOf(role, element) != 1)
+        countProperties(role, element) != 1)
       header.hasNormals = false;
   }
   if (!header.hasNormals)
@@ -124,9 +123,9 @@ void checkVertices(Element& element, Header& header, const Lines& at) {
 }
 
 void checkCorners(const Element& element, Header& header, const Lines& at) {
-  if (countOf(Role::kCorners, element) != 1)
-    at.fail(element.kind == Kind::kFaces ? "the faces have no corners" : "the strips have no corners",
-            "one list of whole numbers, vertex_indices");
+  if (countProperties(Role::kCorners, element) != 1)
+    at.fail(element.kind == Kind::kFaces ? "missing corners of faces" : "missing corners of strips",
+            "one list of integers, vertex_indices");
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const Property& p = element.properties[i];
     if ((p.role == Role::kCorners) != (i == 0) || (p.countType && (i > 0 || !p.openMeshReadsLength)))
@@ -139,8 +138,8 @@ void checkHeader(Header& header, std::size_t fileBytes, std::string_view where, 
   std::size_t room = fileBytes - header.end + 1;  // the last line need not end
   bool hasVertices = false, hasSurface = false;
   for (Element& element : header.elements) {
-    // Step 1: what the element must have.
-    if (element.properties.empty()) at.fail("an element without properties", "one property or more");
+    // Check its properties.
+    if (element.properties.empty()) at.fail("element without properties", "one property or more");
     if (element.kind == Kind::kVertices) {
       hasVertices = true;
       header.vertices = element.count;
@@ -153,24 +152,24 @@ void checkHeader(Header& header, std::size_t fileBytes, std::string_view where, 
       header.openMeshReads = false;
     }
 
-    // Step 2: its count.
-    const std::size_t most = room / fewestBytes(element, header.encoding);
+    // Check its count.
+    const std::size_t most = room / minItemBytes(element, header.encoding);
     if (element.count > most)
-      throw Error(fmt::format("{}:{}", where, element.line), "a count that the file cannot hold",
+      throw Error(fmt::format("{}:{}", where, element.line), "count exceeds the file size",
                   fmt::format("at most {}", most), fmt::to_string(element.count));
-    room -= element.count * fewestBytes(element, header.encoding);
+    room -= element.count * minItemBytes(element, header.encoding);
   }
-  if (!hasVertices) at.fail("the header lacks an element", "vertex");
-  if (!hasSurface) at.fail("the header lacks an element", "face or tristrips");
+  if (!hasVertices) at.fail("missing element in the header", "vertex");
+  if (!hasSurface) at.fail("missing element in the header", "face or tristrips");
 }
 
 Encoding scanFormat(const std::string& bytes, Lines& lines) {
   if (!lines.next() || lines.line() != "ply") lines.fail("is not a PLY file", "ply", quoted(lines.line()));
-  if (!lines.next()) lines.fail("the header ends too early", "a format");
+  if (!lines.next()) lines.fail("unexpected end of the header", "a format");
   std::string_view rest = lines.line();
   const std::string_view keyword = takeWord(rest);
   const std::string_view format = takeWord(rest);
-  if (keyword != "format") lines.fail("the second line is not the format", "format ... 1.0", quoted(lines.line()));
+  if (keyword != "format") lines.fail("missing format in the second line", "format ... 1.0", quoted(lines.line()));
   constexpr std::array<std::pair<std::string_view, Encoding>, 3> kFormats = {
       {{"ascii", Encoding::kAscii},
        {"binary_little_endian", Encoding::kLittleEndian},
@@ -178,21 +177,21 @@ Encoding scanFormat(const std::string& bytes, Lines& lines) {
   const auto* const known =
       std::find_if(kFormats.begin(), kFormats.end(), [&](const auto& named) { return named.first == format; });
   if (known == kFormats.end())
-    lines.fail("an unknown PLY format", "ascii, binary_little_endian or binary_big_endian", quoted(format));
-  if (takeWord(rest) != "1.0") lines.fail("an unknown PLY version", "1.0", quoted(lines.line()));
+    lines.fail("unknown PLY format", "ascii, binary_little_endian or binary_big_endian", quoted(format));
+  if (takeWord(rest) != "1.0") lines.fail("unknown PLY version", "1.0", quoted(lines.line()));
   const bool crLf = bytes.find("\r\n") < bytes.find('\n');
   if (known->second != Encoding::kAscii && crLf)
-    lines.fail("a binary PLY file with CR LF line ends, as a transfer in text mode makes them", "LF line ends");
+    lines.fail("binary PLY file was converted to CR LF line ends", "LF line ends; transfer the file in binary mode");
   return known->second;
 }
 
-// The element that a line declares.
+// Parses the declaration of an element.
 Element scanElement(std::string_view rest, std::size_t fileBytes, const Lines& at) {
   const std::string_view name = takeWord(rest);
   const long long count = wholeNumber(takeWord(rest), "a number of elements", at);
   const std::size_t most = std::min<std::size_t>(fileBytes, std::numeric_limits<int>::max());
   if (count < 0 || static_cast<unsigned long long>(count) > most)
-    at.fail("a count that the file cannot hold", fmt::format("at most {}", most), fmt::to_string(count));
+    at.fail("count exceeds the file size", fmt::format("at most {}", most), fmt::to_string(count));
   Element element;
   if (name == "vertex") element.kind = Kind::kVertices;
   if (name == "face") element.kind = Kind::kFaces;
@@ -204,7 +203,7 @@ Element scanElement(std::string_view rest, std::size_t fileBytes, const Lines& a
 
 }  // namespace
 
-std::size_t sizeOf(Type type) {
+std::size_t byteSize(Type type) {
   constexpr std::array<std::size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
   return kSizes[static_cast<std::size_t>(type)];
 }
@@ -213,9 +212,9 @@ Header scanHeader(std::string& bytes, std::string_view where) {
   Lines lines(bytes, where);
   Header header;
   header.encoding = scanFormat(bytes, lines);
-  std::array<bool, 4> seen{};  // of each kind
-  Element* element = nullptr;  // the last one
-  Element withoutData;         // takes the properties of elements that count none
+  std::array<bool, 4> seen{};  // by kind
+  Element* element = nullptr;  // current element
+  Element withoutData;         // receives the properties of empty elements
   while (lines.next()) {
     std::string_view rest = lines.line();
     const std::string_view statement = takeWord(rest);
@@ -227,15 +226,15 @@ Header scanHeader(std::string& bytes, std::string_view where) {
     }
     if (statement == "element") {
       Element next = scanElement(rest, bytes.size(), lines);
-      bool& twice = seen[static_cast<std::size_t>(next.kind)];
-      if (twice && next.kind != Kind::kOther) lines.fail("an element is there twice", "one of a name", quoted(rest));
-      twice = true;
+      bool& isDuplicate = seen[static_cast<std::size_t>(next.kind)];
+      if (isDuplicate && next.kind != Kind::kOther) lines.fail("duplicate element", "each element once", quoted(rest));
+      isDuplicate = true;
       const bool counts = next.count > 0 || next.kind == Kind::kVertices || next.kind == Kind::kFaces;
       if (counts) header.elements.push_back(std::move(next));
       element = counts ? &header.elements.back() : &withoutData;
       if (!counts) lines.blank();
     } else if (statement == "property") {
-      if (!element) lines.fail("a property of no element");
+      if (!element) lines.fail("property without an element", "an element first");
       Property property = scanProperty(rest, element->kind, lines);
       if (element == &withoutData) {
         lines.blank();
@@ -243,15 +242,15 @@ Header scanHeader(std::string& bytes, std::string_view where) {
         element->properties.push_back(property);
       }
     } else if (statement == "comment" || statement == "obj_info") {
-      // What a comment says is no business of OpenMesh, which reads on in the line of an obj_info.
+      // Blank comments, and rename obj_info, after which OpenMesh continues in the same line.
       lines.blank(statement.size());
       const auto begin = static_cast<std::size_t>(lines.line().data() - bytes.data());
       if (statement == "obj_info") bytes.replace(begin, statement.size(), "comment ");
     } else {
-      lines.fail("an unknown statement", "element, property, comment or end_header", quoted(statement));
+      lines.fail("unknown statement", "element, property, comment or end_header", quoted(statement));
     }
   }
-  throw Error(where, "the header does not end", "end_header");
+  throw Error(where, "unexpected end of the header", "end_header");
 }
 
 }  // namespace malus::prep::ply

@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, with which properties, in which encoding.
+// Header of a PLY file: encoding, elements and their properties.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +13,18 @@
 namespace malus::prep::ply {
 
 enum class Type : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
-std::size_t sizeOf(Type type);  // bytes
+// Returns the size of a value in bytes.
+std::size_t byteSize(Type type);
 inline bool isReal(Type type) { return type == Type::kFloat || type == Type::kDouble; }
 
-// What a property is to the surface.
+// Meaning of a property.
 enum class Role : std::uint8_t { kNone, kColour, kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kCorners };
 
 struct Property {
   Type type{};
   std::optional<Type> countType;  // set for lists
   Role role = Role::kNone;
-  bool openMeshReadsLength = false;  // of the list: it knows few names of types there
+  bool openMeshReadsLength = false;  // OpenMesh knows the name of countType; it knows few
 };
 
 enum class Kind : std::uint8_t { kVertices, kFaces, kStrips, kOther };
@@ -31,7 +32,7 @@ enum class Kind : std::uint8_t { kVertices, kFaces, kStrips, kOther };
 struct Element {
   Kind kind = Kind::kOther;
   std::size_t count = 0;
-  std::size_t line = 0;  // that declares it
+  std::size_t line = 0;  // declared in this line
   std::vector<Property> properties;
 };
 
@@ -39,17 +40,16 @@ enum class Encoding { kAscii, kLittleEndian, kBigEndian };
 
 struct Header {
   Encoding encoding = Encoding::kAscii;
-  std::vector<Element> elements;  // in the order of their data; those that count none are left out
+  std::vector<Element> elements;  // in the order of their data, without empty ones
   std::size_t vertices = 0;
-  bool hasNormals = false;    // all three of nx, ny, nz are there as real numbers
-  std::size_t end = 0;        // offset of the first byte of data
-  std::size_t nextLine = 0;   // number of the first line of data, if it is text
-  bool openMeshReads = true;  // vertices, then faces, in the types that OpenMesh knows, and nothing else
+  bool hasNormals = false;    // nx, ny and nz are real numbers
+  std::size_t end = 0;        // offset of the data
+  std::size_t nextLine = 0;   // number of the first line of the data, if it is text
+  bool openMeshReads = true;  // only vertices, then faces, in types that OpenMesh knows
 };
 
-// Reads to the end of the header and checks it: every property known, coordinates and corners there, every count
-// backed by bytes of the file. Comments and elements without data become blanks, which OpenMesh skips. Throws Error
-// that names where:line.
+// Parses and checks the header: types, coordinates, corners, and counts against the file size. Comments and empty
+// elements become blanks, which OpenMesh skips. Throws Error at "WHERE:LINE".
 Header scanHeader(std::string& bytes, std::string_view where);
 
 }  // namespace malus::prep::ply

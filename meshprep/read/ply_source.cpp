@@ -14,7 +14,7 @@ namespace malus::prep::ply {
 
 namespace {
 
-// An item a line; empty lines do not count.
+// Text with one item per line. Empty lines are skipped.
 class Text : public Source {
  public:
   Text(std::string& bytes, std::string_view where, const Header& header)
@@ -23,20 +23,18 @@ class Text : public Source {
   void beginItem(std::string_view what, std::size_t index) override {
     what_ = what;
     do {
-      if (!lines_.next())
-        throw Error(where_, "ends too early", fmt::format("{} {}", what, index), "the end of the file");
+      if (!lines_.next()) throw Error(where_, "unexpected end of file", fmt::format("{} {}", what, index));
     } while (lines_.line().empty());
     rest_ = lines_.line();
   }
   void endItem() override {
     const std::string_view word = takeWord(rest_);
-    if (!word.empty())
-      lines_.fail(fmt::format("a {} has too many numbers", what_), "the end of the line", quoted(word));
+    if (!word.empty()) lines_.fail(fmt::format("too many numbers in a {}", what_), "the end of the line", quoted(word));
   }
   void endFile() override {
     while (lines_.next())
       if (!lines_.line().empty())
-        lines_.fail("more than the header counts", "the end of the file", quoted(lines_.line()));
+        lines_.fail("content after the elements of the header", "the end of the file", quoted(lines_.line()));
   }
 
   double coordinate(Type) override { return prep::coordinate(word(), lines_); }
@@ -45,25 +43,25 @@ class Text : public Source {
     const std::string digits(number);
     char* stop = nullptr;
     const double value = std::strtod(digits.c_str(), &stop);
-    if (*stop != 0) lines_.fail("a bad number", "a decimal number", quoted(digits));
+    if (*stop != 0) lines_.fail("invalid number", "a decimal number", quoted(digits));
     lines_.zero(number);
     return value;
   }
-  std::int64_t whole(Type) override { return wholeNumber(word(), "a whole number", lines_); }
+  std::int64_t whole(Type) override { return wholeNumber(word(), "an integer", lines_); }
   void skip(Type, std::size_t count) override {
     for (std::size_t i = 0; i < count; ++i) lines_.zero(word());
   }
 
   bool locationsAreBytes() const override { return false; }
-  std::uint64_t place() const override { return lines_.number(); }
+  std::uint64_t location() const override { return lines_.number(); }
   void fail(std::string_view problem, std::string_view expected, std::string_view found) const override {
-    lines_.fail(fmt::format("a {} {}", what_, problem), expected, found);
+    lines_.fail(fmt::format("{} in a {}", problem, what_), expected, found);
   }
 
  private:
   std::string_view word() {
     const std::string_view word = takeWord(rest_);
-    if (word.empty()) lines_.fail(fmt::format("a {} lacks numbers", what_), "one for each of its properties");
+    if (word.empty()) lines_.fail(fmt::format("missing numbers in a {}", what_), "one per property");
     return word;
   }
 
@@ -73,7 +71,7 @@ class Text : public Source {
   std::string_view rest_;
 };
 
-// Values in file order, checked against the end of the file.
+// Binary values.
 class Binary : public Source {
  public:
   Binary(std::string_view bytes, std::string_view where, const Header& header)
@@ -87,13 +85,14 @@ class Binary : public Source {
   void endItem() override {}
   void endFile() override {
     if (offset_ != bytes_.size())
-      failAt("more than the header counts", "the end of the file", fmt::format("{} bytes", bytes_.size() - offset_));
+      failAt("content after the elements of the header", "the end of the file",
+             fmt::format("{} bytes", bytes_.size() - offset_));
   }
 
   double coordinate(Type type) override {
     const double value = real(type);
     if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
-      failAt(fmt::format("a bad number in {} {}", what_, index_), "a finite number that a float holds",
+      failAt(fmt::format("invalid number in {} {}", what_, index_), "a finite number within the range of float",
              fmt::to_string(value));
     return value;
   }
@@ -103,22 +102,22 @@ class Binary : public Source {
     return static_cast<double>(whole(type));
   }
   std::int64_t whole(Type type) override {
-    const std::uint64_t bits = raw(sizeOf(type));
-    const auto shift = static_cast<unsigned>(64 - 8 * sizeOf(type));
+    const std::uint64_t bits = raw(byteSize(type));
+    const auto shift = static_cast<unsigned>(64 - 8 * byteSize(type));
     const bool isSigned = type == Type::kInt8 || type == Type::kInt16 || type == Type::kInt32;
     return isSigned ? static_cast<std::int64_t>(bits << shift) >> shift : static_cast<std::int64_t>(bits);
   }
   void skip(Type type, std::size_t count) override {
-    if (count > (bytes_.size() - offset_) / sizeOf(type))
-      failAt(fmt::format("the file ends in {} {}", what_, index_), fmt::format("{} values", count),
+    if (count > (bytes_.size() - offset_) / byteSize(type))
+      failAt(fmt::format("unexpected end of file in {} {}", what_, index_), fmt::format("{} values", count),
              fmt::format("{} bytes", bytes_.size() - offset_));
-    offset_ += count * sizeOf(type);
+    offset_ += count * byteSize(type);
   }
 
   bool locationsAreBytes() const override { return true; }
-  std::uint64_t place() const override { return begin_; }
+  std::uint64_t location() const override { return begin_; }
   void fail(std::string_view problem, std::string_view expected, std::string_view found) const override {
-    failAt(fmt::format("{} {} {}", what_, index_, problem), expected, found);
+    failAt(fmt::format("{} in {} {}", problem, what_, index_), expected, found);
   }
 
  private:
@@ -126,10 +125,10 @@ class Binary : public Source {
     throw Error(fmt::format("{}, byte {}", where_, offset_), problem, expected, found);
   }
 
-  // Up to 8 bytes as a whole number without sign.
+  // Reads up to 8 bytes as an unsigned integer.
   std::uint64_t raw(std::size_t count) {
     if (count > bytes_.size() - offset_)
-      failAt(fmt::format("the file ends in {} {}", what_, index_), fmt::format("{} more bytes", count),
+      failAt(fmt::format("unexpected end of file in {} {}", what_, index_), fmt::format("{} more bytes", count),
              fmt::to_string(bytes_.size() - offset_));
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// The data of a PLY file, value by value, in text or in binary: the same calls for both.
+// Values of a PLY file, with one interface for text and binary.
 #pragma once
 
 #include <cstddef>
@@ -11,25 +11,25 @@
 
 namespace malus::prep::ply {
 
-// What is skipped in text, and real numbers that need not be finite, become 0: OpenMesh cannot read "nan".
-// All throw Error that names a line or a byte where the value is missing or is none.
+// In text, skipped values and results of real() are replaced by 0, because OpenMesh cannot read "nan". All functions
+// throw Error at a line or byte if a value is missing or invalid.
 class Source {
  public:
   virtual ~Source() = default;
 
-  // Goes to the next item (vertex, face ...) of those that follow; `what` and `index`, from 0, are for messages.
+  // Begins the next item; `what` ("vertex") and `index`, from 0, are for messages.
   virtual void beginItem(std::string_view what, std::size_t index) = 0;
-  virtual void endItem() = 0;  // text: nothing more on the line
-  virtual void endFile() = 0;  // nothing more at all
+  virtual void endItem() = 0;  // text: requires the end of the line
+  virtual void endFile() = 0;  // requires the end of the file
 
-  virtual double coordinate(Type type) = 0;  // finite, and a float holds it
-  virtual double real(Type type) = 0;        // perhaps not finite
+  virtual double coordinate(Type type) = 0;  // finite, within the range of float
+  virtual double real(Type type) = 0;        // may be infinite or NaN
   virtual std::int64_t whole(Type type) = 0;
   virtual void skip(Type type, std::size_t count) = 0;
 
   virtual bool locationsAreBytes() const = 0;
-  virtual std::uint64_t place() const = 0;  // of the item
-  // `problem` belongs to the item at hand.
+  virtual std::uint64_t location() const = 0;  // of the current item
+  // Throws Error at the current item.
   [[noreturn]] virtual void fail(std::string_view problem, std::string_view expected, std::string_view found) const = 0;
 };
 

@@ -1,6 +1,5 @@
-// The faces of a file as they are written: positions, and for every face the corners that it names, with what the
-// file says about them besides. No connectivity is derived, so faces that no half-edge structure can hold stay as
-// they are.
+// Faces of a file: positions, the corners of every face, and their attributes. There is no connectivity, so
+// non-manifold faces are possible.
 #pragma once
 
 #include <cstddef>
@@ -13,39 +12,40 @@
 
 namespace malus::prep {
 
-// Faces that a file keeps together: a group or object of OBJ, a primitive of glTF.
+// Group of faces: a group or object of OBJ, a primitive of glTF.
 struct Part {
-  std::string name;      // empty where the file gives none
-  std::string material;  // as the file names it; empty where it names none
+  std::string name;      // empty if the file has none
+  std::string material;  // name in the file; empty if it has none
   friend bool operator==(const Part&, const Part&) = default;
 };
 
 struct Polygons {
   std::vector<glm::dvec3> positions;
-  std::vector<std::uint32_t> corners;          // indices into positions, face after face
-  std::vector<std::size_t> firstCorner = {0};  // of every face, and one past the last
+  std::vector<std::uint32_t> corners;          // indices into positions, face by face
+  std::vector<std::size_t> firstCorner = {0};  // index into corners of each face, and the number of corners
 
-  // What a file may say besides, as it is written; empty where it says nothing.
-  std::vector<glm::vec3> normals;              // one a position (PLY, glTF)
-  std::vector<glm::vec3> cornerNormals;        // one a corner (OBJ); zero where a corner has none
-  std::vector<std::uint32_t> smoothingGroups;  // one a face (OBJ); 0: smooth with no other
-  std::vector<std::uint32_t> partOf;           // one a face: index into parts
-  std::vector<Part> parts;                     // empty: all faces are one part without a name
-  std::vector<std::string> materialFiles;      // of each mtllib statement: one name, or several with blanks between
+  // Attributes as in the file; empty if the file has none.
+  std::vector<glm::vec3> normals;              // one per position (PLY, OFF, glTF); any length
+  std::vector<glm::vec3> cornerNormals;        // one per corner (OBJ); zero for a corner without
+  std::vector<std::uint32_t> smoothingGroups;  // one per face (OBJ); 0: no smoothing
+  std::vector<std::uint32_t> partOf;           // index into parts, one per face
+  std::vector<Part> parts;                     // empty: all faces are one unnamed part
+  std::vector<std::string>
+      materialFiles;  // argument of each mtllib statement: one name, or several separated by blanks
 
-  // Where each vertex and face is written: a line, from 1, or a byte, from 0. Both empty where that is not told.
+  // Location of each vertex and face in the file: line, from 1, or byte, from 0. Empty if unknown.
   bool locationsAreBytes = false;
   std::vector<std::uint64_t> vertexLocations;
   std::vector<std::uint64_t> faceLocations;
 
-  // What the file holds and nobody here has a use for, once each: "colours of vertices".
+  // Ignored content, each kind once: "colours of vertices".
   std::vector<std::string> notes;
 
   std::size_t faceCount() const { return firstCorner.size() - 1; }
   std::span<const std::uint32_t> face(std::size_t i) const {
     return std::span(corners).subspan(firstCorner[i], firstCorner[i + 1] - firstCorner[i]);
   }
-  // Makes a face of the corners added since the last one.
+  // Makes a face of the corners added since the last call.
   void closeFace() { firstCorner.push_back(corners.size()); }
 };
 

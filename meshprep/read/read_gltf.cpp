@@ -24,7 +24,7 @@ namespace malus::prep {
 namespace {
 
 constexpr std::size_t kMinTriangles = 2'000'000;
-constexpr std::size_t kDracoTrianglesPerByte = 2;  // Draco needs half a byte and more for one
+constexpr std::size_t kDracoTrianglesPerByte = 2;  // Draco needs at least half a byte per triangle
 constexpr std::size_t kMinVertices = 6'000'000;
 constexpr std::size_t kMaxInstances = 65536;
 constexpr std::size_t kMinInstancedTriangles = 4'000'000;
@@ -44,33 +44,33 @@ class PartReader {
         if (primitive.position) ++users_[*primitive.position];
   }
 
-  // Empty where the primitive has no faces: points and lines.
-  Polygons read(const gltf::Primitive& primitive, const std::string& place, std::vector<std::string>& notes) {
+  // Returns the faces of a primitive; empty for points and lines.
+  Polygons read(const gltf::Primitive& primitive, const std::string& location, std::vector<std::string>& notes) {
     if (primitive.mode < kTriangles) {
       addNote(notes, "points and lines");
       return {};
     }
     if (primitive.mode > kTriangleFan)
-      throw Error(place + ".mode", "is unknown", "0 to 6", fmt::to_string(primitive.mode));
-    if (!primitive.position) throw Error(place, "has no positions", "an attribute POSITION");
-    if (primitive.draco) return readDraco(primitive, place, notes);
+      throw Error(location + ".mode", "unknown mode", "0 to 6", fmt::to_string(primitive.mode));
+    if (!primitive.position) throw Error(location, "no positions", "an attribute POSITION");
+    if (primitive.draco) return readDraco(primitive, location, notes);
 
-    // Step 1: the accessors.
+    // Check the accessors.
     const GltfAccessor& positions = vectors(*primitive.position);
     const GltfAccessor* normals = nullptr;
     if (primitive.normal) {
       normals = &vectors(*primitive.normal);
       if (normals->count() != positions.count())
-        throw Error(place, "has another number of normals than of positions", fmt::to_string(positions.count()),
+        throw Error(location, "numbers of normals and positions differ", fmt::to_string(positions.count()),
                     fmt::to_string(normals->count()));
     }
 
-    // Step 2: triangles of its vertices.
+    // Read the triangles.
     Polygons polygons;
-    polygons.corners = triangles(primitive, positions.count(), place);
+    polygons.corners = triangles(primitive, positions.count(), location);
     for (std::size_t i = 3; i <= polygons.corners.size(); i += 3) polygons.firstCorner.push_back(i);
 
-    // Step 3: the vertices; those of its faces alone where primitives share them.
+    // Read the vertices; only those of the faces if primitives share the accessor.
     std::vector<std::uint32_t> kept;
     if (users_.at(*primitive.position) > 1) {
       kept = polygons.corners;
@@ -97,63 +97,63 @@ class PartReader {
  private:
   std::size_t bytes() const { return fileBytes_ + buffers_.bytesRead(); }
 
-  void addTriangles(std::size_t count, std::size_t backed, const std::string& place) {
+  void addTriangles(std::size_t count, std::size_t backed, const std::string& location) {
     const std::size_t most = std::max(kMinTriangles, backed);
     if (count > most || (triangles_ += count) > most)
-      throw Error(place, "has more triangles than a file of its size may", fmt::format("at most {}", most),
+      throw Error(location, "too many triangles for the file size", fmt::format("at most {}", most),
                   fmt::to_string(std::max(count, triangles_)));
   }
-  void addVertices(std::size_t count, const std::string& place) {
+  void addVertices(std::size_t count, const std::string& location) {
     const std::size_t most = std::max(kMinVertices, bytes());
     if (count > most || (vertices_ += count) > most)
-      throw Error(place, "has more vertices than a file of its size may", fmt::format("at most {}", most),
+      throw Error(location, "too many vertices for the file size", fmt::format("at most {}", most),
                   fmt::to_string(std::max(count, vertices_)));
   }
 
-  // What an accessor claims, before its bytes are looked at.
-  std::size_t claimOf(std::size_t index) const {
-    const std::string place = fmt::format("{}: accessors[{}]", where_, index);
+  // Returns the declared count of an accessor.
+  std::size_t declaredCount(std::size_t index) const {
+    const std::string location = fmt::format("{}: accessors[{}]", where_, index);
     if (index >= document_.accessors.size())
-      throw Error(place, "is not there", fmt::format("one of {} accessors", document_.accessors.size()));
+      throw Error(location, "does not exist", fmt::format("one of {} accessors", document_.accessors.size()));
     return document_.accessors[index].count;
   }
 
-  // Checked once, however many primitives use it.
+  // Returns a checked accessor of vectors.
   const GltfAccessor& vectors(std::size_t index) {
     const auto found = vectors_.find(index);
     if (found != vectors_.end()) return found->second;
     GltfAccessor accessor(document_, buffers_, index,
-                          where_);  // reads its buffer, whose size bounds what may be claimed
-    addVertices(accessor.count(), accessor.place());
+                          where_);  // reads its buffer, whose size bounds the count
+    addVertices(accessor.count(), accessor.location());
     accessor.requireVectors(document_.quantized);
     return vectors_.emplace(index, std::move(accessor)).first->second;
   }
 
-  // Three corners for every triangle of a list, strip or fan.
+  // Returns three corners per triangle of a list, strip or fan.
   std::vector<std::uint32_t> triangles(const gltf::Primitive& primitive, std::size_t vertices,
-                                       const std::string& place) {
-    // Step 1: how many corners there are, and so how many triangles.
+                                       const std::string& location) {
+    // Count corners and triangles.
     std::optional<GltfAccessor> accessor;
     if (primitive.indices) accessor.emplace(document_, buffers_, *primitive.indices, where_);
     const std::size_t count = accessor ? accessor->count() : vertices;
     const bool list = primitive.mode == kTriangles;
     if (count < 3 || (list && count % 3 != 0))
-      throw Error(place, "is no whole number of triangles", list ? "3 corners for each" : "3 corners or more",
+      throw Error(location, "incomplete triangle", list ? "a multiple of 3 corners" : "3 corners or more",
                   fmt::format("{} corners", count));
     const std::size_t triangleCount = list ? count / 3 : count - 2;
-    addTriangles(triangleCount, bytes() / 2, place);
+    addTriangles(triangleCount, bytes() / 2, location);
 
-    // Step 2: the corners.
+    // Read the corners.
     std::vector<std::uint32_t> corners(count);
     if (accessor) {
       accessor->requireIndices();
       for (std::size_t i = 0; i < count; ++i) {
         corners[i] = accessor->wholeNumber(i);
         if (corners[i] == accessor->restart())
-          throw Error(accessor->place(), fmt::format("index {} restarts the primitive, which glTF forbids", i),
+          throw Error(accessor->location(), fmt::format("primitive restart at {} is not allowed", i),
                       fmt::format("below {}", accessor->restart()), fmt::to_string(corners[i]));
         if (corners[i] >= vertices)
-          throw Error(accessor->place(), fmt::format("index {} names a vertex that is not there", i),
+          throw Error(accessor->location(), fmt::format("invalid vertex index at {}", i),
                       fmt::format("below {}", vertices), fmt::to_string(corners[i]));
       }
     } else {
@@ -161,7 +161,7 @@ class PartReader {
     }
     if (list) return corners;
 
-    // Step 3: strips and fans (glTF 2.0 Specification, section 3.7.2.1).
+    // Convert strips and fans (glTF 2.0 Specification, section 3.7.2.1).
     std::vector<std::uint32_t> result;
     result.reserve(3 * triangleCount);
     for (std::size_t i = 0; i < triangleCount; ++i) {
@@ -174,29 +174,29 @@ class PartReader {
     return result;
   }
 
-  Polygons readDraco(const gltf::Primitive& primitive, const std::string& place, std::vector<std::string>& notes) {
-    // Step 1: what the accessors say. They have no bytes of their own, or other ones for readers without Draco.
-    if (!primitive.indices) throw Error(place, "has Draco data and no indices", "an accessor of indices");
-    const std::size_t corners = claimOf(*primitive.indices);
-    GltfDracoClaims claims;
-    claims.vertices = claimOf(*primitive.position);
-    claims.triangles = corners / 3;
+  Polygons readDraco(const gltf::Primitive& primitive, const std::string& location, std::vector<std::string>& notes) {
+    // Take the counts of the accessors, whose bytes, if any, are for readers without Draco.
+    if (!primitive.indices) throw Error(location, "Draco data without indices", "an accessor of indices");
+    const std::size_t corners = declaredCount(*primitive.indices);
+    GltfDracoCounts counts;
+    counts.vertices = declaredCount(*primitive.position);
+    counts.triangles = corners / 3;
     if (corners % 3 != 0 || corners == 0)
-      throw Error(place, "is no whole number of triangles", "3 corners for each", fmt::format("{} corners", corners));
+      throw Error(location, "incomplete triangle", "a multiple of 3 corners", fmt::format("{} corners", corners));
     const gltf::DracoExtension& draco = *primitive.draco;
     const std::span<const std::byte> data = gltfViewBytes(document_, buffers_, draco.bufferView, where_);
-    addTriangles(claims.triangles, bytes() / 2 + kDracoTrianglesPerByte * data.size(), place);
-    addVertices(claims.vertices, place);
+    addTriangles(counts.triangles, bytes() / 2 + kDracoTrianglesPerByte * data.size(), location);
+    addVertices(counts.vertices, location);
 
-    // Step 2: which attributes of the data they are.
+    // Take the ids of the attributes.
     if (!draco.position)
-      throw Error(place + ".extensions.KHR_draco_mesh_compression", "has no positions", "an attribute POSITION");
-    claims.positionId = *draco.position;
-    if (primitive.normal) claims.normalId = draco.normal;
+      throw Error(location + ".extensions.KHR_draco_mesh_compression", "no positions", "an attribute POSITION");
+    counts.positionId = *draco.position;
+    if (primitive.normal) counts.normalId = draco.normal;
     if (primitive.normal && !draco.normal) addNote(notes, "normals beside Draco data");
 
-    // Step 3: decode.
-    GltfDracoMesh mesh = decodeGltfDraco(data, claims, place);
+    // Decode.
+    GltfDracoMesh mesh = decodeGltfDraco(data, counts, location);
     Polygons polygons;
     polygons.positions = std::move(mesh.positions);
     polygons.normals = std::move(mesh.normals);
@@ -209,12 +209,12 @@ class PartReader {
   GltfBuffers& buffers_;
   std::size_t fileBytes_;
   std::string where_;
-  std::map<std::size_t, std::size_t> users_;     // of an accessor as positions
-  std::map<std::size_t, GltfAccessor> vectors_;  // checked
-  std::size_t triangles_ = 0, vertices_ = 0;     // so far
+  std::map<std::size_t, std::size_t> users_;     // primitives per accessor of positions
+  std::map<std::size_t, GltfAccessor> vectors_;  // checked accessors
+  std::size_t triangles_ = 0, vertices_ = 0;     // totals so far
 };
 
-std::string nameOf(const gltf::Mesh& mesh, std::size_t index) {
+std::string meshName(const gltf::Mesh& mesh, std::size_t index) {
   return mesh.name.empty() ? fmt::format("mesh {}", index) : mesh.name;
 }
 
@@ -224,26 +224,26 @@ SourceScene readGltf(const std::filesystem::path& path) {
   const std::string where = path.string();
   SourceScene scene;
 
-  // Step 1: the document.
+  // Parse the document.
   const GltfContainer container(path);
   GltfJson checked = parseGltfJson(container.json(), where);
   scene.notes = std::move(checked.notes);
   gltf::Document document = gltf::toDocument(std::move(checked.document), where);
   GltfBuffers buffers(std::move(document.buffers), container, path);
 
-  // Step 2: materials.
+  // Convert the materials.
   for (std::size_t i = 0; i < document.materials.size(); ++i)
     scene.materials.push_back(
         gltfMaterial(document.materials[i], fmt::format("{}: materials[{}]", where, i), scene.notes));
 
-  // Step 3: where meshes stand. What stands nowhere is not read.
+  // Place the meshes. Meshes without a placement are not read.
   const std::vector<GltfPlacement> placements = gltfPlacements(document, kMaxInstances, where, scene.notes);
-  if (placements.empty()) throw Error(where, "has no node with a mesh in its scene");
+  if (placements.empty()) throw Error(where, "no mesh in the scene", "a node with a mesh");
   std::vector<bool> placed(document.meshes.size(), false);
   for (const GltfPlacement& placement : placements) placed[placement.mesh] = true;
-  if (std::find(placed.begin(), placed.end(), false) != placed.end()) addNote(scene.notes, "meshes of no node");
+  if (std::find(placed.begin(), placed.end(), false) != placed.end()) addNote(scene.notes, "meshes without a node");
 
-  // Step 4: parts.
+  // Read the parts.
   PartReader reader(document, buffers, container.size(), where);
   std::vector<std::vector<std::size_t>> partsOfMesh(document.meshes.size());
   for (std::size_t m = 0; m < document.meshes.size(); ++m) {
@@ -251,24 +251,24 @@ SourceScene readGltf(const std::filesystem::path& path) {
     const gltf::Mesh& mesh = document.meshes[m];
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
       const gltf::Primitive& primitive = mesh.primitives[p];
-      const std::string place = fmt::format("{}: meshes[{}].primitives[{}]", where, m, p);
+      const std::string location = fmt::format("{}: meshes[{}].primitives[{}]", where, m, p);
       SourcePart part;
-      part.name = mesh.primitives.size() == 1 ? nameOf(mesh, m) : fmt::format("{}.{}", nameOf(mesh, m), p + 1);
+      part.name = mesh.primitives.size() == 1 ? meshName(mesh, m) : fmt::format("{}.{}", meshName(mesh, m), p + 1);
       if (primitive.material) {
         part.material = primitive.material;
         if (*part.material >= scene.materials.size())
-          throw Error(place + ".material", "names a material that is not there",
-                      fmt::format("below {}", scene.materials.size()), fmt::to_string(*primitive.material));
+          throw Error(location + ".material", "refers to a missing material",
+                      fmt::format("an index below {}", scene.materials.size()), fmt::to_string(*primitive.material));
       }
-      part.polygons = reader.read(primitive, place, scene.notes);
+      part.polygons = reader.read(primitive, location, scene.notes);
       if (part.polygons.faceCount() == 0) continue;
       partsOfMesh[m].push_back(scene.parts.size());
       scene.parts.push_back(std::move(part));
     }
   }
-  if (scene.parts.empty()) throw Error(where, "has no faces");
+  if (scene.parts.empty()) throw Error(where, "file has no faces", "a mesh");
 
-  // Step 5: instances, of a bounded number of triangles.
+  // Make the instances, with a bounded number of triangles.
   const std::size_t most = std::max(kMinInstancedTriangles, kMaxCopies * reader.triangleCount());
   const std::size_t mostVertices = std::max(3 * most, reader.vertexCount());
   std::size_t triangles = 0, vertices = 0;
@@ -278,7 +278,7 @@ SourceScene readGltf(const std::filesystem::path& path) {
       triangles += scene.parts[parts[i]].polygons.faceCount();
       vertices += scene.parts[parts[i]].polygons.positions.size();
       if (scene.instances.size() == kMaxInstances || triangles > most || vertices > mostVertices)
-        throw Error(where, "has too many instances",
+        throw Error(where, "too many instances",
                     fmt::format("at most {}, of {} triangles and {} vertices", kMaxInstances, most, mostVertices),
                     fmt::format("{}, {} and {} or more", scene.instances.size() + 1, triangles, vertices));
       scene.instances.push_back({parts[i],
@@ -297,7 +297,7 @@ std::vector<std::filesystem::path> gltfBufferFiles(const std::filesystem::path& 
   for (std::size_t i = 0; i < document.buffers.size(); ++i) {
     const std::string& uri = document.buffers[i].uri;
     if (uri.empty() || isDataUri(uri)) continue;
-    files.insert(gltfFileOf(path, uri, fmt::format("{}: buffers[{}].uri", where, i)));
+    files.insert(resolveGltfUri(path, uri, fmt::format("{}: buffers[{}].uri", where, i)));
   }
   return {files.begin(), files.end()};
 }

@@ -17,14 +17,14 @@ namespace malus::prep {
 
 namespace {
 
-// A surface has about six corners a vertex. What has very many more is no surface, and from 10 MB of it come tens of
-// millions of triangles.
+// A surface has about six corners per vertex. The limit keeps 10 MB of arbitrary bytes from giving tens of millions of
+// triangles.
 constexpr std::size_t kMaxCornersPerVertex = 64;
-constexpr std::size_t kCornersOfAnyFile = 65536;
+constexpr std::size_t kMinCornerLimit = 65536;
 
 enum class Format { kObj, kPly, kStl, kOff };
 
-Format formatOf(const std::filesystem::path& path, std::string& extension) {
+Format detectFormat(const std::filesystem::path& path, std::string& extension) {
   extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -32,7 +32,7 @@ Format formatOf(const std::filesystem::path& path, std::string& extension) {
   if (extension == ".ply") return Format::kPly;
   if (extension == ".stl") return Format::kStl;
   if (extension == ".off") return Format::kOff;
-  throw Error(path.string(), "is of an unknown kind", "a name that ends in .obj, .ply, .stl, .off, .gltf or .glb",
+  throw Error(path.string(), "unknown file type", "an extension of .obj, .ply, .stl, .off, .gltf or .glb",
               extension.empty() ? "no extension" : extension);
 }
 
@@ -53,24 +53,24 @@ Scan scanFile(Format format, std::string& bytes, const std::string& where) {
 }  // namespace
 
 Polygons readMesh(const std::filesystem::path& path) {
-  if (isGltf(path)) return merged(readGltf(path));
+  if (isGltf(path)) return mergeInstances(readGltf(path));
   const std::string where = path.string();
   std::string extension;
-  const Format format = formatOf(path, extension);
+  const Format format = detectFormat(path, extension);
 
   // Remove a byte order mark, which hides the first word of a text file.
   std::string bytes = readTextFile(path);
-  if (bytes.empty()) throw Error(where, "is empty", "a mesh");
+  if (bytes.empty()) throw Error(where, "file is empty", "a mesh");
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
-    throw Error(where, "is UTF-16 text", "ASCII or UTF-8");
+    throw Error(where, "file is UTF-16 text", "ASCII or UTF-8");
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);
   Scan scan = scanFile(format, bytes, where);
   const Polygons& polygons = scan.polygons;
-  if (polygons.positions.empty()) throw Error(where, "has no vertices");
-  if (polygons.faceCount() == 0) throw Error(where, "has no faces");
-  const std::size_t mostCorners = kCornersOfAnyFile + kMaxCornersPerVertex * polygons.positions.size();
+  if (polygons.positions.empty()) throw Error(where, "file has no vertices", "a mesh");
+  if (polygons.faceCount() == 0) throw Error(where, "file has no faces", "a mesh");
+  const std::size_t mostCorners = kMinCornerLimit + kMaxCornersPerVertex * polygons.positions.size();
   if (polygons.corners.size() > mostCorners)
-    throw Error(where, "the faces name their vertices too often",
+    throw Error(where, "too many corners",
                 fmt::format("at most {} corners for {} vertices", mostCorners, polygons.positions.size()),
                 fmt::to_string(polygons.corners.size()));
   return std::move(scan.polygons);

@@ -20,13 +20,13 @@ namespace malus::prep {
 
 namespace {
 
-constexpr double kPlainColour = 0.8;
+constexpr double kDefaultColour = 0.8;
 constexpr std::size_t kMaxMaterials = 100'000;
 
-constexpr std::array<std::string_view, 3> kOfNoConcern = {"Ka", "sharpness", "Km"};
-constexpr std::array<std::string_view, 7> kPictures = {"bump", "disp", "decal", "refl", "norm", "Bump", "Disp"};
+constexpr std::array<std::string_view, 3> kIgnored = {"Ka", "sharpness", "Km"};
+constexpr std::array<std::string_view, 7> kTextures = {"bump", "disp", "decal", "refl", "norm", "Bump", "Disp"};
 
-// What the file says about one material.
+// Statements of one material.
 struct Statements {
   std::string name;
   std::optional<glm::dvec3> kd, ks, ke, tf;
@@ -35,51 +35,52 @@ struct Statements {
 };
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
-glm::dvec3 share(const glm::dvec3& v) { return glm::clamp(v, 0.0, 1.0); }
+glm::dvec3 clampToUnit(const glm::dvec3& v) { return glm::clamp(v, 0.0, 1.0); }
 
-SourceMaterial materialOf(const Statements& said, std::vector<std::string>& notes) {
+SourceMaterial convertMaterial(const Statements& from, std::vector<std::string>& notes) {
   SourceMaterial result;
-  result.name = said.name;
-  const glm::dvec3 kd = share(said.kd.value_or(glm::dvec3(kPlainColour))), ks = share(said.ks.value_or(glm::dvec3(0)));
+  result.name = from.name;
+  const glm::dvec3 kd = clampToUnit(from.kd.value_or(glm::dvec3(kDefaultColour))),
+                   ks = clampToUnit(from.ks.value_or(glm::dvec3(0)));
 
-  // Step 1: metal or not, and how rough.
-  const bool shines = largest(ks) > 0 && said.illum > 1;
-  const bool metal = said.pm ? *said.pm >= 0.5 : largest(ks) > 0.5 && largest(kd) < 0.1;
-  result.metallic = said.pm ? std::clamp(*said.pm, 0.0, 1.0) : metal ? 1 : 0;
-  result.baseColour = metal && !said.pm ? ks : kd;
-  if (said.pr) {
-    result.roughness = std::clamp(*said.pr, 0.0, 1.0);
+  // Set metallic, base colour and roughness.
+  const bool shines = largest(ks) > 0 && from.illum > 1;
+  const bool metal = from.pm ? *from.pm >= 0.5 : largest(ks) > 0.5 && largest(kd) < 0.1;
+  result.metallic = from.pm ? std::clamp(*from.pm, 0.0, 1.0) : metal ? 1 : 0;
+  result.baseColour = metal && !from.pm ? ks : kd;
+  if (from.pr) {
+    result.roughness = std::clamp(*from.pr, 0.0, 1.0);
   } else if (shines || metal) {
-    result.roughness = std::pow(2 / (std::max(said.ns.value_or(0), 0.0) + 2), 0.25);
+    result.roughness = std::pow(2 / (std::max(from.ns.value_or(0), 0.0) + 2), 0.25);
   }
 
-  // Step 2: light that it gives off and lets through.
-  if (said.ke) result.emissive = glm::max(*said.ke, 0.0);
-  if (said.ni && *said.ni < 1) addNote(notes, "an index of refraction under 1: 1.5 is taken");
-  if (said.ni && *said.ni >= 1) result.ior = *said.ni;
-  const bool refracts = said.illum == 4 || said.illum == 6 || said.illum == 7 || said.illum == 9;
-  if (said.d)
-    result.transmission = 1 - std::clamp(*said.d, 0.0, 1.0);
-  else if (refracts && said.tf)
-    result.transmission = largest(share(*said.tf));
-  if (said.tf) {
+  // Set emission, index and transmission.
+  if (from.ke) result.emissive = glm::max(*from.ke, 0.0);
+  if (from.ni && *from.ni < 1) addNote(notes, "indices of refraction below 1, replaced by 1.5");
+  if (from.ni && *from.ni >= 1) result.ior = *from.ni;
+  const bool refracts = from.illum == 4 || from.illum == 6 || from.illum == 7 || from.illum == 9;
+  if (from.d)
+    result.transmission = 1 - std::clamp(*from.d, 0.0, 1.0);
+  else if (refracts && from.tf)
+    result.transmission = largest(clampToUnit(*from.tf));
+  if (from.tf) {
     result.hasVolume = true;
-    result.attenuationColour = share(*said.tf);
+    result.attenuationColour = clampToUnit(*from.tf);
     result.attenuationDistance = 1;
   }
   return result;
 }
 
-// One statement of a material.
-void take(std::string_view keyword, std::string_view rest, const Lines& at, Statements& material,
-          std::vector<std::string>& notes) {
+// Parses one statement of a material.
+void parseStatement(std::string_view keyword, std::string_view rest, const Lines& at, Statements& material,
+                    std::vector<std::string>& notes) {
   const auto note = [&](std::string text) { addNote(notes, std::move(text)); };
   const auto number = [&] { return coordinate(takeWord(rest), at); };
   const auto colour = [&](std::optional<glm::dvec3>& value) {
     std::string_view ahead = rest;
     const std::string_view first = takeWord(ahead);
     if (first == "spectral" || first == "xyz") {
-      note(fmt::format("colours of material files by {}", first));
+      note(fmt::format("colours given by {}", first));
       return;
     }
     const double r = number();
@@ -115,13 +116,13 @@ void take(std::string_view keyword, std::string_view rest, const Lines& at, Stat
     if (takeWord(ahead) == "-halo") rest = ahead;
     material.d = number();
   } else if (keyword == "illum") {
-    const long long model = wholeNumber(takeWord(rest), "a whole number of 0 to 10", at);
+    const long long model = wholeNumber(takeWord(rest), "an integer from 0 to 10", at);
     if (model < 0 || model > 10)
-      at.fail("an unknown model of illumination", "a whole number of 0 to 10", fmt::to_string(model));
+      at.fail("unknown illumination model", "an integer from 0 to 10", fmt::to_string(model));
     material.illum = static_cast<int>(model);
-  } else if (keyword.starts_with("map_") || std::find(kPictures.begin(), kPictures.end(), keyword) != kPictures.end()) {
+  } else if (keyword.starts_with("map_") || std::find(kTextures.begin(), kTextures.end(), keyword) != kTextures.end()) {
     note("textures");
-  } else if (std::find(kOfNoConcern.begin(), kOfNoConcern.end(), keyword) == kOfNoConcern.end()) {
+  } else if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end()) {
     note(fmt::format("statements {} of material files", quoted(keyword)));
   }
 }
@@ -130,27 +131,28 @@ void take(std::string_view keyword, std::string_view rest, const Lines& at, Stat
 
 std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, std::vector<std::string>& notes) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw Error(where, "is UTF-16 text", "ASCII or UTF-8");
+    throw Error(where, "file is UTF-16 text", "ASCII or UTF-8");
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-  std::vector<Statements> said;
+  std::vector<Statements> statements;
   Lines lines(text, where);
   while (lines.nextStatement('#')) {
     std::string_view rest = lines.line();
     const std::string_view keyword = takeWord(rest);
     if (keyword == "newmtl") {
       rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-      if (rest.empty()) lines.fail("a material without a name", "newmtl NAME");
-      if (said.size() == kMaxMaterials) lines.fail("too many materials", fmt::format("at most {}", kMaxMaterials));
-      said.emplace_back();
-      said.back().name = nameOf(rest, lines);
+      if (rest.empty()) lines.fail("material without a name", "newmtl NAME");
+      if (statements.size() == kMaxMaterials)
+        lines.fail("too many materials", fmt::format("at most {}", kMaxMaterials));
+      statements.emplace_back();
+      statements.back().name = parseName(rest, lines);
       continue;
     }
-    if (said.empty()) lines.fail("a statement outside of a material", "newmtl NAME first", quoted(keyword));
-    take(keyword, rest, lines, said.back(), notes);
+    if (statements.empty()) lines.fail("statement outside of a material", "newmtl NAME first", quoted(keyword));
+    parseStatement(keyword, rest, lines, statements.back(), notes);
   }
   std::vector<SourceMaterial> materials;
-  materials.reserve(said.size());
-  for (const Statements& material : said) materials.push_back(materialOf(material, notes));
+  materials.reserve(statements.size());
+  for (const Statements& material : statements) materials.push_back(convertMaterial(material, notes));
   return materials;
 }
 
@@ -159,7 +161,7 @@ std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vect
 }
 
 std::vector<std::filesystem::path> listMaterialFiles(const std::filesystem::path& obj,
-                                                   const std::vector<std::string>& statements) {
+                                                     const std::vector<std::string>& statements) {
   std::vector<std::filesystem::path> files;
   const auto add = [&](std::string_view name) {
     std::filesystem::path file = obj.parent_path() / std::filesystem::path(name);
@@ -176,7 +178,7 @@ std::vector<std::filesystem::path> listMaterialFiles(const std::filesystem::path
 }
 
 void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files) {
-  // Step 1: what the files say, by name.
+  // Read the descriptions by name.
   std::map<std::string, SourceMaterial> described;
   std::vector<std::string> missing;
   for (const std::filesystem::path& path : listMaterialFiles(obj, files)) {
@@ -188,11 +190,11 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
     for (SourceMaterial& material : readMtl(path, scene.notes)) {
       const std::string name = material.name;
       if (!described.emplace(name, std::move(material)).second)
-        addNote(scene.notes, fmt::format("a second material {}", prep::quoted(name)));
+        addNote(scene.notes, fmt::format("a duplicate material {}", prep::quoted(name)));
     }
   }
 
-  // Step 2: what the faces name. A file that is missing matters only where a material is.
+  // Set the materials. Report missing files only if a material is missing.
   for (SourceMaterial& material : scene.materials) {
     const auto found = described.find(material.name);
     if (found != described.end()) {
@@ -200,9 +202,9 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
       continue;
     }
     for (const std::string& file : missing)
-      addNote(scene.notes, fmt::format("material file {}, which is missing", prep::quoted(file)));
-    addNote(scene.notes, fmt::format("material {}, which no file describes", prep::quoted(material.name)));
-    material.baseColour = glm::dvec3(kPlainColour);
+      addNote(scene.notes, fmt::format("missing material file {}", prep::quoted(file)));
+    addNote(scene.notes, fmt::format("material {} without a description", prep::quoted(material.name)));
+    material.baseColour = glm::dvec3(kDefaultColour);
     material.metallic = 0;
   }
 }
@@ -216,7 +218,7 @@ std::vector<std::string> listMtllibs(std::string text, std::string_view where) {
     lines.joinContinued();
     std::string_view rest = lines.line();
     if (takeWord(rest) != "mtllib") continue;
-    std::string name = nameOf(rest, lines, kMaxPathBytes);
+    std::string name = parseName(rest, lines, kMaxPathBytes);
     if (!name.empty() && seen.insert(name).second) statements.push_back(std::move(name));
   }
   return statements;

@@ -20,15 +20,15 @@ struct Scan {
   bool isBinary = false;      // STL only
 };
 
-// `where` is the path for messages. All throw Error that names where:line or a byte.
+// `where` is the path for messages. All throw Error at "WHERE:LINE" or "WHERE, byte N".
 Scan scanObj(std::string& bytes, std::string_view where);
 Scan scanPly(std::string& bytes, std::string_view where);
 Scan scanOff(std::string& bytes, std::string_view where);
 
-// STL: three positions a face, nothing shared. Binary is told by its size, 84 + 50 n bytes.
+// STL has three positions per face and shares none. A file of 84 + 50 n bytes is binary.
 Scan scanStl(std::string& bytes, std::string_view where);
 
-// Adds to the notes what the file holds and nobody reads, once.
+// Adds a note about ignored content, once.
 void noteOnce(Polygons& polygons, std::string_view what);
 
 }  // namespace malus::prep

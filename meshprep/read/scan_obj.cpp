@@ -1,7 +1,7 @@
-// Wavefront OBJ: positions, faces, normals of corners, groups, objects, materials' names and smoothing groups.
-// Texture coordinates, colours, points and lines are left out with a note; free-form surfaces, statements that read
-// another file and unknown statements are errors. A comment never continues, whatever it ends in.
-// Source: Wavefront Technologies, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1.
+// Wavefront OBJ: positions, faces, corner normals, groups, objects, names of materials and smoothing groups. Texture
+// coordinates, colours, points and lines are ignored with a note. Free-form surfaces, statements that include a file
+// and unknown statements are errors. A backslash does not continue a comment. Source: Wavefront Technologies, "Object
+// Files (.obj)", Advanced Visualizer Manual, appendix B1.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -18,10 +18,11 @@ namespace malus::prep {
 
 namespace {
 
-constexpr long long kMaxIndex = std::numeric_limits<int>::max();  // of OpenMesh's handles
+constexpr long long kMaxIndex =
+    std::numeric_limits<int>::max();  // limit of OpenMesh's handles, with which the tests compare
 constexpr std::uint32_t kNoNormal = std::numeric_limits<std::uint32_t>::max();
 
-// Statements that have no say in the surface, and what they hold.
+// Statements without effect on the surface, and the note about them.
 struct Skipped {
   std::string_view keyword, note;
 };
@@ -40,9 +41,9 @@ constexpr std::array<Skipped, 14> kSkipped = {{{"vt", "texture coordinates"},
                                                {"shadow_obj", "objects for shadows and reflections"},
                                                {"trace_obj", "objects for shadows and reflections"}}};
 
-// How many of each kind of vertex there are so far: positions, texture coordinates, normals.
+// Numbers of positions, texture coordinates and normals so far.
 using Counts = std::array<long long, 3>;
-constexpr std::array<std::string_view, 3> kKinds = {"a vertex", "a texture coordinate", "a normal"};
+constexpr std::array<std::string_view, 3> kKinds = {"vertex", "texture coordinate", "normal"};
 
 class ObjScan {
  public:
@@ -83,12 +84,12 @@ class ObjScan {
   PartList parts_;
 
   Counts counts_{};
-  Counts highest_ = {-1, -1, -1};           // index of each kind that a corner names
-  std::array<std::size_t, 3> highestAt_{};  // and the line that does
+  Counts highest_ = {-1, -1, -1};           // highest index of each kind in a corner
+  std::array<std::size_t, 3> highestAt_{};  // and its line
 
   std::vector<glm::vec3> normals_;
-  std::vector<std::uint32_t> normalOf_;  // one a corner; empty until a corner has one
-  bool smoothing_ = false;               // the file has `s`
+  std::vector<std::uint32_t> normalOf_;  // one per corner; empty until a corner has one
+  bool smoothing_ = false;               // an `s` statement has been read
   std::uint32_t smoothingGroup_ = 0;
   std::unordered_set<std::string> materialFiles_;
 };
@@ -97,13 +98,14 @@ void ObjScan::scanVertex(std::string_view rest) {
   std::array<double, 7> numbers{};
   std::size_t count = 0;
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
-    if (count == numbers.size()) lines_.fail("a vertex has too many numbers", "x y z, a weight of 1, a colour");
+    if (count == numbers.size())
+      lines_.fail("too many numbers in a vertex", "x y z, optionally a weight of 1 and a colour");
     numbers[count++] = coordinate(word, lines_);
   }
   if (count < 3 || count == 5)
-    lines_.fail("a vertex has a wrong number of numbers", "3 (x y z), 4 (weight) or 6 (colour)", fmt::to_string(count));
+    lines_.fail("wrong number of numbers in a vertex", "3 (x y z), 4 (weight) or 6 (colour)", fmt::to_string(count));
   if ((count == 4 || count == 7) && numbers[3] != 1)
-    lines_.fail("a rational vertex", "a weight of 1", fmt::to_string(numbers[3]));
+    lines_.fail("rational vertex is not supported", "a weight of 1", fmt::to_string(numbers[3]));
   if (count > 4) noteOnce(polygons_, "colours of vertices");
   polygons_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
   polygons_.vertexLocations.push_back(lines_.number());
@@ -114,7 +116,7 @@ void ObjScan::scanFace(std::string_view rest) {
   const std::size_t first = polygons_.corners.size();
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) scanCorner(word);
   const std::size_t corners = polygons_.corners.size() - first;
-  if (corners < 3) lines_.fail("a face without area", "at least 3 corners", fmt::to_string(corners));
+  if (corners < 3) lines_.fail("too few corners in a face", "3 or more", fmt::to_string(corners));
   polygons_.closeFace();
   polygons_.faceLocations.push_back(lines_.number());
   polygons_.partOf.push_back(parts_.current());
@@ -127,7 +129,7 @@ void ObjScan::scanCorner(std::string_view word) {
   std::string_view rest = word;
   bool last = false;
   for (std::size_t kind = 0; !last; ++kind) {
-    if (kind == 3) lines_.fail("a bad corner", "v, v/vt, v//vn or v/vt/vn", quoted(word));
+    if (kind == 3) lines_.fail("invalid corner", "v, v/vt, v//vn or v/vt/vn", quoted(word));
     const std::size_t slash = rest.find('/');
     const std::string_view part = rest.substr(0, slash);
     last = slash == std::string_view::npos;
@@ -147,12 +149,12 @@ void ObjScan::scanCorner(std::string_view word) {
   if (normal != kNoNormal || !normalOf_.empty()) normalOf_.push_back(normal);
 }
 
-// An index from 1 or, counted back from the last so far, from -1; returned from 0 and checked again at the end.
+// Converts an index from 1, or from -1 for the last vertex so far, to one from 0. finish() checks the upper bound.
 long long ObjScan::resolve(std::string_view word, std::size_t kind) {
-  const long long index = wholeNumber(word, "v, v/vt, v//vn or v/vt/vn in whole numbers", lines_);
+  const long long index = wholeNumber(word, "integers as v, v/vt, v//vn or v/vt/vn", lines_);
   const long long resolved = index > 0 ? index - 1 : counts_[kind] + index;
   if (index == 0 || resolved < 0 || resolved > kMaxIndex)
-    lines_.fail(fmt::format("a corner names {} that is not there", kKinds[kind]),
+    lines_.fail(fmt::format("invalid {} index", kKinds[kind]),
                 fmt::format("1 to {} or -1 to -{}", counts_[kind], counts_[kind]), fmt::to_string(index));
   return resolved;
 }
@@ -160,55 +162,55 @@ long long ObjScan::resolve(std::string_view word, std::size_t kind) {
 void ObjScan::scanNormal(std::string_view rest) {
   glm::dvec3 n(0);
   for (int axis = 0; axis < 3; ++axis) n[axis] = coordinate(takeWord(rest), lines_);
-  if (!takeWord(rest).empty()) lines_.fail("a normal has too many numbers", "x y z");
+  if (!takeWord(rest).empty()) lines_.fail("too many numbers in a normal", "x y z");
   normals_.emplace_back(n);
   ++counts_[2];
 }
 
 void ObjScan::scanSmoothing(std::string_view rest) {
   const std::string_view word = takeWord(rest);
-  constexpr std::string_view kExpected = "off or a whole number from 0";
+  constexpr std::string_view kExpected = "off or an integer of 0 or more";
   const long long group = word == "off" ? 0 : wholeNumber(word, kExpected, lines_);
   if (group < 0 || group > std::numeric_limits<std::uint32_t>::max() || !takeWord(rest).empty())
-    lines_.fail("a bad smoothing group", kExpected, quoted(lines_.line()));
+    lines_.fail("invalid smoothing group", kExpected, quoted(lines_.line()));
   if (!smoothing_) polygons_.smoothingGroups.resize(polygons_.faceCount(), 0);
   smoothing_ = true;
   smoothingGroup_ = static_cast<std::uint32_t>(group);
 }
 
-// One name that may hold blanks, or several between blanks: all of it comes first, then the words.
+// Stores the whole argument: one name with blanks, or several names. read_mtl.h decides.
 void ObjScan::scanMaterialFiles(std::string_view rest) {
-  std::string files = nameOf(rest, lines_, kMaxPathBytes);
+  std::string files = parseName(rest, lines_, kMaxPathBytes);
   if (!files.empty() && materialFiles_.insert(files).second) polygons_.materialFiles.push_back(std::move(files));
 }
 
 void ObjScan::scanOther(std::string_view keyword, std::string_view rest) {
   if (keyword == "vn") return scanNormal(rest);
-  if (keyword == "g" || keyword == "o") return parts_.setName(nameOf(rest, lines_));
-  if (keyword == "usemtl") return parts_.setMaterial(nameOf(rest, lines_));
+  if (keyword == "g" || keyword == "o") return parts_.setName(parseName(rest, lines_));
+  if (keyword == "usemtl") return parts_.setMaterial(parseName(rest, lines_));
   if (keyword == "s") return scanSmoothing(rest);
   if (keyword == "mtllib") return scanMaterialFiles(rest);
   const auto* const skipped =
       std::find_if(kSkipped.begin(), kSkipped.end(), [&](const Skipped& s) { return s.keyword == keyword; });
-  if (skipped == kSkipped.end()) lines_.fail("an unknown statement", "an OBJ file of polygons", quoted(keyword));
+  if (skipped == kSkipped.end())
+    lines_.fail("unknown statement", "a statement of a polygonal OBJ file", quoted(keyword));
   if (keyword == "vt") ++counts_[1];
   noteOnce(polygons_, skipped->note);
 }
 
 void ObjScan::finish() {
-  // Step 1: a corner may name a vertex that is written further down, but not one that never comes.
+  // Check the highest indices: a corner may refer to a vertex that follows it.
   for (std::size_t kind = 0; kind < 3; ++kind)
     if (highest_[kind] >= counts_[kind])
-      throw Error(fmt::format("{}:{}", where_, highestAt_[kind]),
-                  fmt::format("a corner names {} that is not there", kKinds[kind]),
+      throw Error(fmt::format("{}:{}", where_, highestAt_[kind]), fmt::format("invalid {} index", kKinds[kind]),
                   fmt::format("1 to {}", counts_[kind]), fmt::to_string(highest_[kind] + 1));
 
-  // Step 2: normals of the corners, now that all are there.
+  // Resolve the normals of the corners.
   polygons_.cornerNormals.reserve(normalOf_.size());
   for (const std::uint32_t normal : normalOf_)
     polygons_.cornerNormals.push_back(normal == kNoNormal ? glm::vec3(0) : normals_[normal]);
 
-  // Step 3: one part without a name or a material says nothing.
+  // Drop the list of parts if it is one part without name and material.
   polygons_.parts = parts_.take();
   if (polygons_.parts == std::vector<Part>{Part{}}) {
     polygons_.parts.clear();

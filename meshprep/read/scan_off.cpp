@@ -1,6 +1,6 @@
-// Object File Format, ASCII, three dimensions: [ST][C][N]OFF, a vertex or face a line, comments anywhere. Normals are
-// kept; colours and texture coordinates are left out with a note. Binary files are errors.
-// Source: Geomview manual, "OFF: the format of polygon files", http://www.geomview.org/docs/html/OFF.html.
+// Object File Format, ASCII, three dimensions: [ST][C][N]OFF, one vertex or face per line, comments anywhere. Normals
+// are read; colours and texture coordinates are ignored with a note. Binary files are errors. Source: Geomview manual,
+// "OFF: the format of polygon files", http://www.geomview.org/docs/html/OFF.html.
 #include <algorithm>
 #include <limits>
 
@@ -13,17 +13,17 @@ namespace malus::prep {
 
 namespace {
 
-// A count that the file's own bytes can back: every element takes at least `bytesEach` of them.
+// Parses a count, and requires at least `bytesEach` bytes of the file per element.
 std::size_t scanCount(std::string_view& rest, std::string_view what, std::size_t fileBytes, std::size_t bytesEach,
                       const Lines& at) {
   const long long count = wholeNumber(takeWord(rest), what, at);
   const std::size_t most = std::min<std::size_t>(fileBytes / bytesEach, std::numeric_limits<int>::max());
   if (count < 0 || static_cast<unsigned long long>(count) > most)
-    at.fail("a count that the file cannot hold", fmt::format("{}, at most {}", what, most), fmt::to_string(count));
+    at.fail("count exceeds the file size", fmt::format("{}, at most {}", what, most), fmt::to_string(count));
   return static_cast<std::size_t>(count);
 }
 
-// What the letters before OFF say about the numbers after x y z.
+// Numbers after x y z, by the letters before OFF.
 struct Header {
   std::size_t length = 0;  // in characters
   bool textured = false, coloured = false, normals = false;
@@ -42,12 +42,12 @@ Header scanHeader(const Lines& at) {
   header.coloured = take("C");
   header.normals = take("N");
   if (prefix.starts_with("4") || prefix.starts_with("n"))
-    at.fail("an OFF file of another dimension", "three dimensions", quoted(at.line()));
+    at.fail("unsupported dimension of an OFF file", "three dimensions", quoted(at.line()));
   if (prefix != "OFF") at.fail("is not an OFF file", "OFF, COFF, NOFF or STOFF", quoted(at.line()));
   return header;
 }
 
-// Blanks everything of the line after `rest` began: OpenMesh shall find plain numbers alone.
+// Blanks the line from the beginning of `rest`, so that OpenMesh finds numbers only.
 void blankFrom(std::string_view rest, Lines& lines) {
   lines.blank(static_cast<std::size_t>(rest.data() - lines.line().data()));
 }
@@ -57,13 +57,13 @@ void blankFrom(std::string_view rest, Lines& lines) {
 Scan scanOff(std::string& bytes, std::string_view where) {
   Lines lines(bytes, where);
   const auto nextLine = [&](std::string_view what) {
-    if (!lines.nextStatement('#')) throw Error(where, "ends too early", what, "the end of the file");
+    if (!lines.nextStatement('#')) throw Error(where, "unexpected end of file", what);
     std::string_view rest = lines.line();
     const std::size_t comment = rest.find('#');
     return rest.substr(0, comment);
   };
 
-  // Step 1: header, perhaps with the counts on the same line. It becomes a plain OFF on a line of its own.
+  // Parse the header, which may have the counts on the same line. Reduce it to a line "OFF".
   nextLine("OFF");
   const Header header = scanHeader(lines);
   const std::size_t length = header.length;
@@ -71,7 +71,7 @@ Scan scanOff(std::string& bytes, std::string_view where) {
   rest = rest.substr(0, rest.find('#'));
   std::string_view peek = rest;
   const std::string_view after = takeWord(peek);
-  if (after == "BINARY") lines.fail("a binary OFF file", "ASCII", quoted(lines.line()));
+  if (after == "BINARY") lines.fail("binary OFF files are not supported", "ASCII", quoted(lines.line()));
   const auto headerBegin = static_cast<std::size_t>(lines.line().data() - bytes.data());
   bytes.replace(headerBegin, length, std::string("OFF") + std::string(length - 3, ' '));
   if (after.empty()) {
@@ -81,21 +81,21 @@ Scan scanOff(std::string& bytes, std::string_view where) {
     bytes[headerBegin + length] = '\n';
   }
 
-  // Step 2: counts of vertices, faces and edges; the last is not used by anyone.
+  // Parse the numbers of vertices, faces and edges. The last is not used.
   const std::size_t vertices = scanCount(rest, "a number of vertices", bytes.size(), 6, lines);
   const std::size_t faces = scanCount(rest, "a number of faces", bytes.size(), 8, lines);
   wholeNumber(takeWord(rest), "a number of edges", lines);
-  if (!takeWord(rest).empty()) lines.fail("too many counts", "vertices, faces and edges");
+  if (!takeWord(rest).empty()) lines.fail("too many counts", "numbers of vertices, faces and edges");
   blankFrom(rest, lines);
 
-  // Step 3: vertices, a line each.
+  // Parse the vertices, one per line.
   Scan scan;
   Polygons& polygons = scan.polygons;
   polygons.positions.reserve(vertices);
   polygons.vertexLocations.reserve(vertices);
   if (header.normals) polygons.normals.reserve(vertices);
   for (std::size_t i = 0; i < vertices; ++i) {
-    rest = nextLine(fmt::format("{} vertices, {} found", vertices, i));
+    rest = nextLine(fmt::format("{} vertices, of which {} were read", vertices, i));
     glm::dvec3 p(0);
     for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
     polygons.positions.push_back(p);
@@ -111,19 +111,18 @@ Scan scanOff(std::string& bytes, std::string_view where) {
     blankFrom(rest, lines);
   }
 
-  // Step 4: faces, a line each: number of corners, corners, perhaps a colour.
+  // Parse the faces, one per line: number of corners, corners, optional colour.
   polygons.faceLocations.reserve(faces);
   for (std::size_t i = 0; i < faces; ++i) {
-    rest = nextLine(fmt::format("{} faces, {} found", faces, i));
+    rest = nextLine(fmt::format("{} faces, of which {} were read", faces, i));
     const long long corners = wholeNumber(takeWord(rest), "a number of corners", lines);
-    if (corners < 3) lines.fail("a face without area", "at least 3 corners", fmt::to_string(corners));
+    if (corners < 3) lines.fail("too few corners in a face", "3 or more", fmt::to_string(corners));
     for (long long c = 0; c < corners; ++c) {
       const std::string_view word = takeWord(rest);
-      if (word.empty()) lines.fail("a face lacks corners", fmt::format("{} corners", corners), fmt::to_string(c));
-      const long long index = wholeNumber(word, "whole numbers", lines);
+      if (word.empty()) lines.fail("missing corners in a face", fmt::format("{} corners", corners), fmt::to_string(c));
+      const long long index = wholeNumber(word, "an integer", lines);
       if (index < 0 || static_cast<unsigned long long>(index) >= vertices)
-        lines.fail("a face names a vertex that is not there", fmt::format("0 or more and below {}", vertices),
-                   fmt::to_string(index));
+        lines.fail("invalid vertex index", fmt::format("0 to {}", vertices - 1), fmt::to_string(index));
       polygons.corners.push_back(static_cast<std::uint32_t>(index));
     }
     polygons.closeFace();
@@ -132,9 +131,10 @@ Scan scanOff(std::string& bytes, std::string_view where) {
     if (!takeWord(more).empty()) noteOnce(polygons, "colours of faces");
     blankFrom(rest, lines);
   }
-  if (lines.nextStatement('#')) lines.fail("more than the header counts", "the end of the file", quoted(lines.line()));
+  if (lines.nextStatement('#'))
+    lines.fail("content after the elements of the header", "the end of the file", quoted(lines.line()));
 
-  // OpenMesh looks for the header in the first line alone.
+  // OpenMesh expects the header in the first line.
   bytes.erase(0, headerBegin);
   return scan;
 }

@@ -1,8 +1,8 @@
-// Polygon File Format: ASCII and binary of either byte order, any type of number, elements in any order. Vertices,
-// normals of vertices, faces and triangle strips are read; other properties, lists and elements are left out with a
+// Polygon File Format: ASCII and binary with either byte order, all numeric types, elements in any order. Vertices,
+// normals of vertices, faces and triangle strips are read; other properties, lists and elements are ignored with a
 // note.
-// Source: G. Turk, "The PLY Polygon File Format", Stanford University, 1994; triangle strips as its files from the
-// Stanford 3D Scanning Repository have them: a new strip begins after each -1.
+// Source: G. Turk, "The PLY Polygon File Format", Stanford University, 1994; triangle strips as in files of the
+// Stanford 3D Scanning Repository: -1 ends a strip.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -52,7 +52,7 @@ class PlyScan {
 };
 
 void PlyScan::scanElement(const Element& element) {
-  // Step 1: room for what the header counts, which the file's size backs.
+  // Reserve memory for the counts of the header, which are bounded by the file size.
   constexpr std::array<std::string_view, 4> kNames = {"vertex", "face", "strip", "element"};
   if (element.kind == Kind::kVertices) {
     polygons_.positions.reserve(element.count);
@@ -64,7 +64,7 @@ void PlyScan::scanElement(const Element& element) {
   }
   if (element.count > 0) noteSkipped(element);
 
-  // Step 2: item by item, property by property.
+  // Read items by properties.
   for (std::size_t i = 0; i < element.count; ++i) {
     source_.beginItem(kNames[static_cast<std::size_t>(element.kind)], i);
     if (element.kind == Kind::kVertices) {
@@ -97,7 +97,7 @@ void PlyScan::scanVertex(const Element& element) {
     }
   }
   polygons_.positions.push_back(p);
-  polygons_.vertexLocations.push_back(source_.place());
+  polygons_.vertexLocations.push_back(source_.location());
   if (!header_.hasNormals) return;
   constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max());
   const bool finite = std::abs(n.x) <= kLargest && std::abs(n.y) <= kLargest && std::abs(n.z) <= kLargest;
@@ -107,18 +107,18 @@ void PlyScan::scanVertex(const Element& element) {
 
 void PlyScan::scanFace(const Property& list) {
   const std::size_t corners = listLength(list);
-  if (corners < 3) source_.fail("has a bad number of corners", "at least 3", fmt::to_string(corners));
+  if (corners < 3) source_.fail("too few corners", "3 or more", fmt::to_string(corners));
   for (std::size_t c = 0; c < corners; ++c) polygons_.corners.push_back(corner(source_.whole(list.type)));
   polygons_.closeFace();
-  polygons_.faceLocations.push_back(source_.place());
+  polygons_.faceLocations.push_back(source_.location());
 }
 
-// Each corner after the second makes a triangle with the two before it; every other one is turned, so that all face
-// the same way. Strips are sewn together by triangles that name a corner twice: they are no faces.
+// Each corner after the second makes a triangle with the two before it; every second one is flipped for a consistent
+// orientation. Triangles with a repeated corner connect strips and are not faces.
 void PlyScan::scanStrip(const Property& list) {
   const std::size_t length = listLength(list);
   std::uint32_t a = 0, b = 0;
-  std::size_t known = 0;  // corners since the strip began
+  std::size_t known = 0;  // corners of the current strip
   for (std::size_t i = 0; i < length; ++i) {
     const std::int64_t index = source_.whole(list.type);
     if (index == -1) {
@@ -137,18 +137,18 @@ void PlyScan::addStripTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c
   if (a == b || b == c || c == a) return;
   polygons_.corners.insert(polygons_.corners.end(), {a, b, c});
   polygons_.closeFace();
-  polygons_.faceLocations.push_back(source_.place());
+  polygons_.faceLocations.push_back(source_.location());
 }
 
 std::size_t PlyScan::listLength(const Property& list) {
   const std::int64_t length = source_.whole(*list.countType);
-  if (length < 0) source_.fail("has a list of a bad length", "0 or more", fmt::to_string(length));
+  if (length < 0) source_.fail("invalid list length", "0 or more", fmt::to_string(length));
   return static_cast<std::size_t>(length);
 }
 
 std::uint32_t PlyScan::corner(std::int64_t index) const {
   if (index < 0 || static_cast<std::uint64_t>(index) >= header_.vertices)
-    source_.fail("names a vertex that is not there", fmt::format("0 or more and below {}", header_.vertices),
+    source_.fail("invalid vertex index", fmt::format("an index of 0 or more and below {}", header_.vertices),
                  fmt::to_string(index));
   return static_cast<std::uint32_t>(index);
 }
@@ -159,7 +159,7 @@ void PlyScan::skip(const Property& property) {
 
 void PlyScan::noteSkipped(const Element& element) {
   if (element.kind == Kind::kOther) {
-    noteOnce(polygons_, "elements that are no vertices, faces or triangle strips");
+    noteOnce(polygons_, "elements other than vertices, faces and triangle strips");
     return;
   }
   const std::string_view owner = element.kind == Kind::kVertices ? "vertices" : "faces";

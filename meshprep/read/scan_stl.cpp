@@ -1,7 +1,6 @@
-// Stereolithography, ASCII and binary (little-endian). Corners alone count: normals of facets are not read, and
-// attributes, which some programs take for colours, are left out with a note. Each solid of an ASCII file that has
-// faces is a part.
-// Source: 3D Systems, "StereoLithography Interface Specification", 1989.
+// Stereolithography, ASCII and binary (little-endian). Normals of facets are not read. Attributes, which some programs
+// use for colours, are ignored with a note. Each solid of an ASCII file with faces is a part. Source: 3D Systems,
+// "StereoLithography Interface Specification", 1989.
 #include <array>
 #include <bit>
 #include <cctype>
@@ -51,7 +50,7 @@ Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t face
       for (int axis = 0; axis < 3; ++axis, offset += 4) {
         p[axis] = static_cast<double>(std::bit_cast<float>(littleEndian(bytes, offset)));
         if (!std::isfinite(p[axis]))
-          throw Error(fmt::format("{}, byte {}", where, offset), fmt::format("a bad number in face {}", f),
+          throw Error(fmt::format("{}, byte {}", where, offset), fmt::format("invalid number in face {}", f),
                       "a finite number", fmt::to_string(p[axis]));
       }
       polygons.corners.push_back(static_cast<std::uint32_t>(polygons.positions.size()));
@@ -64,12 +63,12 @@ Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t face
   return scan;
 }
 
-// The words that a line must begin with; returns what follows them.
+// Requires these words at the beginning of the line. Returns the rest of it.
 std::string_view expectWords(std::string_view expected, const Lines& at) {
   std::string_view rest = at.line();
   std::string_view words = expected;
   for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words))
-    if (!equalsIgnoringCase(takeWord(rest), word)) at.fail("not as STL has it", expected, quoted(at.line()));
+    if (!equalsIgnoringCase(takeWord(rest), word)) at.fail("invalid STL statement", expected, quoted(at.line()));
   return rest;
 }
 
@@ -79,21 +78,21 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
   Lines lines(bytes, where);
   const auto nextLine = [&](std::string_view expected) {
     do {
-      if (!lines.next()) throw Error(where, "ends too early", expected, "the end of the file");
+      if (!lines.next()) throw Error(where, "unexpected end of file", expected);
     } while (lines.line().empty());
   };
   constexpr std::string_view kSolid = "solid";
   bool inSolid = false;
   std::string name;
-  bool newPart = false;  // at the next face
+  bool newPart = false;  // the next face begins a part
   while (lines.next()) {
     if (lines.line().empty()) continue;
     std::string_view rest = lines.line();
     const std::string_view keyword = takeWord(rest);
 
-    // Names may hold words that OpenMesh takes for statements: they are blanked.
+    // Blank names: they may contain words that OpenMesh reads as statements.
     if (!inSolid) {
-      name = nameOf(expectWords(kSolid, lines), lines);
+      name = parseName(expectWords(kSolid, lines), lines);
       newPart = true;
       lines.blank(kSolid.size());
       inSolid = true;
@@ -109,14 +108,14 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
       nextLine("outer loop");
       expectWords("outer loop", lines);
       for (int corner = 0; corner < 3; ++corner) {
-        // OpenMesh takes the next three lines, whatever they are.
+        // OpenMesh requires the corners in the next three lines.
         const std::size_t expectedNumber = lines.nextNumber();
         nextLine("three corners");
         if (lines.number() != expectedNumber) scan.openMeshReads = false;
         rest = expectWords("vertex", lines);
         glm::dvec3 p(0);
         for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
-        if (!takeWord(rest).empty()) lines.fail("a corner has too many numbers", "x y z");
+        if (!takeWord(rest).empty()) lines.fail("too many numbers in a corner", "x y z");
         polygons.corners.push_back(static_cast<std::uint32_t>(polygons.positions.size()));
         polygons.positions.push_back(p);
         polygons.vertexLocations.push_back(lines.number());
@@ -128,9 +127,9 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
       expectWords("endfacet", lines);
     }
   }
-  if (inSolid) throw Error(where, "ends too early", "endsolid", "the end of the file");
+  if (inSolid) throw Error(where, "unexpected end of file", "endsolid");
 
-  // One part without a name says nothing.
+  // Drop the list of parts if it is one unnamed part.
   if (polygons.parts == std::vector<Part>{Part{}}) {
     polygons.parts.clear();
     polygons.partOf.clear();
@@ -141,7 +140,7 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
 }  // namespace
 
 Scan scanStl(std::string& bytes, std::string_view where) {
-  // Binary files may begin with "solid" too, so the size decides.
+  // Decide by size, because binary files may begin with "solid" too.
   if (bytes.size() >= kHeaderBytes) {
     const std::size_t faces = littleEndian(bytes, 80);
     if (bytes.size() == kHeaderBytes + faces * kFaceBytes) return scanBinary(bytes, where, faces);
@@ -150,9 +149,9 @@ Scan scanStl(std::string& bytes, std::string_view where) {
   if (first != std::string::npos && equalsIgnoringCase(std::string_view(bytes).substr(first, 5), "solid"))
     return scanAscii(bytes, where);
   if (bytes.size() < kHeaderBytes)
-    throw Error(where, "is not an STL file", "\"solid\", or 84 bytes and more", fmt::format("{} bytes", bytes.size()));
+    throw Error(where, "is not an STL file", "\"solid\", or at least 84 bytes", fmt::format("{} bytes", bytes.size()));
   const std::size_t faces = littleEndian(bytes, 80);
-  throw Error(where, "a binary STL file of a wrong size",
+  throw Error(where, "wrong size of a binary STL file",
               fmt::format("{} bytes for its {} faces", kHeaderBytes + faces * kFaceBytes, faces),
               fmt::format("{} bytes", bytes.size()));
 }

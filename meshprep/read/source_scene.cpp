@@ -17,37 +17,37 @@ namespace malus::prep {
 
 namespace {
 
-constexpr std::size_t kMaxNotes = 100;  // garbage may give reason for millions
+constexpr std::size_t kMaxNotes = 100;  // invalid files could cause millions
 
-std::string extensionOf(const std::filesystem::path& path) {
+std::string lowerExtension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
 }
 
-// The faces, with what is known about each and the vertices that they use.
-void takeFaces(const Polygons& source, const std::vector<std::size_t>& faces, SourcePart& part) {
+// Copies the faces with their attributes and vertices.
+void copyFaces(const Polygons& source, const std::vector<std::size_t>& faces, SourcePart& part) {
   Polygons& result = part.polygons;
   result.locationsAreBytes = source.locationsAreBytes;
 
-  // Step 1: the vertices, in their order.
-  std::vector<std::uint32_t>& kept = part.fileVertices;
+  // Copy the used vertices in their order.
+  std::vector<std::uint32_t>& used = part.fileVertices;
   for (const std::size_t f : faces)
-    for (const std::uint32_t corner : source.face(f)) kept.push_back(corner);
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  for (const std::uint32_t v : kept) {
+    for (const std::uint32_t corner : source.face(f)) used.push_back(corner);
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const std::uint32_t v : used) {
     result.positions.push_back(source.positions[v]);
     if (!source.normals.empty()) result.normals.push_back(source.normals[v]);
     if (!source.vertexLocations.empty()) result.vertexLocations.push_back(source.vertexLocations[v]);
   }
 
-  // Step 2: the faces.
+  // Copy the faces.
   for (const std::size_t f : faces) {
     for (std::size_t c = source.firstCorner[f]; c < source.firstCorner[f + 1]; ++c) {
-      const auto found = std::lower_bound(kept.begin(), kept.end(), source.corners[c]);
-      result.corners.push_back(static_cast<std::uint32_t>(found - kept.begin()));
+      const auto found = std::lower_bound(used.begin(), used.end(), source.corners[c]);
+      result.corners.push_back(static_cast<std::uint32_t>(found - used.begin()));
       if (!source.cornerNormals.empty()) result.cornerNormals.push_back(source.cornerNormals[c]);
     }
     result.closeFace();
@@ -65,7 +65,7 @@ void addNote(std::vector<std::string>& notes, std::string note) {
 }
 
 bool isGltf(const std::filesystem::path& path) {
-  const std::string extension = extensionOf(path);
+  const std::string extension = lowerExtension(path);
   return extension == ".gltf" || extension == ".glb";
 }
 
@@ -74,16 +74,16 @@ SourceScene splitByMaterial(Polygons polygons) {
   for (std::string& note : polygons.notes) addNote(scene.notes, std::move(note));
   polygons.notes.clear();
 
-  // Step 1: which faces go together.
-  const auto materialOf = [&](std::size_t face) -> const std::string& {
+  // Group the faces by material.
+  const auto materialName = [&](std::size_t face) -> const std::string& {
     static const std::string kNone;
     return polygons.partOf.empty() || polygons.parts.empty() ? kNone : polygons.parts[polygons.partOf[face]].material;
   };
-  std::map<std::string, std::size_t> groupOf;
+  std::map<std::string, std::size_t> groupByName;
   std::vector<std::vector<std::size_t>> groups;
   std::vector<std::string> names;
   for (std::size_t f = 0; f < polygons.faceCount(); ++f) {
-    const auto [found, isNew] = groupOf.emplace(materialOf(f), groups.size());
+    const auto [found, isNew] = groupByName.emplace(materialName(f), groups.size());
     if (isNew) {
       groups.emplace_back();
       names.push_back(found->first);
@@ -91,12 +91,12 @@ SourceScene splitByMaterial(Polygons polygons) {
     groups[found->second].push_back(f);
   }
 
-  // Step 2: a part for each. One part is the file as it is.
+  // Make a part per group. A single part keeps the polygons unchanged.
   scene.parts.resize(groups.size());
   if (groups.size() == 1)
     scene.parts.front().polygons = std::move(polygons);
   else
-    for (std::size_t g = 0; g < groups.size(); ++g) takeFaces(polygons, groups[g], scene.parts[g]);
+    for (std::size_t g = 0; g < groups.size(); ++g) copyFaces(polygons, groups[g], scene.parts[g]);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     SourcePart& part = scene.parts[g];
     part.name = names[g];
@@ -122,10 +122,10 @@ SourceScene readSourceScene(const std::filesystem::path& path) {
   return scene;
 }
 
-Polygons merged(const SourceScene& scene) {
+Polygons mergeInstances(const SourceScene& scene) {
   Polygons result;
   result.notes = scene.notes;
-  // Where some part has normals, the others have none: zero.
+  // If any part has normals, set those of the others to zero.
   const bool normals = std::any_of(scene.parts.begin(), scene.parts.end(),
                                    [](const SourcePart& part) { return !part.polygons.normals.empty(); });
   for (const SourceInstance& instance : scene.instances) {
@@ -136,18 +136,18 @@ Polygons merged(const SourceScene& scene) {
     const glm::dmat3 normalMatrix(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const bool mirrors = glm::dot(m[0], glm::cross(m[1], m[2])) < 0;
 
-    // Step 1: vertices, in world space.
+    // Transform the vertices to world space.
     for (const glm::dvec3& p : source.positions)
       result.positions.push_back(m * p + glm::dvec3(instance.worldFromObject[3]));
     if (normals && source.normals.empty()) result.normals.resize(result.positions.size(), glm::vec3(0));
     if (normals)
       for (const glm::vec3& n : source.normals) {
-        const glm::dvec3 turned = normalMatrix * glm::dvec3(n) * (mirrors ? -1.0 : 1.0);
-        const double length = glm::length(turned);
-        result.normals.emplace_back(length > 0 ? turned / length : glm::dvec3(0));
+        const glm::dvec3 normal = normalMatrix * glm::dvec3(n) * (mirrors ? -1.0 : 1.0);
+        const double length = glm::length(normal);
+        result.normals.emplace_back(length > 0 ? normal / length : glm::dvec3(0));
       }
 
-    // Step 2: faces, as a part of their own.
+    // Append the faces as a part.
     for (std::size_t f = 0; f < source.faceCount(); ++f) {
       const auto face = source.face(f);
       for (std::size_t c = 0; c < face.size(); ++c)
@@ -162,7 +162,7 @@ Polygons merged(const SourceScene& scene) {
 
 std::vector<std::filesystem::path> referencedFiles(const std::filesystem::path& path) {
   if (isGltf(path)) return gltfBufferFiles(path);
-  if (extensionOf(path) != ".obj") return {};
+  if (lowerExtension(path) != ".obj") return {};
   return listMaterialFiles(path, listMtllibs(readTextFile(path), path.string()));
 }
 

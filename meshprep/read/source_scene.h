@@ -1,8 +1,8 @@
-// A file as a modeller's program leaves it: materials, parts that each have one, and where every part stands. glTF
-// has all of that; OBJ has materials, whose faces are cut apart; PLY, STL and OFF are one part that stands as it is.
+// Content of a model file: materials, parts with one material each, and instances of the parts. glTF has all of these;
+// OBJ has materials, and faces are grouped by them; PLY, STL and OFF are one part and one instance.
 //
-// Nothing is baked here: transforms are applied, materials given optical constants and meshes cleaned by others.
-// Lengths are metres, the axes right-handed with +y up (glTF's), coordinates double.
+// Nothing is processed here: transforms, optical constants and cleaning are applied later (bake/imports). Lengths are
+// metres, coordinates double; the axes are those of the file (glTF: right-handed, +y up).
 #pragma once
 
 #include <cstddef>
@@ -20,33 +20,33 @@
 
 namespace malus::prep {
 
-// In the terms of glTF 2.0, whose defaults these are. Colours are linear; pictures are left out.
+// Material as in glTF 2.0, with its defaults. Colours are linear. Textures are ignored.
 struct SourceMaterial {
-  std::string name;  // empty where the file gives none
+  std::string name;  // empty if the file has none
   glm::dvec3 baseColour{1.0};
   double metallic = 1;              // 0 to 1
-  double roughness = 1;             // 0 to 1, perceptual: the square root of GGX's alpha
-  glm::dvec3 emissive{0.0};         // radiance, with its strength multiplied in
+  double roughness = 1;             // 0 to 1; the square root of GGX's alpha
+  glm::dvec3 emissive{0.0};         // radiance, W / (m^2 sr) or relative, including the strength
   double transmission = 0;          // 0 to 1
   double ior = 1.5;                 // 1 or more
-  bool hasVolume = false;           // the material has an inside, and says what it does to light:
-  glm::dvec3 attenuationColour{1};  // what is left of white light after
-  double attenuationDistance = std::numeric_limits<double>::infinity();  // metres
+  bool hasVolume = false;           // the interior absorbs light:
+  glm::dvec3 attenuationColour{1};  // transmittance of
+  double attenuationDistance = std::numeric_limits<double>::infinity();  // this distance, metres
 };
 
 struct SourcePart {
-  std::string name;  // empty where the file gives none
+  std::string name;  // empty if the file has none
   Polygons polygons;
   std::optional<std::size_t> material;  // index into materials
 
-  // The file's vertices and faces that its own are, where it is cut out of them; else empty.
+  // Vertex and face of the file for each of the part, if the file has several parts; otherwise empty.
   std::vector<std::uint32_t> fileVertices, fileFaces;
 };
 
 struct SourceInstance {
   std::size_t part = 0;
   std::string name;
-  glm::dmat4 worldFromObject{1.0};  // affine and regular
+  glm::dmat4 worldFromObject{1.0};  // affine and invertible
 };
 
 struct SourceScene {
@@ -54,30 +54,30 @@ struct SourceScene {
   std::vector<SourcePart> parts;
   std::vector<SourceInstance> instances;
 
-  // What the file holds and is left out, once each: "textures".
+  // Ignored content, each kind once: "textures".
   std::vector<std::string> notes;
 };
 
-// Adds a note that is not there yet; after 100 only "and more".
+// Adds a note unless it exists. After 100 notes adds "and more" once.
 void addNote(std::vector<std::string>& notes, std::string note);
 
-// Reads what the extension tells: .gltf, .glb, .obj, .ply, .stl, .off. Throws Error: whatever the format's reader
-// refuses (read_gltf.h, read_mtl.h, read_mesh.h).
+// Reads a file by its extension: .gltf, .glb, .obj, .ply, .stl, .off. Throws Error as the reader of the format
+// (read_gltf.h, read_mtl.h, read_mesh.h).
 SourceScene readSourceScene(const std::filesystem::path& path);
 
-// One part for each material that faces name, in the order in which they name it; each with the vertices that its
-// faces use, in the order of the file. The materials have a name and nothing else. Without any: one part.
+// Groups faces by material: one part per material, in the order of their first faces, with the vertices that its faces
+// use, in the order of the file. Of the materials only the names are set. Without materials there is one part.
 SourceScene splitByMaterial(Polygons polygons);
 
-// Every instance in one piece, in world space: its parts are the instances. Faces of mirrored instances are turned,
-// so that outside stays outside. Where one part has normals and another has none, the other's are zero.
-Polygons merged(const SourceScene& scene);
+// Merges all instances in world space; the parts of the result are the instances. Faces of mirrored instances are
+// flipped to keep their outside. If only some parts have normals, those of the others are zero.
+Polygons mergeInstances(const SourceScene& scene);
 
-// The files that this one refers to and that make a difference: buffers of glTF, material files of OBJ. They need not
-// exist. Throws Error where the file itself cannot be read.
+// Returns the files that affect the content of this one: buffers of glTF, material files of OBJ. They need not exist.
+// Throws Error if the file cannot be read.
 std::vector<std::filesystem::path> referencedFiles(const std::filesystem::path& path);
 
-// Whether the extension is .gltf or .glb.
+// Returns true if the extension is .gltf or .glb.
 bool isGltf(const std::filesystem::path& path);
 
 }  // namespace malus::prep

@@ -16,7 +16,7 @@ namespace malus::prep {
 namespace {
 
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::TemporaryFile;
 
 // Runs `malus prep ...`; returns what it prints.
@@ -129,7 +129,7 @@ TEST_F(PrepCommand, BoundsAreKeptOrAnError) {
   EXPECT_LT(coarse["compression"]["normalBits"], fine["compression"]["normalBits"]);
   EXPECT_LT(coarse["compression"]["bytes"], fine["compression"]["bytes"]);
   EXPECT_TRUE(fine["compression"]["warnings"].empty());
-  EXPECT_TRUE(contains(errorOf([&] {
+  EXPECT_TRUE(contains(errorMessage([&] {
                          prepared({"--position-bits", "8", "--max-error", "1e-9"});
                        }),
                        "position error exceeds"));
@@ -147,9 +147,9 @@ TEST_F(PrepCommand, SameInputSameBytes) {
 
 TEST_F(PrepCommand, ErrorsLeaveNoFile) {
   const TemporaryFile bad(".obj", "v nan 0 0\n");
-  EXPECT_TRUE(contains(errorOf([&] { run({bad.path().string(), "-o", output_.string()}); }), "finite"));
+  EXPECT_TRUE(contains(errorMessage([&] { run({bad.path().string(), "-o", output_.string()}); }), "finite"));
   EXPECT_FALSE(std::filesystem::exists(output_));
-  EXPECT_FALSE(errorOf([&] { run({input_.path().string(), "-o", "/no/such/folder/x.drc"}); }).empty());
+  EXPECT_FALSE(errorMessage([&] { run({input_.path().string(), "-o", "/no/such/folder/x.drc"}); }).empty());
 }
 
 TEST_F(PrepCommand, UsageErrorsAreThoseOfCli11) {
@@ -167,7 +167,7 @@ TEST_F(PrepCommand, CertifiesGlassOrFailsAndDeliversNothing) {
   open.triangles.pop_back();
   const TemporaryFile file(".obj", test::objText(open));
   std::filesystem::remove(output_);
-  const std::string error = errorOf([&] {
+  const std::string error = errorMessage([&] {
     run({file.path().string(), "-o", output_.string(), "--certify", "glass", "--report", report_.string()});
   });
   EXPECT_TRUE(contains(error, "is not certified as glass: component 0: 3 open edges")) << error;

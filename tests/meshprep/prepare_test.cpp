@@ -12,7 +12,7 @@ namespace malus::prep {
 namespace {
 
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::TemporaryFile;
 
 // A cube as a careless modeller leaves it: corners not shared, a copy, two degenerate faces, a loose vertex,
@@ -290,13 +290,13 @@ TEST(Prepare, QuadsAreCounted) {
 TEST(Prepare, BadOptionsAndNothingLeft) {
   const TemporaryFile file(".obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   Report report;
-  EXPECT_TRUE(contains(errorOf([&] { prepare(file.path(), {}, report); }), "nothing is left"));
+  EXPECT_TRUE(contains(errorMessage([&] { prepare(file.path(), {}, report); }), "nothing is left"));
   Options options;
   options.creaseDegrees = 200;
-  EXPECT_TRUE(contains(errorOf([&] { prepare(file.path(), options, report); }), "0 to 180"));
+  EXPECT_TRUE(contains(errorMessage([&] { prepare(file.path(), options, report); }), "0 to 180"));
   options.creaseDegrees = 40;
   options.steps.weldTolerance = -1;
-  EXPECT_TRUE(contains(errorOf([&] { prepare(file.path(), options, report); }), "weld tolerance"));
+  EXPECT_TRUE(contains(errorMessage([&] { prepare(file.path(), options, report); }), "weld tolerance"));
 }
 
 // A face without area, a copy of a face, a vertex that nothing uses, normals of any length.
@@ -329,11 +329,11 @@ TEST(Prepare, AsItIsNeedsNormals) {
   options.asIs = true;
   Report report;
   const TemporaryFile without(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  EXPECT_TRUE(contains(errorOf([&] { prepare(without.path(), options, report); }), "has no normals"));
+  EXPECT_TRUE(contains(errorMessage([&] { prepare(without.path(), options, report); }), "has no normals"));
   std::string text = kBadOnPurpose;
   text.replace(text.find("0 0 2\n"), 5, "0 0 0");
   const TemporaryFile zero(".ply", text);
-  EXPECT_TRUE(contains(errorOf([&] { prepare(zero.path(), options, report); }), "vertex 0 has no length"));
+  EXPECT_TRUE(contains(errorMessage([&] { prepare(zero.path(), options, report); }), "vertex 0 has no length"));
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-// The text of the Error that `act` throws; "" where it throws none.
+// Returns the text of the Error that `act` throws, or "" if it throws none.
 template <class Act>
-std::string errorOf(Act act) {
+std::string errorMessage(Act act) {
   try {
     act();
   } catch (const Error& error) {

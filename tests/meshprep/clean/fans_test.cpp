@@ -189,7 +189,8 @@ TEST(Fans, FacesThatJoinVerticesAtRandomAreNoSurface) {
     const glm::uvec3 t(random() % 3000, random() % 3000, random() % 3000);
     if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);
   }
-  EXPECT_TRUE(test::contains(test::errorOf([&] { splitFans(mesh, "a.ply"); }), "a.ply: the faces form no surface"));
+  EXPECT_TRUE(
+      test::contains(test::errorMessage([&] { splitFans(mesh, "a.ply"); }), "a.ply: the faces form no surface"));
 }
 
 }  // namespace

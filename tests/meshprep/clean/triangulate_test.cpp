@@ -205,12 +205,12 @@ TEST(Triangulate, FacesThatTakeTooLongAreNamed) {
   comb.emplace_back(0, 3, 0);
   Polygons polygons = polygon(comb);
   TriangulateCounts counts;
-  EXPECT_EQ(test::errorOf([&] { triangulate(polygons, counts); }),
+  EXPECT_EQ(test::errorMessage([&] { triangulate(polygons, counts); }),
             "face 0: is too intricate to be cut into triangles; expected faces of fewer corners, found 400003 corners");
   polygons.faceLocations = {7};
-  EXPECT_TRUE(test::contains(test::errorOf([&] { triangulate(polygons, counts); }), "face 0, line 7: "));
+  EXPECT_TRUE(test::contains(test::errorMessage([&] { triangulate(polygons, counts); }), "face 0, line 7: "));
   polygons.locationsAreBytes = true;
-  EXPECT_TRUE(test::contains(test::errorOf([&] { triangulate(polygons, counts); }), "face 0, byte 7: "));
+  EXPECT_TRUE(test::contains(test::errorMessage([&] { triangulate(polygons, counts); }), "face 0, byte 7: "));
 }
 
 TEST(Triangulate, TrianglesKnowWhatTheFileSays) {

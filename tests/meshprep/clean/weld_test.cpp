@@ -9,7 +9,7 @@
 namespace malus::prep {
 namespace {
 
-using test::errorOf;
+using test::errorMessage;
 
 TEST(Weld, EqualPositionsBecomeTheFirstOfThem) {
   Mesh mesh;
@@ -56,7 +56,7 @@ TEST(Weld, RefusesAToleranceBelowTheRoundingOfCoordinates) {
   Mesh mesh;
   mesh.positions = {{1e10, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.triangles = {{0, 1, 2}};
-  EXPECT_TRUE(test::contains(errorOf([&] { weld(mesh, 1e-9); }), "too small"));
+  EXPECT_TRUE(test::contains(errorMessage([&] { weld(mesh, 1e-9); }), "too small"));
 }
 
 TEST(Weld, AThinWallIsNotWeldedIntoOne) {

@@ -20,7 +20,7 @@ namespace malus::compress {
 namespace {
 
 using prep::test::contains;
-using prep::test::errorOf;
+using prep::test::errorMessage;
 
 TriangleMesh makeMesh(prep::Mesh source, bool normals = true) {
   if (normals) prep::addCreaseNormals(source, 40);
@@ -96,7 +96,7 @@ TEST(Bounds, ThrowsIfAGivenBoundIsOutOfReach) {
   Bits bits = bitsFor(mesh, bounds);
   EXPECT_EQ(bits.grid.positionBits, kMaxPositionBits);
   const auto message = [&] {
-    return errorOf([&] {
+    return errorMessage([&] {
       checkBounds(encodedWith(mesh, bits).deviation, {bits.grid, bits.normalBits.front()}, bounds, "mesh 'ball'");
     });
   };
@@ -113,8 +113,8 @@ TEST(Bounds, ThrowsIfAGivenBoundIsOutOfReach) {
   bounds.positionError = 1e-5;
   bits = bitsFor(mesh, bounds);
   const Deviation deviation = encodedWith(mesh, bits).deviation;
-  EXPECT_TRUE(errorOf([&] { checkBounds(deviation, {bits.grid, 12}, bounds, "x"); }).empty());
-  EXPECT_FALSE(errorOf([&] { checkBounds(deviation, {bits.grid, 12}, bounds, "x", 1e-5); }).empty());
+  EXPECT_TRUE(errorMessage([&] { checkBounds(deviation, {bits.grid, 12}, bounds, "x"); }).empty());
+  EXPECT_FALSE(errorMessage([&] { checkBounds(deviation, {bits.grid, 12}, bounds, "x", 1e-5); }).empty());
 }
 
 TEST(Bounds, ChoosesOneGridForAllMeshes) {
@@ -178,10 +178,10 @@ TEST(Bounds, UsesGivenNumbersOfBits) {
   EXPECT_TRUE(contains(warnings[0], "mesh 'ball': normal error 1.")) << warnings[0];
   EXPECT_TRUE(contains(warnings[1], "tilts")) << warnings[1];
   bounds.positionBits = 27;
-  EXPECT_TRUE(contains(errorOf([&] { bitsFor(mesh, bounds); }), "1 to 26"));
+  EXPECT_TRUE(contains(errorMessage([&] { bitsFor(mesh, bounds); }), "1 to 26"));
   bounds = {};
   bounds.positionError = 0;
-  EXPECT_TRUE(contains(errorOf([&] { bitsFor(mesh, bounds); }), "position error"));
+  EXPECT_TRUE(contains(errorMessage([&] { bitsFor(mesh, bounds); }), "position error"));
 }
 
 TEST(Deviation, MeasuresAKnownMove) {

@@ -17,7 +17,7 @@ namespace malus::compress {
 namespace {
 
 using prep::test::contains;
-using prep::test::errorOf;
+using prep::test::errorMessage;
 
 TriangleMesh fromMesh(const prep::Mesh& mesh) {
   TriangleMesh result;
@@ -202,11 +202,11 @@ TEST(DracoMesh, FitsAGrid) {
   const TriangleMesh far = fromMesh(prep::test::cube(0.5, {1e5, 1e5, -1e5}));
   EXPECT_LT(encode(far, settingsFor(far)).deviation.positionMax, 0.05f);
   const std::vector<glm::vec3> bad = {glm::vec3(std::numeric_limits<float>::infinity())};
-  EXPECT_FALSE(errorOf([&] { gridFor(bad, 20); }).empty());
+  EXPECT_FALSE(errorMessage([&] { gridFor(bad, 20); }).empty());
   const std::vector<glm::vec3> wide = {glm::vec3(-3e38f), glm::vec3(3e38f)};
-  EXPECT_TRUE(contains(errorOf([&] { gridFor(wide, 20); }), "too large"));
+  EXPECT_TRUE(contains(errorMessage([&] { gridFor(wide, 20); }), "too large"));
   const std::vector<glm::vec3> tiny = {glm::vec3(0), glm::vec3(1e-36f)};
-  EXPECT_TRUE(contains(errorOf([&] { gridFor(tiny, 20); }), "too small"));
+  EXPECT_TRUE(contains(errorMessage([&] { gridFor(tiny, 20); }), "too small"));
 }
 
 TEST(DracoMesh, RefusesInvalidInput) {
@@ -216,7 +216,7 @@ TEST(DracoMesh, RefusesInvalidInput) {
     TriangleMesh mesh = good;
     Settings changed = settings;
     change(mesh, changed);
-    return errorOf([&] { encode(mesh, changed); });
+    return errorMessage([&] { encode(mesh, changed); });
   };
   EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = std::numeric_limits<float>::quiet_NaN(); }),
                        "not finite"));
@@ -234,11 +234,11 @@ TEST(DracoMesh, RefusesInvalidInput) {
 TEST(DracoMesh, RefusesUnexpectedCounts) {
   const TriangleMesh mesh = withNormals(prep::test::cube());
   const Encoded encoded = encode(mesh, settingsFor(mesh));
-  EXPECT_TRUE(contains(errorOf([&] {
+  EXPECT_TRUE(contains(errorMessage([&] {
                          decode(encoded.bytes, {23, 12}, "a.drc");
                        }),
                        "a.drc: Draco data has unexpected counts"));
-  EXPECT_FALSE(errorOf([&] { decode(encoded.bytes, {24, 13}, "x"); }).empty());
+  EXPECT_FALSE(errorMessage([&] { decode(encoded.bytes, {24, 13}, "x"); }).empty());
 }
 
 // Limits the memory of this process within a scope. Disabled under the address sanitizer, which maps terabytes.
@@ -338,23 +338,23 @@ TEST(DracoMesh, RefusesHugeCountsWithoutAllocation) {
     return result;
   };
   const MemoryLimit limit(rlim_t{4} << 30);
-  EXPECT_TRUE(contains(errorOf([&] {
+  EXPECT_TRUE(contains(errorMessage([&] {
                          decode(bytes({2, 2, 1, 0, 0, 0, 1, 0x80, 0x80, 0x80, 0x80, 8, 1}), {3, 1}, "x");
                        }),
                        "2147483648"));
-  EXPECT_TRUE(contains(errorOf([&] {
+  EXPECT_TRUE(contains(errorMessage([&] {
                          decode(bytes({2, 2, 1, 1, 0, 0, 0, 3, 1, 0, 1, 0xff, 0xff, 0xff, 0xff, 15}), {3, 1}, "x");
                        }),
                        "split symbols"));
-  EXPECT_TRUE(contains(errorOf([&] {
+  EXPECT_TRUE(contains(errorMessage([&] {
                          decode(bytes({2, 2, 1, 0, 0, 0, 1, 0xff, 0xff, 0xff, 0xff, 0xff, 1}), {3, 1}, "x");
                        }),
                        "32 bits"));
-  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 1, 1, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "version"));
-  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 2, 0, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "not a mesh"));
-  EXPECT_TRUE(contains(errorOf([&] { decode(bytes({2, 2, 1, 0, 0, 0x80, 1, 3}), {3, 1}, "x"); }), "metadata"));
-  EXPECT_TRUE(contains(errorOf([&] { decode({}, {3, 1}, "x"); }), "truncated"));
-  EXPECT_TRUE(contains(errorOf([&] { declaredCounts(bytes({2}), "x"); }), "truncated"));
+  EXPECT_TRUE(contains(errorMessage([&] { decode(bytes({2, 1, 1, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "version"));
+  EXPECT_TRUE(contains(errorMessage([&] { decode(bytes({2, 2, 0, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "not a mesh"));
+  EXPECT_TRUE(contains(errorMessage([&] { decode(bytes({2, 2, 1, 0, 0, 0x80, 1, 3}), {3, 1}, "x"); }), "metadata"));
+  EXPECT_TRUE(contains(errorMessage([&] { decode({}, {3, 1}, "x"); }), "truncated"));
+  EXPECT_TRUE(contains(errorMessage([&] { declaredCounts(bytes({2}), "x"); }), "truncated"));
 }
 
 }  // namespace

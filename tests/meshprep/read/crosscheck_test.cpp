@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::string_view kText = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
 
-// What the comparison reports after `change` is applied to a correct scan.
+// Returns the error of the comparison after `change` is applied to a correct scan.
 template <class Change>
 std::string reportAfter(Change change) {
   std::string bytes(kText);
   Scan scan = scanObj(bytes, "test");
   change(scan.polygons);
-  return test::errorOf([&] { test::requireSameAsOpenMesh(bytes, ".obj", scan); });
+  return test::errorMessage([&] { test::requireSameAsOpenMesh(bytes, ".obj", scan); });
 }
 
 TEST(Crosscheck, FindsEveryDifference) {
@@ -32,7 +32,7 @@ TEST(Crosscheck, FindsEveryDifference) {
                              "faces"));
 }
 
-// Files that the fuzz targets keep because each holds many features of its format.
+// Files of the fuzz targets, each with many features of its format.
 class CrosscheckCorpus : public testing::TestWithParam<const char*> {};
 
 TEST_P(CrosscheckCorpus, AgreesWithOpenMesh) {

@@ -39,13 +39,13 @@ struct GltfFile {
   std::string bin;
 
   template <class Number>
-  static std::string bytesOf(const std::vector<Number>& numbers) {
+  static std::string toBytes(const std::vector<Number>& numbers) {
     std::string bytes(numbers.size() * sizeof(Number), '\0');
     std::memcpy(bytes.data(), numbers.data(), bytes.size());
     return bytes;
   }
 
-  // All return the index of what they add.
+  // All return the index of the added object.
   int add(const char* list, nlohmann::json object) {
     document[list].push_back(std::move(object));
     return static_cast<int>(document[list].size()) - 1;
@@ -60,12 +60,12 @@ struct GltfFile {
     return add("accessors", {{"bufferView", view}, {"componentType", componentType}, {"count", count}, {"type", type}});
   }
   int addVectors(const std::vector<glm::vec3>& values) {
-    return addAccessor(addView(bytesOf(values)), 5126, values.size(), "VEC3");
+    return addAccessor(addView(toBytes(values)), 5126, values.size(), "VEC3");
   }
   template <class Index>
   int addIndices(const std::vector<Index>& values) {
     constexpr int kType = sizeof(Index) == 1 ? 5121 : sizeof(Index) == 2 ? 5123 : 5125;
-    return addAccessor(addView(bytesOf(values)), kType, values.size(), "SCALAR");
+    return addAccessor(addView(toBytes(values)), kType, values.size(), "SCALAR");
   }
   int addMesh(const Mesh& mesh, const char* name, int material = -1) {
     std::vector<glm::vec3> positions;
@@ -97,7 +97,7 @@ struct GltfFile {
       chunks += littleEndian32(static_cast<std::uint32_t>(data.size())) + std::string("BIN\0", 4) + data;
     return "glTF" + littleEndian32(2) + littleEndian32(static_cast<std::uint32_t>(12 + chunks.size())) + chunks;
   }
-  // With its buffer in a data URI, or where `uri` says.
+  // JSON with its buffer at `uri`, or in a data URI if that is empty.
   std::string gltf(const std::string& uri = {}) const {
     nlohmann::json whole = document;
     if (!bin.empty() && !whole.contains("buffers"))

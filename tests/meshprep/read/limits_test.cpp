@@ -1,6 +1,6 @@
-// What a file of a few megabytes may cost, whatever its bytes: memory in proportion to the file, an end, and an Error
-// where it is no mesh. Each file is read and cut into triangles in a child process with a limit on its memory and an
-// alarm; the alarm is far above what any of them takes, since machines differ.
+// Cost of reading arbitrary files of a few megabytes: memory proportional to the file size, termination, and an Error
+// for invalid meshes. Each file is read and triangulated in a child process with limited memory and an alarm, which is
+// far above the usual time.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -32,7 +32,7 @@ std::string times(std::size_t count, const std::string& text) {
   return all;
 }
 
-// As much of a text as fills the file.
+// Returns the text repeated up to the file size.
 std::string fill(const std::string& text) { return times(kBytes / text.size(), text); }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -41,7 +41,7 @@ constexpr bool kLimited = false;  // the sanitizers reserve terabytes
 constexpr bool kLimited = true;
 #endif
 
-// Address space of a process that has read nothing yet: libraries and what the tests before left.
+// Returns the address space before reading: libraries and remains of earlier tests.
 std::size_t addressSpace() {
   std::size_t pages = 0;
   if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
@@ -51,15 +51,14 @@ std::size_t addressSpace() {
   return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-// 512 MB for 10 MB, and 64 MB whatever the size: of address space, which is more than what is touched.
+// Limits the address space, which exceeds the used memory, to 512 MB per 10 MB of the file and 64 MB.
 void limitMemory(std::size_t fileBytes) {
   const auto limit = static_cast<rlim_t>(addressSpace() + fileBytes / 10 * 512 + (std::size_t{64} << 20));
   const rlimit both{limit, limit};
   if (kLimited) ::setrlimit(RLIMIT_AS, &both);
 }
 
-// Reads and cuts the file in a child; its exit code: 0, kRefused, kOutOfMemory, or 256 and more where a signal ended
-// it.
+// Reads and triangulates the file in a child process. Returns 0, kRefused, kOutOfMemory, or 256 + the signal.
 int outcome(const std::filesystem::path& path, std::size_t fileBytes) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -84,8 +83,8 @@ int outcome(const std::filesystem::path& path, std::size_t fileBytes) {
 void expectOutcome(int expected, std::string_view extension, const std::string& text, const std::string& what) {
   const test::TemporaryFile file(extension, text);
   const int code = outcome(file.path(), text.size());
-  EXPECT_NE(code, 256 + SIGALRM) << what << ": does not return";
-  EXPECT_NE(code, kOutOfMemory) << what << ": takes too much memory";
+  EXPECT_NE(code, 256 + SIGALRM) << what << ": does not terminate";
+  EXPECT_NE(code, kOutOfMemory) << what << ": needs too much memory";
   EXPECT_EQ(code, expected) << what;
 }
 void expectRead(std::string_view extension, const std::string& text, const std::string& what) {
@@ -98,15 +97,15 @@ void expectRefused(std::string_view extension, const std::string& text, const st
 const std::string kPoints = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 const std::string kFace = "f 1 2 3\n";
 
-TEST(ReadLimits, TheLimitItselfWorks) {
+TEST(ReadLimits, EnforcesTheMemoryLimit) {
   if (!kLimited) GTEST_SKIP() << "the sanitizers reserve terabytes";
-  // A file that claims to be a tenth of its size gets a tenth of the memory, less than it needs.
+  // With a tenth of the file size the memory limit is too small.
   const std::string text = fill("v 0 0 0\n") + kFace;
   const test::TemporaryFile file(".obj", times(8, text));
   EXPECT_NE(outcome(file.path(), 0), 0);  // out of memory, or an error
 }
 
-TEST(ReadLimits, ObjOfTheSmallestStatements) {
+TEST(ReadLimits, ObjOfSmallestStatements) {
   const std::string vertices = fill("v 0 0 0\n");
   expectRead(".obj", vertices + kFace, "vertices");
   expectRead(".obj", vertices.substr(0, 160'000) + fill(kFace), "faces");
@@ -146,7 +145,7 @@ TEST(ReadLimits, ObjOfLongLines) {
 }
 
 TEST(ReadLimits, OneFaceOfAllCorners) {
-  // Convex, whatever its size; a comb and corners that cross all over, which may be too intricate; three places alone.
+  // A convex polygon; a comb and a self-intersecting polygon, which may be too complex; three distinct positions only.
   std::string convex, comb, random, face = "f";
   std::uint32_t state = 1;
   const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 22u; };
@@ -167,7 +166,7 @@ TEST(ReadLimits, OneFaceOfAllCorners) {
   expectRefused(".obj", kPoints + "f" + fill(" 1 2 3") + "\n", "one face of three vertices");
 }
 
-TEST(ReadLimits, PlyTextOfTheSmallestItems) {
+TEST(ReadLimits, PlyTextOfSmallestItems) {
   const auto header = [](std::size_t vertices, std::size_t faces, const std::string& more = "") {
     return fmt::format(
         "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\nelement face "
@@ -189,7 +188,7 @@ TEST(ReadLimits, PlyTextOfTheSmallestItems) {
   expectRefused(".ply", header(2'000'000'000, 1) + data, "a count");
 }
 
-TEST(ReadLimits, PlyBinaryOfTheSmallestItems) {
+TEST(ReadLimits, PlyBinaryOfSmallestItems) {
   const auto header = [](std::size_t vertices, const std::string& surface) {
     return fmt::format(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty char x\nproperty char y\nproperty char z\n{}"
@@ -213,7 +212,7 @@ TEST(ReadLimits, PlyBinaryOfTheSmallestItems) {
   }
 }
 
-TEST(ReadLimits, OffOfTheSmallestItems) {
+TEST(ReadLimits, OffOfSmallestItems) {
   const std::size_t vertices = kBytes / 6, faces = kBytes / 8;
   expectRead(".off", fmt::format("OFF\n{} 1 0\n", vertices) + times(vertices, "0 0 0\n") + "3 0 1 2\n", "vertices");
   expectRead(".off", fmt::format("OFF\n20000 {} 0\n", faces) + times(20'000, "0 0 0\n") + times(faces, "3 0 1 2\n"),
@@ -222,7 +221,7 @@ TEST(ReadLimits, OffOfTheSmallestItems) {
   expectRefused(".off", "OFF\n300000 300000 0\n" + fill("\n"), "counts");
 }
 
-TEST(ReadLimits, StlOfTheSmallestItems) {
+TEST(ReadLimits, StlOfSmallestItems) {
   const std::string facet = "facet normal\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
   expectRead(".stl", "solid\n" + fill(facet) + "endsolid\n", "facets");
   expectRead(".stl", fill("solid\n" + facet + "endsolid\n"), "solids");

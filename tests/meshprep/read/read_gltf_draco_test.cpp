@@ -1,4 +1,4 @@
-// Primitives that Draco holds: right ones with attributes that nobody here needs, and ones that claim too much.
+// Primitives compressed by Draco: valid ones with unused attributes, and ones with wrong counts.
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::GltfFile;
 using test::TemporaryFile;
 
@@ -25,7 +25,7 @@ struct Encoded {
   int position = 0, normal = 0;
 };
 
-// A sphere with normals, texture coordinates that have a seam, and colours; quantized.
+// Quantized sphere with normals, colours and texture coordinates that have a seam.
 Encoded encodedSphere(bool sequential, const std::string& metadata = {}) {
   const Mesh sphere = test::sphere(8, 12);
   draco::TriangleSoupMeshBuilder builder;
@@ -69,7 +69,7 @@ Encoded encodedSphere(bool sequential, const std::string& metadata = {}) {
           static_cast<int>(mesh->attribute(normal)->unique_id())};
 }
 
-GltfFile fileOf(const Encoded& encoded) {
+GltfFile makeFile(const Encoded& encoded) {
   GltfFile gltf;
   const int view = gltf.addView(encoded.bytes);
   gltf.add("accessors", {{"componentType", 5126}, {"count", encoded.points}, {"type", "VEC3"}});
@@ -91,12 +91,12 @@ SourceScene read(const GltfFile& gltf) {
   return readGltf(file.path());
 }
 std::string errorIn(const GltfFile& gltf) {
-  return errorOf([&] { read(gltf); });
+  return errorMessage([&] { read(gltf); });
 }
 
-TEST(ReadGltfDraco, OtherAttributesAndSeamsDoNotMatter) {
+TEST(ReadGltfDraco, SkipsOtherAttributesAndSeams) {
   for (const bool sequential : {false, true}) {
-    const SourceScene scene = read(fileOf(encodedSphere(sequential)));
+    const SourceScene scene = read(makeFile(encodedSphere(sequential)));
     const Polygons& polygons = scene.parts.at(0).polygons;
     EXPECT_EQ(polygons.faceCount(), 192u);      // 2 * 12 at the poles, 2 * 7 * 12 between
     EXPECT_GT(polygons.positions.size(), 98u);  // the seam splits some of 2 + 8 * 12
@@ -116,9 +116,9 @@ TEST(ReadGltfDraco, OtherAttributesAndSeamsDoNotMatter) {
   }
 }
 
-TEST(ReadGltfDraco, CountsAreThoseOfTheAccessors) {
+TEST(ReadGltfDraco, RequiresTheCountsOfTheAccessors) {
   for (const bool sequential : {false, true}) {
-    const GltfFile good = fileOf(encodedSphere(sequential));
+    const GltfFile good = makeFile(encodedSphere(sequential));
     for (const int change : {-3, 3}) {
       GltfFile bad = good;
       bad.document["accessors"][2]["count"] = bad.document["accessors"][2]["count"].get<int>() + change;
@@ -129,57 +129,57 @@ TEST(ReadGltfDraco, CountsAreThoseOfTheAccessors) {
     }
     GltfFile bad = good;
     bad.document["accessors"][2]["count"] = 100;
-    EXPECT_CONTAINS(errorIn(bad), "is no whole number of triangles");
+    EXPECT_CONTAINS(errorIn(bad), "incomplete triangle");
     bad.document["accessors"][2]["count"] = 3'000'000'000;
-    EXPECT_CONTAINS(errorIn(bad), "has more triangles than a file of its size may");
+    EXPECT_CONTAINS(errorIn(bad), "too many triangles");
   }
 }
 
-TEST(ReadGltfDraco, AttributesThatAreNotThere) {
-  const GltfFile good = fileOf(encodedSphere(false));
+TEST(ReadGltfDraco, RefusesMissingAttributes) {
+  const GltfFile good = makeFile(encodedSphere(false));
   const json::json_pointer extension("/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression");
   GltfFile bad = good;
   bad.document[extension]["attributes"]["POSITION"] = 77;
-  EXPECT_CONTAINS(errorIn(bad), "Draco data has no position of that id");
+  EXPECT_CONTAINS(errorIn(bad), "missing position attribute");
   bad.document[extension]["attributes"].erase("POSITION");
-  EXPECT_CONTAINS(errorIn(bad), "KHR_draco_mesh_compression: has no positions");
+  EXPECT_CONTAINS(errorIn(bad), "KHR_draco_mesh_compression: no positions");
   bad = good;
   bad.document[extension]["attributes"]["NORMAL"] = 0;  // texture coordinates
-  EXPECT_CONTAINS(errorIn(bad), "Draco data has no normal of that id");
+  EXPECT_CONTAINS(errorIn(bad), "missing normal attribute");
   bad = good;
   bad.document[extension]["bufferView"] = 5;
-  EXPECT_CONTAINS(errorIn(bad), "bufferViews[5]: is not there");
+  EXPECT_CONTAINS(errorIn(bad), "bufferViews[5]: does not exist");
   bad = good;
   bad.document["meshes"][0]["primitives"][0].erase("indices");
-  EXPECT_CONTAINS(errorIn(bad), "has Draco data and no indices");
+  EXPECT_CONTAINS(errorIn(bad), "Draco data without indices");
 }
 
-TEST(ReadGltfDraco, AFewBytesCannotAskForGigabytes) {
-  // A sequential mesh of two billion faces and points, and the accessors that say so.
+TEST(ReadGltfDraco, RefusesHugeCounts) {
+  // Sequential mesh of two billion faces and points, with accessors of these counts.
   Encoded huge;
   huge.bytes = std::string("DRACO\x02\x02\x01\x00\x00\x00", 11) + "\xff\xff\xff\xff\x07" + "\xff\xff\xff\xff\x07";
   huge.bytes += std::string(40, '\0');
   huge.points = huge.faces = 0x7fffffff;
-  EXPECT_CONTAINS(errorIn(fileOf(huge)), "has more triangles than a file of its size may");
+  EXPECT_CONTAINS(errorIn(makeFile(huge)), "too many triangles");
   huge.faces = 1'000'000;
-  EXPECT_CONTAINS(errorIn(fileOf(huge)), "has more vertices than a file of its size may");
+  EXPECT_CONTAINS(errorIn(makeFile(huge)), "too many vertices");
   huge.points = 1'000'000;
-  EXPECT_CONTAINS(errorIn(fileOf(huge)), "Draco data has unexpected counts");
+  EXPECT_CONTAINS(errorIn(makeFile(huge)), "Draco data has unexpected counts");
 }
 
-TEST(ReadGltfDraco, MetadataIsRefused) {
-  EXPECT_CONTAINS(errorIn(fileOf(encodedSphere(false, "a name"))), "Draco data with flags or metadata");
+TEST(ReadGltfDraco, RefusesMetadata) {
+  EXPECT_CONTAINS(errorIn(makeFile(encodedSphere(false, "a name"))), "Draco data has flags or metadata");
 }
 
-TEST(ReadGltfDraco, DamagedBytesEndInAnErrorOrAMesh) {
+TEST(ReadGltfDraco, SurvivesCorruptBytes) {
   for (const bool sequential : {false, true}) {
     const Encoded good = encodedSphere(sequential);
     for (std::size_t i = 0; i < good.bytes.size(); i += 3) {
       Encoded bad = good;
       bad.bytes[i] = static_cast<char>(bad.bytes[i] ^ 0x55);
-      errorIn(fileOf(bad));  // anything but an Error would pass through
+      errorIn(makeFile(bad));  // anything but an Error would pass through
       bad.bytes.resize(i);
-      EXPECT_NE(errorIn(fileOf(bad)), "") << i;
+      EXPECT_NE(errorIn(makeFile(bad)), "") << i;
     }
   }
 }

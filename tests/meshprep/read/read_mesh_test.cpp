@@ -12,33 +12,33 @@ namespace malus::prep {
 namespace {
 
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::TemporaryFile;
 
-TEST(ReadMesh, MissingFileFolderAndUnknownExtension) {
-  EXPECT_TRUE(contains(errorOf([] { readMesh("/no/such/file.obj"); }), "/no/such/file.obj: cannot open"));
-  EXPECT_TRUE(contains(errorOf([] { readMesh("mesh.fbx"); }), ".gltf or .glb, found .fbx"));
-  EXPECT_TRUE(contains(errorOf([] { readMesh("mesh"); }), "no extension"));
+TEST(ReadMesh, RefusesFoldersAndUnknownExtensions) {
+  EXPECT_TRUE(contains(errorMessage([] { readMesh("/no/such/file.obj"); }), "/no/such/file.obj: cannot open"));
+  EXPECT_TRUE(contains(errorMessage([] { readMesh("mesh.fbx"); }), ".gltf or .glb, found .fbx"));
+  EXPECT_TRUE(contains(errorMessage([] { readMesh("mesh"); }), "no extension"));
   const std::filesystem::path folder = test::temporaryPath(".obj");
   std::filesystem::create_directory(folder);
-  EXPECT_TRUE(contains(errorOf([&] { readMesh(folder); }), "not a regular file"));
+  EXPECT_TRUE(contains(errorMessage([&] { readMesh(folder); }), "not a regular file"));
   std::filesystem::remove(folder);
 }
 
-TEST(ReadMesh, EmptyFile) {
+TEST(ReadMesh, RefusesEmptyFiles) {
   for (const char* extension : {".obj", ".ply", ".stl", ".off"}) {
     const TemporaryFile file(extension, "");
-    EXPECT_TRUE(contains(errorOf([&] { readMesh(file.path()); }), "is empty")) << extension;
+    EXPECT_TRUE(contains(errorMessage([&] { readMesh(file.path()); }), "is empty")) << extension;
   }
 }
 
-TEST(ReadMesh, ExtensionsInUpperCase) {
+TEST(ReadMesh, AcceptsExtensionsInUpperCase) {
   const TemporaryFile file(".OBJ", test::objText(test::cube()));
   EXPECT_EQ(readMesh(file.path()).faceCount(), 12u);
 }
 
-TEST(ReadMesh, OneFormatAfterAnother) {
-  // OpenMesh's readers keep state of the previous file.
+TEST(ReadMesh, ReadsFormatsInAnyOrder) {
+  // OpenMesh's readers keep state between files.
   const TemporaryFile binary(".ply", test::binaryPly());
   const TemporaryFile text(
       ".ply",
@@ -52,7 +52,7 @@ TEST(ReadMesh, OneFormatAfterAnother) {
   }
 }
 
-TEST(ReadMesh, NumbersOfEverySizeAgreeWithOpenMesh) {
+TEST(ReadMesh, AgreesWithOpenMeshOnNumbersOfAllSizes) {
   std::string text;
   for (int exponent = -45; exponent <= 38; ++exponent)
     text += fmt::format("v 1.23456789e{} -3.4e{} {}\n", exponent, exponent, exponent / 7.0);
@@ -60,10 +60,10 @@ TEST(ReadMesh, NumbersOfEverySizeAgreeWithOpenMesh) {
   EXPECT_EQ(test::readCrosschecked(file.path()).positions.size(), 84u);
 }
 
-TEST(ReadMesh, APipeIsNoFile) {
+TEST(ReadMesh, RefusesPipes) {
   const std::filesystem::path pipe = test::temporaryPath(".obj");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_TRUE(test::contains(test::errorOf([&] { readMesh(pipe); }), "is not a regular file"));
+  EXPECT_TRUE(test::contains(test::errorMessage([&] { readMesh(pipe); }), "is not a regular file"));
   std::filesystem::remove(pipe);
 }
 

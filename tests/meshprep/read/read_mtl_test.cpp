@@ -1,4 +1,4 @@
-// Material files: the rules of read_mtl.h, one by one, and what is not a number.
+// Material files: the rules of read_mtl.h, and invalid files.
 #include "meshprep/read/read_mtl.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace malus::prep {
 namespace {
 
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 
 #define EXPECT_CONTAINS(text, part) EXPECT_TRUE(contains(text, part)) << (text)
 
@@ -20,13 +20,13 @@ SourceMaterial one(const std::string& statements) {
   return parseMtl("newmtl m\n" + statements, "a.mtl", notes).at(0);
 }
 std::string errorIn(const std::string& text) {
-  return errorOf([&] {
+  return errorMessage([&] {
     std::vector<std::string> ignored;
     parseMtl(text, "a.mtl", ignored);
   });
 }
 
-TEST(ReadMtl, MattWithoutHighlights) {
+TEST(ReadMtl, ReadsDiffuseMaterials) {
   for (const char* text : {"Kd 0.25 0.5 0.75\n", "Kd 0.25 0.5 0.75\r\nKs 0 0 0\r\nNs 100\r\n",
                            "# comment\nKa 1 1 1\nKd 0.25 0.5 0.75\nKs 1 1 1\nillum 1\n"}) {
     const SourceMaterial m = one(text);
@@ -37,12 +37,12 @@ TEST(ReadMtl, MattWithoutHighlights) {
     EXPECT_EQ(m.transmission, 0);
     EXPECT_TRUE(notes.empty());
   }
-  EXPECT_EQ(one("Kd 0.5\n").baseColour, glm::dvec3(0.5));  // one number for three
+  EXPECT_EQ(one("Kd 0.5\n").baseColour, glm::dvec3(0.5));  // one number for all components
   EXPECT_EQ(one("Kd 2 -1 0.5\n").baseColour, glm::dvec3(1, 0, 0.5));
   EXPECT_EQ(one("").baseColour, glm::dvec3(0.8));
 }
 
-TEST(ReadMtl, HighlightsTellTheRoughness) {
+TEST(ReadMtl, ConvertsHighlightsToRoughness) {
   const SourceMaterial m = one("Kd 0.5 0.5 0.5\nKs 0.2 0.2 0.2\nNs 198\nNi 1.7\n");
   EXPECT_EQ(m.metallic, 0);
   EXPECT_NEAR(m.roughness * m.roughness, std::sqrt(2.0 / 200), 1e-15);  // alpha 0.1
@@ -50,19 +50,19 @@ TEST(ReadMtl, HighlightsTellTheRoughness) {
   EXPECT_EQ(one("Ks 0.2 0.2 0.2\nNs -5\n").roughness, 1);
 }
 
-TEST(ReadMtl, Metals) {
+TEST(ReadMtl, RecognizesMetals) {
   const SourceMaterial m = one("Kd 0.05 0 0\nKs 0.9 0.6 0.3\nNs 1000\n");
   EXPECT_EQ(m.metallic, 1);
   EXPECT_EQ(m.baseColour, glm::dvec3(0.9, 0.6, 0.3));
   EXPECT_EQ(one("Kd 0.5 0 0\nKs 0.9 0.6 0.3\n").metallic, 0);
   EXPECT_EQ(one("Kd 0 0 0\nKs 0.5 0.5 0.5\n").metallic, 0);
-  const SourceMaterial said = one("Kd 0.9 0.6 0.3\nPm 1\nPr 0.25\n");
-  EXPECT_EQ(said.metallic, 1);
-  EXPECT_EQ(said.roughness, 0.25);
-  EXPECT_EQ(said.baseColour, glm::dvec3(0.9, 0.6, 0.3));
+  const SourceMaterial explicitMetal = one("Kd 0.9 0.6 0.3\nPm 1\nPr 0.25\n");
+  EXPECT_EQ(explicitMetal.metallic, 1);
+  EXPECT_EQ(explicitMetal.roughness, 0.25);
+  EXPECT_EQ(explicitMetal.baseColour, glm::dvec3(0.9, 0.6, 0.3));
 }
 
-TEST(ReadMtl, LightThatPassesAndLightThatIsGivenOff) {
+TEST(ReadMtl, ReadsTransmissionAndEmission) {
   EXPECT_EQ(one("d 0.25\n").transmission, 0.75);
   EXPECT_EQ(one("d -halo 0.25\n").transmission, 0.75);
   EXPECT_EQ(one("Tr 0.75\n").transmission, 0.75);
@@ -74,32 +74,31 @@ TEST(ReadMtl, LightThatPassesAndLightThatIsGivenOff) {
   EXPECT_EQ(tinted.attenuationDistance, 1);
   EXPECT_EQ(one("Ke 3 2 1\n").emissive, glm::dvec3(3, 2, 1));
   EXPECT_EQ(one("Ni 0.5\n").ior, 1.5);
-  EXPECT_CONTAINS(notes.at(0), "index of refraction under 1");
+  EXPECT_CONTAINS(notes.at(0), "below 1");
 }
 
-TEST(ReadMtl, NotesAreLeftOnce) {
-  one("map_Kd a picture.png\nmap_Ks b.png\nbump c.png\nfancy 1 2\nfancy 3\nKd spectral a.rfl\nKs xyz 1 1 1\n");
-  EXPECT_EQ(notes,
-            (std::vector<std::string>{"textures", "statements \"fancy\" of material files",
-                                      "colours of material files by spectral", "colours of material files by xyz"}));
+TEST(ReadMtl, NotesIgnoredStatementsOnce) {
+  one("map_Kd an image.png\nmap_Ks b.png\nbump c.png\nfancy 1 2\nfancy 3\nKd spectral a.rfl\nKs xyz 1 1 1\n");
+  EXPECT_EQ(notes, (std::vector<std::string>{"textures", "statements \"fancy\" of material files",
+                                             "colours given by spectral", "colours given by xyz"}));
 }
 
-TEST(ReadMtl, BadStatementsTellTheirLine) {
-  EXPECT_CONTAINS(errorIn("newmtl a\n\nKd 1 nan 1\n"), "a.mtl:3: a bad number; expected a finite decimal number");
-  EXPECT_CONTAINS(errorIn("newmtl a\nKd 1 1\n"), "a.mtl:2: a bad number");
-  EXPECT_CONTAINS(errorIn("newmtl a\nNs\n"), "a.mtl:2: a bad number");
-  EXPECT_CONTAINS(errorIn("newmtl a\nd 1e999\n"), "a.mtl:2: a number out of range");
-  EXPECT_CONTAINS(errorIn("newmtl a\nillum 11\n"), "a.mtl:2: an unknown model of illumination");
-  EXPECT_CONTAINS(errorIn("newmtl a\nillum two\n"), "a.mtl:2: a bad number");
-  EXPECT_CONTAINS(errorIn("Kd 1 1 1\n"), "a.mtl:1: a statement outside of a material");
-  EXPECT_CONTAINS(errorIn("newmtl  \n"), "a.mtl:1: a material without a name");
-  EXPECT_CONTAINS(errorIn(std::string("newmtl a\n\0\n", 11)), "a.mtl:2: is not plain text");
+TEST(ReadMtl, ReportsTheLineOfInvalidStatements) {
+  EXPECT_CONTAINS(errorIn("newmtl a\n\nKd 1 nan 1\n"), "a.mtl:3: invalid number");
+  EXPECT_CONTAINS(errorIn("newmtl a\nKd 1 1\n"), "a.mtl:2: invalid number");
+  EXPECT_CONTAINS(errorIn("newmtl a\nNs\n"), "a.mtl:2: invalid number");
+  EXPECT_CONTAINS(errorIn("newmtl a\nd 1e999\n"), "a.mtl:2: number out of range");
+  EXPECT_CONTAINS(errorIn("newmtl a\nillum 11\n"), "a.mtl:2: unknown illumination model");
+  EXPECT_CONTAINS(errorIn("newmtl a\nillum two\n"), "a.mtl:2: invalid number");
+  EXPECT_CONTAINS(errorIn("Kd 1 1 1\n"), "a.mtl:1: statement outside of a material");
+  EXPECT_CONTAINS(errorIn("newmtl  \n"), "a.mtl:1: material without a name");
+  EXPECT_CONTAINS(errorIn(std::string("newmtl a\n\0\n", 11)), "a.mtl:2: control character");
   EXPECT_CONTAINS(errorIn("\xff\xfen"), "UTF-16");
   EXPECT_EQ(errorIn("\xef\xbb\xbfnewmtl a\n"), "");
   EXPECT_EQ(errorIn(""), "");
 }
 
-TEST(ReadMtl, NamesMayHaveBlanks) {
+TEST(ReadMtl, AcceptsBlanksInNames) {
   std::vector<std::string> ignored;
   const auto materials = parseMtl("newmtl red  paint \nnewmtl b\xc3\xa4\n", "a.mtl", ignored);
   ASSERT_EQ(materials.size(), 2u);
@@ -113,7 +112,7 @@ TEST(ReadMtl, NamesMayHaveBlanks) {
       (std::vector<std::string>{"my file \xc3\xa4.mtl", "b.mtl", "\xc3\xa4.mtl"}));
 }
 
-TEST(ReadMtl, MaterialsAreDescribedByName) {
+TEST(ReadMtl, DescribesMaterialsByName) {
   const test::TemporaryFile file(".mtl", "newmtl red\nKd 1 0 0\nnewmtl red\nKd 0 1 0\n");
   SourceScene scene;
   scene.materials.resize(2);
@@ -124,8 +123,8 @@ TEST(ReadMtl, MaterialsAreDescribedByName) {
   EXPECT_EQ(scene.materials[1].baseColour, glm::dvec3(0.8));
   EXPECT_EQ(scene.materials[1].metallic, 0);
   EXPECT_EQ(scene.notes,
-            (std::vector<std::string>{"a second material \"red\"", "material file \"missing.mtl\", which is missing",
-                                      "material \"blue\", which no file describes"}));
+            (std::vector<std::string>{"a duplicate material \"red\"", "missing material file \"missing.mtl\"",
+                                      "material \"blue\" without a description"}));
 }
 
 }  // namespace

@@ -8,26 +8,26 @@ namespace malus::prep {
 namespace {
 
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::TemporaryFile;
 
 Polygons read(const std::string& text) { return test::readCrosschecked(".off", text); }
 
-void expectRefused(const std::string& text, const std::string& place, const std::string& part) {
-  const std::string error = errorOf([&] { read(text); });
-  EXPECT_TRUE(contains(error, place)) << text << "\n" << error;
+void expectRefused(const std::string& text, const std::string& location, const std::string& part) {
+  const std::string error = errorMessage([&] { read(text); });
+  EXPECT_TRUE(contains(error, location)) << text << "\n" << error;
   EXPECT_TRUE(contains(error, part)) << text << "\n" << error;
 }
 
 const std::string kPoints = "0 0 0\n1 0 0\n1 1 0\n0 1 0.1\n";
 
-TEST(ScanOff, PlainFile) {
+TEST(ScanOff, ReadsAPlainFile) {
   const Polygons polygons = read("OFF\n4 2 0\n" + kPoints + "3 0 1 2\n4 0 1 2 3\n");
   EXPECT_EQ(polygons.positions[3], glm::dvec3(0, 1, 0.1));
   EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2, 3}));
 }
 
-TEST(ScanOff, CommentsBlankLinesCrLfAndCountsOnTheFirstLine) {
+TEST(ScanOff, AcceptsCommentsBlankLinesAndCrLf) {
   EXPECT_EQ(
       read("# a\n\nOFF # b\n# c\n4 1 0 # d\n\n0 0 0 # e\n# f\n1 0 0\n1 1 0\n0 1 0\n# g\n3 0 1 2 # h\n#i").faceCount(),
       1u);
@@ -35,7 +35,7 @@ TEST(ScanOff, CommentsBlankLinesCrLfAndCountsOnTheFirstLine) {
   EXPECT_EQ(read("OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n").faceCount(), 1u);
 }
 
-TEST(ScanOff, ColoursNormalsAndTextureCoordinatesAreSkipped) {
+TEST(ScanOff, SkipsColoursNormalsAndTextureCoordinates) {
   EXPECT_EQ(read("OFF\n4 2 0\n" + kPoints + "3 0 1 2 255 0 0\n3 0 2 3 0.1 0.2 0.3 1\n").faceCount(), 2u);
   EXPECT_EQ(read("COFF\n3 1 0\n0 0 0 1 2 3 4\n1 0 0 1 2 3 4\n0 1 0 1 2 3 4\n3 0 1 2\n").faceCount(), 1u);
   EXPECT_EQ(
@@ -44,7 +44,7 @@ TEST(ScanOff, ColoursNormalsAndTextureCoordinatesAreSkipped) {
       glm::dvec3(1, 0, 0));
 }
 
-TEST(ScanOff, WhatIsLeftOutIsNotedOnce) {
+TEST(ScanOff, NotesIgnoredContentOnce) {
   EXPECT_TRUE(read("OFF\n4 1 0\n" + kPoints + "4 0 1 2 3 # red\n").notes.empty());
   EXPECT_EQ(read("OFF\n4 2 0\n" + kPoints + "3 0 1 2 255 0 0\n3 0 2 3 7\n").notes,
             (std::vector<std::string>{"colours of faces"}));
@@ -54,7 +54,7 @@ TEST(ScanOff, WhatIsLeftOutIsNotedOnce) {
             (std::vector<std::string>{"texture coordinates"}));
 }
 
-TEST(ScanOff, NormalsOfVerticesAreKept) {
+TEST(ScanOff, KeepsNormals) {
   EXPECT_EQ(read("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 .6 .8\n0 1 0 0 0 2\n3 0 1 2\n").normals,
             (std::vector<glm::vec3>{{0, 0, 1}, {0, 0.6f, 0.8f}, {0, 0, 2}}));
   EXPECT_TRUE(read("OFF\n4 1 0\n" + kPoints + "3 0 1 2\n").normals.empty());
@@ -62,38 +62,38 @@ TEST(ScanOff, NormalsOfVerticesAreKept) {
   expectRefused("NOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ".off:3:", "nothing");
 }
 
-TEST(ScanOff, PlacesAreLines) {
+TEST(ScanOff, StoresLines) {
   const Polygons polygons = read("# a\nOFF # b\n\n4 2 0\n# c\n" + kPoints + "\n3 0 1 2\n# d\n4 0 1 2 3\n");
   EXPECT_FALSE(polygons.locationsAreBytes);
   EXPECT_EQ(polygons.vertexLocations, (std::vector<std::uint64_t>{6, 7, 8, 9}));
   EXPECT_EQ(polygons.faceLocations, (std::vector<std::uint64_t>{11, 13}));
 }
 
-TEST(ScanOff, CoordinatesAreDouble) {
+TEST(ScanOff, KeepsDoublePrecision) {
   EXPECT_EQ(read("OFF\n3 1 0\n0.1234567890123456 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").positions[0].x, 0.1234567890123456);
 }
 
-TEST(ScanOff, CountsMustBeBackedByTheFile) {
+TEST(ScanOff, RefusesCountsAboveTheFileSize) {
   expectRefused("OFF\n4000000000 1 0\n", ".off:2:", "4000000000");
   expectRefused("OFF\n3 4000000000 0\n", ".off:2:", "4000000000");
   expectRefused("OFF\n-3 1 0\n", ".off:2:", "-3");
-  expectRefused("OFF\n4 2 0\n" + kPoints + "3 0 1 2\n", ".off", "ends too early");
-  expectRefused("OFF\n4 1 0\n0.00000 0.00000 0\n1.00000 0.000000 0\n", ".off", "ends too early");
-  expectRefused("OFF\n4 1 0\n" + kPoints + "3 0 1 2\n3 0 2 3\n", ".off:8:", "more than the header counts");
+  expectRefused("OFF\n4 2 0\n" + kPoints + "3 0 1 2\n", ".off", "unexpected end of file");
+  expectRefused("OFF\n4 1 0\n0.00000 0.00000 0\n1.00000 0.000000 0\n", ".off", "unexpected end of file");
+  expectRefused("OFF\n4 1 0\n" + kPoints + "3 0 1 2\n3 0 2 3\n", ".off:8:", "content after the elements");
   expectRefused("OFF\n4 1\n" + kPoints + "3 0 1 2\n", ".off:2:", "edges");
 }
 
-TEST(ScanOff, BadNumbersAndIndices) {
+TEST(ScanOff, RefusesInvalidNumbersAndIndices) {
   expectRefused("OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", ".off:3:", "nan");
   expectRefused("OFF\n3 1 0\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ".off:3:", "nothing");
-  expectRefused("OFF\n4 1 0\n" + kPoints + "3 0 1 4\n", ".off:7:", "below 4, found 4");
+  expectRefused("OFF\n4 1 0\n" + kPoints + "3 0 1 4\n", ".off:7:", "0 to 3, found 4");
   expectRefused("OFF\n4 1 0\n" + kPoints + "3 0 1 -1\n", ".off:7:", "-1");
-  expectRefused("OFF\n4 1 0\n" + kPoints + "2 0 1\n", ".off:7:", "at least 3");
+  expectRefused("OFF\n4 1 0\n" + kPoints + "2 0 1\n", ".off:7:", "3 or more");
   expectRefused("OFF\n4 1 0\n" + kPoints + "4 0 1 2\n", ".off:7:", "4 corners");
   expectRefused("OFF\n4 1 0\n" + kPoints + "4000000000 0 1 2\n", ".off:7:", "corners");
 }
 
-TEST(ScanOff, OtherVariantsAreRefused) {
+TEST(ScanOff, RefusesOtherVariants) {
   expectRefused("OFF BINARY\n", ".off:1:", "binary");
   expectRefused("4OFF\n", ".off:1:", "dimension");
   expectRefused("nOFF\n3\n", ".off:1:", "dimension");

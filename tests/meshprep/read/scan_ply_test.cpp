@@ -12,15 +12,15 @@ namespace {
 
 using test::binaryPly;
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::PlyOptions;
 using test::TemporaryFile;
 
 Polygons read(const std::string& text) { return test::readCrosschecked(".ply", text); }
 
-void expectRefused(const std::string& text, const std::string& place, const std::string& part) {
-  const std::string error = errorOf([&] { read(text); });
-  EXPECT_TRUE(contains(error, place)) << text.substr(0, 400) << "\n" << error;
+void expectRefused(const std::string& text, const std::string& location, const std::string& part) {
+  const std::string error = errorMessage([&] { read(text); });
+  EXPECT_TRUE(contains(error, location)) << text.substr(0, 400) << "\n" << error;
   EXPECT_TRUE(contains(error, part)) << text.substr(0, 400) << "\n" << error;
 }
 
@@ -42,7 +42,7 @@ void expectTetrahedron(const PlyOptions& options) {
   EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}));
 }
 
-TEST(ScanPly, BinaryOfEveryKind) {
+TEST(ScanPly, ReadsBinaryFilesOfAllTypes) {
   PlyOptions options;
   expectTetrahedron(options);
   options.bigEndian = true;
@@ -63,7 +63,7 @@ TEST(ScanPly, BinaryOfEveryKind) {
   expectTetrahedron(options);
 }
 
-TEST(ScanPly, OtherPropertiesAreSkipped) {
+TEST(ScanPly, SkipsOtherProperties) {
   PlyOptions options;
   options.moreVertexProperties = "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty double q\n";
   options.moreVertexBytes = 11;
@@ -72,13 +72,13 @@ TEST(ScanPly, OtherPropertiesAreSkipped) {
   expectTetrahedron(options);
 }
 
-TEST(ScanPly, BinaryWithCrLfIsRefused) {
+TEST(ScanPly, RefusesBinaryFilesWithCrLf) {
   PlyOptions options;
   options.lineEnd = "\r\n";
   expectRefused(binaryPly(options), ".ply:2:", "CR LF");
 }
 
-TEST(ScanPly, AsciiVariants) {
+TEST(ScanPly, ReadsAsciiVariants) {
   EXPECT_EQ(read(ascii()).faceCount(), 1u);
   std::string crLf;
   for (const char c : ascii()) crLf += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -93,16 +93,16 @@ TEST(ScanPly, AsciiVariants) {
   EXPECT_EQ(read(replaced(ascii(), "end_header", "element edge 0\nproperty int vertex1\nend_header")).faceCount(), 1u);
 }
 
-TEST(ScanPly, TruncatedAnywhereIsAnError) {
+TEST(ScanPly, RefusesTruncatedFiles) {
   const std::string whole = binaryPly();
   for (std::size_t size = 0; size < whole.size(); ++size)
-    EXPECT_FALSE(errorOf([&] { read(whole.substr(0, size)); }).empty()) << size;
+    EXPECT_FALSE(errorMessage([&] { read(whole.substr(0, size)); }).empty()) << size;
   const std::string text = ascii();
   for (std::size_t size = 0; size + 2 < text.size(); ++size)
-    EXPECT_FALSE(errorOf([&] { read(text.substr(0, size)); }).empty()) << size;
+    EXPECT_FALSE(errorMessage([&] { read(text.substr(0, size)); }).empty()) << size;
 }
 
-TEST(ScanPly, EveryFlippedBitIsAnErrorOrAMesh) {
+TEST(ScanPly, SurvivesEveryFlippedBit) {
   const std::string whole = binaryPly();
   for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
     std::string flipped = whole;
@@ -116,34 +116,34 @@ TEST(ScanPly, EveryFlippedBitIsAnErrorOrAMesh) {
   }
 }
 
-TEST(ScanPly, BadNumbersAndIndices) {
+TEST(ScanPly, RefusesInvalidNumbersAndIndices) {
   expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"),
                 ".ply:11:", "nan");
   expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
                 ".ply:13:", "below 3");
   expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n3 0 -1 2\n"), ".ply:13:", "-1");
   expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n2 0 1\n"),
-                ".ply:13:", "at least 3");
+                ".ply:13:", "3 or more");
   expectRefused(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"),
-                ".ply:11:", "lacks numbers");
+                ".ply:11:", "missing numbers");
   std::string bytes = binaryPly();
   std::string nan;
   test::putReal(nan, std::numeric_limits<double>::quiet_NaN(), false);
   bytes.replace(bytes.find("end_header\n") + 11 + 16, 4, nan);
-  expectRefused(bytes, ", byte ", "bad number in vertex 1");
+  expectRefused(bytes, ", byte ", "invalid number in vertex 1");
 }
 
-TEST(ScanPly, BadHeadersAreRefused) {
+TEST(ScanPly, RefusesInvalidHeaders) {
   expectRefused(replaced(ascii(), "end_header\n", ""), ".ply", "unknown statement");
   expectRefused("ply\nformat ascii 1.0\nelement vertex 3\n", ".ply", "end_header");
-  expectRefused(ascii("property list float int vertex_indices\n"), ".ply:8:", "whole number");
-  expectRefused(ascii("property list uchar float vertex_indices\n"), ".ply:8:", "whole numbers");
+  expectRefused(ascii("property list float int vertex_indices\n"), ".ply:8:", "not an integer");
+  expectRefused(ascii("property list uchar float vertex_indices\n"), ".ply:8:", "integer");
   expectRefused(ascii("property list uchar int corners\n"), ".ply:9:", "vertex_indices");
   expectRefused(ascii("property list uchar int vertex_index\nproperty list uchar int vertex_indices\n"),
                 ".ply:10:", "one list");
-  expectRefused(ascii("property int vertex_indices\n"), ".ply:9:", "no corners");
+  expectRefused(ascii("property int vertex_indices\n"), ".ply:9:", "missing corners");
   expectRefused(ascii("property list uchar int vertex_indices\n", "", "property quad q\n"), ".ply:7:", "quad");
-  expectRefused(ascii("property list uchar int vertex_indices\n", "", "property float x\n"), ".ply:10:", "twice");
+  expectRefused(ascii("property list uchar int vertex_indices\n", "", "property float x\n"), ".ply:10:", "duplicate");
   expectRefused(replaced(ascii(), "float z", "float q"), ".ply:9:", "coordinates");
   expectRefused(replaced(ascii(), "float z", "list uchar float z"), ".ply:9:", "coordinates");
   expectRefused(replaced(ascii(), "format ascii 1.0", "comment x\nformat ascii 1.0"), ".ply:2:", "format");
@@ -154,10 +154,11 @@ TEST(ScanPly, BadHeadersAreRefused) {
   expectRefused(replaced(ascii(), "face 1", "face 100"), ".ply:7:", "found 100");
   expectRefused(replaced(ascii(), "vertex 3", "vertex -1"), ".ply:3:", "-1");
   expectRefused(replaced(ascii(), "ply", "Ply"), ".ply:1:", "ply");
-  expectRefused(replaced(ascii(), "face 1", "face 0"), ".ply", "more than the header counts");
+  expectRefused(replaced(ascii(), "face 1", "face 0"), ".ply", "content after the elements");
   expectRefused(replaced(ascii(), "element face 1", "property float q\nelement face 1\nelement face 1"),
-                ".ply:9:", "twice");
-  expectRefused(replaced(ascii(), "element vertex 3", "property float q\nelement vertex 3"), ".ply:3:", "no element");
+                ".ply:9:", "duplicate");
+  expectRefused(replaced(ascii(), "element vertex 3", "property float q\nelement vertex 3"),
+                ".ply:3:", "without an element");
   expectRefused(replaced(ascii(), "end_header", "element camera 1\nend_header"), ".ply:10:", "without properties");
   expectRefused(replaced(ascii(), "element face 1\nproperty list uchar int vertex_indices\n", ""),
                 ".ply:7:", "face or tristrips");

@@ -1,4 +1,4 @@
-// PLY files beyond vertices and triangles of the usual types. Expected values are written by hand.
+// PLY files with unusual types and elements. Expected values are written by hand.
 #include <array>
 #include <limits>
 #include <string>
@@ -16,7 +16,7 @@ namespace malus::prep {
 namespace {
 
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::putInteger;
 using test::putReal;
 using test::TemporaryFile;
@@ -27,7 +27,7 @@ using Notes = std::vector<std::string>;
 Polygons read(const std::string& text) { return test::readCrosschecked(".ply", text); }
 
 std::string refusal(const std::string& text) {
-  return errorOf([&] { read(text); });
+  return errorMessage([&] { read(text); });
 }
 
 const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
@@ -54,7 +54,7 @@ const std::array<IntegerType, 12> kIntegers = {{{"char", 1},
                                                 {"int32", 4},
                                                 {"uint32", 4}}};
 
-TEST(PlyVariants, ListsOfEveryPairOfIntegerTypesInEveryEncoding) {
+TEST(PlyVariants, ReadsListsOfAllIntegerTypesInAllEncodings) {
   for (const IntegerType& count : kIntegers)
     for (const IntegerType& index : kIntegers) {
       const std::string elements = "element vertex 4\n" + kXyz + "element face 2\nproperty list " + count.name + " " +
@@ -73,8 +73,8 @@ TEST(PlyVariants, ListsOfEveryPairOfIntegerTypesInEveryEncoding) {
     }
 }
 
-TEST(PlyVariants, TypesWithoutSignHoldLargeIndices) {
-  // 200 of a uchar, 40000 of a ushort: negative where the sign is taken for one.
+TEST(PlyVariants, ReadsLargeUnsignedIndices) {
+  // 200 as uchar and 40000 as ushort are negative if read as signed.
   for (const auto& [name, bytes, vertices] : {std::tuple{"uchar", 1u, 201u}, std::tuple{"ushort", 2u, 40001u}}) {
     std::string text = header(fmt::format("element vertex {}\n{}element face 1\nproperty list ushort {} vertex_index\n",
                                           vertices, kXyz, name),
@@ -87,7 +87,7 @@ TEST(PlyVariants, TypesWithoutSignHoldLargeIndices) {
   }
 }
 
-TEST(PlyVariants, ListsBesideTheCornersAreSkipped) {
+TEST(PlyVariants, SkipsOtherLists) {
   const Polygons before =
       read(header("element vertex 4\n" + kXyz +
                   "property list uchar float weights\nelement face 2\nproperty list uchar float "
@@ -117,12 +117,12 @@ TEST(PlyVariants, ListsBesideTheCornersAreSkipped) {
   EXPECT_EQ(binary.corners, (Corners{2, 0, 1}));
   EXPECT_EQ(binary.positions[2], glm::dvec3(0, 1, 0));
 
-  // A list that claims more than there is.
-  EXPECT_TRUE(contains(refusal(withoutFace + "\xff 3 0 1 2 and so on"), "the file ends in face 0"));
+  // A list that is longer than the file.
+  EXPECT_TRUE(contains(refusal(withoutFace + "\xff 3 0 1 2 and so on"), "unexpected end of file in face 0"));
 }
 
-TEST(PlyVariants, TriangleStripsTurnEveryOtherTriangle) {
-  // 0 1 2 3 4: (0 1 2) (2 1 3) (2 3 4); after -1 a new strip; a corner twice sews strips together.
+TEST(PlyVariants, FlipsEverySecondTriangleOfStrips) {
+  // 0 1 2 3 4: (0 1 2) (2 1 3) (2 3 4); -1 ends a strip; a repeated corner connects strips.
   const std::string elements =
       "element vertex 6\n" + kXyz + "element tristrips 2\nproperty list int int vertex_indices\n";
   const std::string points = "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n";
@@ -147,21 +147,22 @@ TEST(PlyVariants, TriangleStripsTurnEveryOtherTriangle) {
     EXPECT_EQ(binary.faceLocations.back(), begin + 72 + 40);
   }
 
-  // Sewn strips go on in the same sense: the parity counts the corners.
+  // Connected strips keep the parity of their corners.
   EXPECT_EQ(read(header(elements) + points + "6 0 1 2 2 3 5\n3 0 1 2\n").corners, (Corners{0, 1, 2, 3, 2, 5, 0, 1, 2}));
-  EXPECT_TRUE(contains(refusal(header(elements) + points + "3 0 1 6\n3 0 1 2\n"), ".ply:16: a strip names a vertex"));
+  EXPECT_TRUE(
+      contains(refusal(header(elements) + points + "3 0 1 6\n3 0 1 2\n"), ".ply:16: invalid vertex index in a strip"));
   EXPECT_TRUE(contains(refusal(header(elements) + points + "3 0 1 -2\n3 0 1 2\n"), "found -2"));
   EXPECT_TRUE(contains(refusal(header(elements) + points + "2 0 1\n0\n"), "no faces"));
 }
 
-TEST(PlyVariants, StripsAndFacesTogether) {
+TEST(PlyVariants, ReadsStripsAndFaces) {
   const std::string elements = "element vertex 4\n" + kXyz +
                                "element tristrips 1\nproperty list uchar char vertex_indices\nelement face "
                                "1\nproperty list uchar int vertex_indices\n";
   EXPECT_EQ(read(header(elements) + kFourPoints + "3 0 1 2\n3 0 2 3\n").corners, (Corners{0, 1, 2, 0, 2, 3}));
 }
 
-TEST(PlyVariants, OtherElementsAreSkippedWithANote) {
+TEST(PlyVariants, SkipsOtherElementsWithANote) {
   const std::string elements =
       "element material 2\nproperty uchar red\nproperty list uchar float curve\nelement vertex 4\n" + kXyz +
       "element edge 2\nproperty int vertex1\nproperty int vertex2\nelement face 1\nproperty list uchar int "
@@ -169,7 +170,7 @@ TEST(PlyVariants, OtherElementsAreSkippedWithANote) {
   const Polygons text = read(header(elements) + "9 0\n8 2 1 1\n" + kFourPoints + "0 1\n1 2\n4 0 1 2 3\n50\n");
   EXPECT_EQ(text.corners, (Corners{0, 1, 2, 3}));
   EXPECT_EQ(text.positions.size(), 4u);
-  EXPECT_EQ(text.notes, (Notes{"elements that are no vertices, faces or triangle strips"}));
+  EXPECT_EQ(text.notes, (Notes{"elements other than vertices, faces and triangle strips"}));
 
   std::string bytes = header(elements, "binary_big_endian");
   bytes += std::string("\x09\x00\x08\x02", 4) + std::string(8, '\x7f');
@@ -178,10 +179,10 @@ TEST(PlyVariants, OtherElementsAreSkippedWithANote) {
   for (const unsigned corner : {3u, 2u, 1u, 0u}) putInteger(bytes, corner, 4, true);
   bytes += std::string(8, '\x7f');
   EXPECT_EQ(read(bytes).corners, (Corners{3, 2, 1, 0}));
-  EXPECT_TRUE(contains(refusal(bytes + "x"), "more than the header counts"));
+  EXPECT_TRUE(contains(refusal(bytes + "x"), "content after the elements"));
 }
 
-TEST(PlyVariants, FacesBeforeVertices) {
+TEST(PlyVariants, ReadsFacesBeforeVertices) {
   const std::string elements = "element face 1\nproperty list uchar int vertex_indices\nelement vertex 4\n" + kXyz;
   const Polygons polygons = read(header(elements) + "4 0 1 2 3\n" + kFourPoints);
   EXPECT_EQ(polygons.corners, (Corners{0, 1, 2, 3}));
@@ -189,20 +190,20 @@ TEST(PlyVariants, FacesBeforeVertices) {
   EXPECT_TRUE(contains(refusal(header(elements) + "4 0 1 2 4\n" + kFourPoints), ".ply:10:"));
 }
 
-TEST(PlyVariants, NumbersThatNoDoubleHolds) {
-  // Read by the scan alone, because of the type of the lists' lengths.
+TEST(PlyVariants, RefusesNumbersOutOfRange) {
+  // OpenMesh cannot read these types of list lengths.
   const auto withX = [](const std::string& x) {
     return header("element vertex 4\n" + kXyz + "element face 1\nproperty list ushort int vertex_indices\n") + x +
            " 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n";
   };
   for (const std::string& large :
        {"1" + std::string(310, '0'), "1" + std::string(310, '0') + "e-1", std::string("-1e999")})
-    EXPECT_TRUE(contains(refusal(withX(large)), "a number out of range")) << large.substr(0, 5);
+    EXPECT_TRUE(contains(refusal(withX(large)), "number out of range")) << large.substr(0, 5);
   for (const std::string& small : {"0." + std::string(400, '0') + "1", std::string("1e-999"), std::string("-1e-400")})
     EXPECT_EQ(read(withX(small)).positions[0].x, 0) << small.substr(0, 5);
 }
 
-TEST(PlyVariants, WholeNumbersAsCoordinates) {
+TEST(PlyVariants, ReadsIntegerCoordinates) {
   const std::string elements =
       "element vertex 3\nproperty int x\nproperty short y\nproperty uchar z\nelement face 1\nproperty list uchar int "
       "vertex_indices\n";
@@ -217,11 +218,11 @@ TEST(PlyVariants, WholeNumbersAsCoordinates) {
   bytes += '\3';
   for (const unsigned corner : {0u, 1u, 2u}) putInteger(bytes, corner, 4);
   const Polygons binary = read(bytes);
-  EXPECT_EQ(binary.positions[0], glm::dvec3(-16777217, 0, 200));  // no float holds it
+  EXPECT_EQ(binary.positions[0], glm::dvec3(-16777217, 0, 200));  // not representable in float
   EXPECT_EQ(binary.positions[1], glm::dvec3(1, -300, 0));
 }
 
-TEST(PlyVariants, DoublesStayExact) {
+TEST(PlyVariants, KeepsDoublesExactly) {
   const std::string elements =
       "element vertex 3\nproperty double x\nproperty float64 y\nproperty double z\nelement face 1\nproperty list uchar "
       "int "
@@ -238,7 +239,7 @@ TEST(PlyVariants, DoublesStayExact) {
   }
 }
 
-TEST(PlyVariants, ColoursAndOtherPropertiesAreNotedOnce) {
+TEST(PlyVariants, NotesColoursAndOtherPropertiesOnce) {
   const std::string elements = "element vertex 3\n" + kXyz +
                                "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar "
                                "alpha\nproperty float s\nproperty float t\nelement face 1\nproperty list uchar int "
@@ -248,8 +249,8 @@ TEST(PlyVariants, ColoursAndOtherPropertiesAreNotedOnce) {
       (Notes{"colours of vertices", "other properties of vertices", "colours of faces", "other properties of faces"}));
 }
 
-TEST(PlyVariants, WhatIsSkippedMayBeAnything) {
-  // MeshLab writes such qualities; OpenMesh gives up at them.
+TEST(PlyVariants, SkipsInvalidValues) {
+  // MeshLab writes such qualities; OpenMesh fails at them.
   const std::string elements =
       "element vertex 3\n" + kXyz +
       "property float quality\nelement face 1\nproperty list uchar int vertex_indices\nproperty "
@@ -257,7 +258,7 @@ TEST(PlyVariants, WhatIsSkippedMayBeAnything) {
   EXPECT_EQ(read(header(elements) + "0 0 0 nan\n1 0 0 -inf\n0 1 0 -nan(ind)\n3 0 1 2 nan\n").faceCount(), 1u);
 }
 
-TEST(PlyVariants, NormalsOfVertices) {
+TEST(PlyVariants, ReadsNormals) {
   const std::string elements = "element vertex 3\n" + kXyz +
                                "property float nx\nproperty float ny\nproperty float nz\nelement face 1\nproperty list "
                                "uchar int vertex_indices\n";
@@ -267,7 +268,7 @@ TEST(PlyVariants, NormalsOfVertices) {
   EXPECT_TRUE(contains(refusal(header(elements) + "0 0 0 0 0 1\n1 0 0 0 x .8\n0 1 0 0 0 1\n3 0 1 2\n"), ".ply:14:"));
 }
 
-TEST(PlyVariants, PlacesAreLinesOrBytes) {
+TEST(PlyVariants, StoresLinesOrBytes) {
   const std::string elements =
       "element vertex 3\n" + kXyz + "element face 2\nproperty list uchar uchar vertex_indices\n";
   const Polygons text = read(header(elements) + "0 0 0\n\n1 0 0\n0 1 0\n3 0 1 2\n\n3 2 1 0\n");

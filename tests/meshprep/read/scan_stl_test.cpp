@@ -12,14 +12,14 @@ namespace {
 
 using test::binaryStl;
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::TemporaryFile;
 
 Polygons read(const std::string& text) { return test::readCrosschecked(".stl", text); }
 
-void expectRefused(const std::string& text, const std::string& place, const std::string& part) {
-  const std::string error = errorOf([&] { read(text); });
-  EXPECT_TRUE(contains(error, place)) << text << "\n" << error;
+void expectRefused(const std::string& text, const std::string& location, const std::string& part) {
+  const std::string error = errorMessage([&] { read(text); });
+  EXPECT_TRUE(contains(error, location)) << text << "\n" << error;
   EXPECT_TRUE(contains(error, part)) << text << "\n" << error;
 }
 
@@ -27,31 +27,31 @@ const std::string kFacet =
     "  facet normal 0 0 1\n    outer loop\n      vertex 0 0 0\n      vertex 1 0 0\n      vertex 0 1 0.1\n"
     "    endloop\n  endfacet\n";
 
-TEST(ScanStl, BinaryKeepsEveryCorner) {
+TEST(ScanStl, KeepsCornersOfBinaryFiles) {
   const Polygons polygons = read(binaryStl(test::tetrahedronTriangles()));
   EXPECT_EQ(polygons.faceCount(), 4u);
   EXPECT_EQ(polygons.positions.size(), 12u);
   EXPECT_EQ(polygons.positions[5], glm::dvec3(0, 0, static_cast<double>(0.1f)));
 }
 
-TEST(ScanStl, BinaryThatBeginsWithSolidIsBinary) {
-  EXPECT_EQ(read(binaryStl(test::tetrahedronTriangles(), "solid by a careless exporter")).faceCount(), 4u);
+TEST(ScanStl, RecognizesBinaryFilesThatBeginWithSolid) {
+  EXPECT_EQ(read(binaryStl(test::tetrahedronTriangles(), "solid of a binary exporter")).faceCount(), 4u);
 }
 
-TEST(ScanStl, FacesWithoutAreaAreKeptForCounting) {
+TEST(ScanStl, KeepsFacesWithoutArea) {
   auto triangles = test::tetrahedronTriangles();
   triangles.insert(triangles.begin() + 1, {1, 1, 1, 1, 1, 1, 2, 2, 2});
   triangles.push_back({0, 0, 0, 0, 1, 0, -0.0f, 0, 0});
   EXPECT_EQ(read(binaryStl(triangles)).faceCount(), 6u);
 }
 
-TEST(ScanStl, AsciiOfOneOrMoreSolids) {
+TEST(ScanStl, ReadsSeveralSolids) {
   EXPECT_EQ(read("solid\n" + kFacet + kFacet + "endsolid\n").faceCount(), 2u);
   EXPECT_EQ(read("solid a\n" + kFacet + "endsolid a\nsolid b\n" + kFacet + "endsolid b").faceCount(), 2u);
   EXPECT_EQ(read("solid a\n" + kFacet + "endsolid a\n").positions[2], glm::dvec3(0, 1, 0.1));
 }
 
-TEST(ScanStl, SolidsAreParts) {
+TEST(ScanStl, MakesPartsOfSolids) {
   const Polygons polygons = read("solid  T\xc3\xbcr left \n" + kFacet + kFacet +
                                  "endsolid\nsolid empty\nendsolid\nsolid\n" + kFacet + "endsolid\n");
   EXPECT_EQ(polygons.parts, (std::vector<Part>{{"T\xc3\xbc"
@@ -63,7 +63,7 @@ TEST(ScanStl, SolidsAreParts) {
   EXPECT_TRUE(read("solid\n" + kFacet + "endsolid\n").parts.empty());
 }
 
-TEST(ScanStl, PlacesAreLinesOrBytes) {
+TEST(ScanStl, StoresLinesOrBytes) {
   const Polygons text = read("solid a\n\n" + kFacet + kFacet + "endsolid a\n");
   EXPECT_FALSE(text.locationsAreBytes);
   EXPECT_EQ(text.vertexLocations, (std::vector<std::uint64_t>{5, 6, 7, 12, 13, 14}));
@@ -76,15 +76,15 @@ TEST(ScanStl, PlacesAreLinesOrBytes) {
   EXPECT_EQ(binary.faceLocations, (std::vector<std::uint64_t>{84, 134}));
 }
 
-TEST(ScanStl, AttributesAreNoted) {
+TEST(ScanStl, NotesAttributes) {
   std::string bytes = binaryStl(test::tetrahedronTriangles());
   EXPECT_TRUE(read(bytes).notes.empty());
   bytes[84 + 50 + 49] = '\x80';
   EXPECT_EQ(read(bytes).notes, (std::vector<std::string>{"colours of faces"}));
 }
 
-TEST(ScanStl, EmptyLinesAnywhere) {
-  // Between the corners OpenMesh loses count of them.
+TEST(ScanStl, AcceptsEmptyLines) {
+  // OpenMesh fails at empty lines between corners.
   std::string spaced = "\n";
   for (const char c : "solid x\n" + kFacet + kFacet + "endsolid x\n")
     spaced += c == '\n' ? "\r\n \r\n" : std::string(1, c);
@@ -93,7 +93,7 @@ TEST(ScanStl, EmptyLinesAnywhere) {
   EXPECT_EQ(polygons.positions[5], glm::dvec3(0, 1, 0.1));
 }
 
-TEST(ScanStl, NormalsOfFacetsAreNotBelieved) {
+TEST(ScanStl, IgnoresNormalsOfFacets) {
   EXPECT_EQ(
       read("solid\nfacet normal nan 0 x\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
            "endsolid\n")
@@ -101,27 +101,27 @@ TEST(ScanStl, NormalsOfFacetsAreNotBelieved) {
       (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
-TEST(ScanStl, NamesThatLookLikeStatementsAreHarmless) {
+TEST(ScanStl, AcceptsNamesThatContainStatements) {
   EXPECT_EQ(read("solid outer facet normal\n" + kFacet + "endsolid outer loop\n").faceCount(), 1u);
 }
 
-TEST(ScanStl, UpperCaseIsReadOrRefused) {
+TEST(ScanStl, AcceptsUpperCase) {
   std::string upper;
   for (const char c : "solid x\n" + kFacet + "endsolid x\n")
     upper += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   EXPECT_EQ(read(upper).faceCount(), 1u);
 }
 
-TEST(ScanStl, TruncatedAnywhereIsAnError) {
+TEST(ScanStl, RefusesTruncatedFiles) {
   const std::string whole = binaryStl(test::tetrahedronTriangles());
   for (std::size_t size = 0; size < whole.size(); ++size)
-    EXPECT_FALSE(errorOf([&] { read(whole.substr(0, size)); }).empty()) << size;
+    EXPECT_FALSE(errorMessage([&] { read(whole.substr(0, size)); }).empty()) << size;
   const std::string text = "solid x\n" + kFacet + "endsolid";
   for (std::size_t size = 0; size < text.size(); ++size)
-    EXPECT_FALSE(errorOf([&] { read(text.substr(0, size)); }).empty()) << size;
+    EXPECT_FALSE(errorMessage([&] { read(text.substr(0, size)); }).empty()) << size;
 }
 
-TEST(ScanStl, EveryFlippedBitIsAnErrorOrAMesh) {
+TEST(ScanStl, SurvivesEveryFlippedBit) {
   const std::string whole = binaryStl(test::tetrahedronTriangles());
   for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
     std::string flipped = whole;
@@ -134,17 +134,17 @@ TEST(ScanStl, EveryFlippedBitIsAnErrorOrAMesh) {
   }
 }
 
-TEST(ScanStl, BadFiles) {
+TEST(ScanStl, RefusesInvalidFiles) {
   auto triangles = test::tetrahedronTriangles();
   triangles[2][4] = std::numeric_limits<float>::infinity();
-  expectRefused(binaryStl(triangles), ", byte 212", "bad number in face 2");
+  expectRefused(binaryStl(triangles), ", byte 212", "invalid number in face 2");
   expectRefused(binaryStl({}), ".stl", "no vertices");
   expectRefused(binaryStl(test::tetrahedronTriangles()) + "x", ".stl", "284 bytes for its 4 faces, found 285 bytes");
   expectRefused("solid x\n" + kFacet, ".stl", "endsolid");
   expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n", ".stl:4:", "nan");
   expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", ".stl:6:", "vertex");
-  expectRefused("solid by a careless exporter" + binaryStl(test::tetrahedronTriangles()).substr(28) + "x", ".stl",
-                "plain text");
+  expectRefused("solid of a binary exporter" + binaryStl(test::tetrahedronTriangles()).substr(28) + "x", ".stl",
+                "control character");
   expectRefused("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0 0\n", ".stl:4:", "x y z");
   expectRefused("hello", ".stl", "\"solid\"");
 }

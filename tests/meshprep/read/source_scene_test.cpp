@@ -1,4 +1,4 @@
-// Files as scenes: OBJ cut by material and described by its MTL files, others as one part.
+// Scenes of model files: OBJ grouped by material, other formats as one part.
 #include "meshprep/read/source_scene.h"
 
 #include "tests/meshprep/shapes.h"
@@ -15,7 +15,7 @@ Polygons fourFaces() {
   for (int i = 0; i < 7; ++i) p.positions.emplace_back(i, i * i, 0);
   p.corners = {0, 1, 2, 1, 2, 3, 3, 4, 5, 0, 2, 4, 5};
   p.firstCorner = {0, 3, 6, 9, 13};
-  p.parts = {{"body", "red"}, {"", "blue"}, {"lid", "red"}, {"lid", ""}};
+  p.parts = {{"body", "red"}, {"", "blue"}, {"cover", "red"}, {"cover", ""}};
   p.partOf = {0, 1, 2, 3};
   p.smoothingGroups = {1, 2, 3, 4};
   for (std::size_t c = 0; c < p.corners.size(); ++c) p.cornerNormals.emplace_back(c, 0, 1);
@@ -25,7 +25,7 @@ Polygons fourFaces() {
   return p;
 }
 
-TEST(SourceScene, CutByMaterial) {
+TEST(SourceScene, GroupsFacesByMaterial) {
   const SourceScene scene = splitByMaterial(fourFaces());
   ASSERT_EQ(scene.parts.size(), 3u);
   ASSERT_EQ(scene.instances.size(), 3u);
@@ -47,7 +47,7 @@ TEST(SourceScene, CutByMaterial) {
   EXPECT_EQ(scene.parts[2].polygons.face(0).size(), 4u);
 }
 
-TEST(SourceScene, OnePartIsTheFileAsItIs) {
+TEST(SourceScene, KeepsPolygonsOfASinglePart) {
   Polygons p = fourFaces();
   p.parts = {{"a", "red"}, {"b", "red"}};
   p.partOf = {0, 1, 0, 1};
@@ -62,11 +62,11 @@ TEST(SourceScene, OnePartIsTheFileAsItIs) {
   EXPECT_TRUE(cube.notes.empty());
 }
 
-TEST(SourceScene, MergedInstancesAreParts) {
+TEST(SourceScene, MergesInstancesAsParts) {
   SourceScene scene = splitByMaterial(fourFaces());
   scene.instances[1].worldFromObject[3] = {0, 0, 9, 1};
   scene.instances.push_back(scene.instances[1]);
-  const Polygons whole = merged(scene);
+  const Polygons whole = mergeInstances(scene);
   EXPECT_EQ(whole.faceCount(), 5u);
   EXPECT_EQ(whole.positions.size(), 6u + 3 + 4 + 3);
   EXPECT_EQ(whole.partOf, (std::vector<std::uint32_t>{0, 0, 1, 2, 3}));
@@ -74,7 +74,7 @@ TEST(SourceScene, MergedInstancesAreParts) {
   EXPECT_EQ(whole.positions[whole.face(4)[0]], glm::dvec3(1, 1, 9));
 }
 
-TEST(SourceScene, FilesThatAreReferredTo) {
+TEST(SourceScene, ListsReferencedFiles) {
   const TemporaryFile file(".obj", "mtllib a b.mtl\n" + test::objText(test::cube()));
   const std::filesystem::path folder = file.path().parent_path();
   EXPECT_EQ(referencedFiles(file.path()), (std::vector{folder / "a", folder / "b.mtl"}));

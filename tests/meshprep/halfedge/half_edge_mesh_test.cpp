@@ -41,10 +41,10 @@ TEST(HalfEdgeMesh, RefusesWhatIsNotAnOrientedManifold) {
   Mesh fin = test::cube();
   fin.positions.emplace_back(2, 2, 2);
   fin.triangles.emplace_back(0, 1, 8);
-  EXPECT_TRUE(test::contains(test::errorOf([&] { toHalfEdges(fin); }), "face 12"));
+  EXPECT_TRUE(test::contains(test::errorMessage([&] { toHalfEdges(fin); }), "face 12"));
   Mesh flipped = test::cube();
   std::swap(flipped.triangles[3].y, flipped.triangles[3].z);
-  EXPECT_TRUE(test::contains(test::errorOf([&] { toHalfEdges(flipped); }), "oriented manifold"));
+  EXPECT_TRUE(test::contains(test::errorMessage([&] { toHalfEdges(flipped); }), "oriented manifold"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ namespace malus::prep {
 namespace {
 
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 
 struct Result {
   Mesh before, after;
@@ -358,7 +358,7 @@ TEST(Simplify, RefusesBoundsOutOfRange) {
     Options options;
     options.flat = true;
     set(options);
-    return errorOf([&] {
+    return errorMessage([&] {
       Report report;
       clean(test::cube(), options, report);
     });

@@ -8,6 +8,7 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "meshprep/base/error.h"
+#include "render/vulkan/dead_code.h"
 
 namespace malus::vulkan {
 
@@ -72,7 +73,7 @@ std::vector<std::uint32_t> compileGlsl(const std::string& text, const std::strin
   if (!program.link(kMessages)) throw Error(name, "the shader does not link", kReport, program.getInfoLog());
   std::vector<std::uint32_t> spirv;
   glslang::GlslangToSpv(*program.getIntermediate(language), spirv);
-  return spirv;
+  return withoutDeadCode(spirv);
 }
 
 }  // namespace malus::vulkan

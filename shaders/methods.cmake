@@ -52,7 +52,7 @@ function(malus_embed_shaders extra folder output_list)
   malus_read_methods("${extra}")
   set(generated_sources "")
   file(GLOB paths CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-       ${PROJECT_SOURCE_DIR}/shaders/gpu/*.* ${PROJECT_SOURCE_DIR}/shaders/optics/*.h
+       ${PROJECT_SOURCE_DIR}/shaders/effects.def ${PROJECT_SOURCE_DIR}/shaders/gpu/*.* ${PROJECT_SOURCE_DIR}/shaders/optics/*.h
        ${PROJECT_SOURCE_DIR}/shaders/iterative/*.h ${PROJECT_SOURCE_DIR}/shaders/methods/*.h
        ${PROJECT_SOURCE_DIR}/shaders/surfaces/*.* ${PROJECT_SOURCE_DIR}/shaders/stages/*.*)
   list(FILTER paths EXCLUDE REGEX "\\.md$")

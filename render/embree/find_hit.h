@@ -1,7 +1,6 @@
-// Members that both kinds of tracer share beside the surfaces: the nearest hit, and what the check of numbers reports
-// to. Included inside a tracer.
+// Hooks of shaders/surfaces/hooks.h that need the surfaces: members of both kinds of tracer, included inside them.
 
-bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) {
+bool nearestHit(const real3& origin, const real3& direction, real depth, Hit& hit) {
   ++rays;
   const embree::Intersection at = bvh.nearest(origin, direction);
   if (at.mesh == embree::Intersection::kMiss) return false;
@@ -13,9 +12,7 @@ bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) 
   const real3 interpolated =
       mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * at.b1 + n[corner.z] * at.b2 : real3(0);
   hit = makeHit(direction, p[corner.x], p[corner.y], p[corner.z], at.b1, at.b2, interpolated, depth, mesh.material);
-#if MALUS_EFFECT_ABSORPTION
-  hit.travelled = glm::length(hit.position - origin);
-#endif
+  if (kEffectAbsorption) hit.travelled = glm::length(hit.position - origin);
   return true;
 }
 

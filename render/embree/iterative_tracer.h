@@ -1,5 +1,5 @@
-// The tracer of one method that follows the eye's path in a loop. Included once by a generated file for each build of
-// each, which defines MALUS_METHOD as the loop's struct and every MALUS_EFFECT_ as 1 or 0.
+// Tracer of one iterative method. A generated file per build of a method defines MALUS_METHOD, the method's struct, and
+// every MALUS_EFFECT_ macro as 1 or 0, and includes this once.
 #include "bake/pack/format.h"
 #include "render/embree/scene_access.h"
 
@@ -23,6 +23,11 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 #pragma GCC diagnostic pop
 
 #include "render/embree/find_hit.h"
+
+  // Not inlined: inside the path's loop the compiler's code for it is slower.
+  [[gnu::noinline]] bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) {
+    return nearestHit(origin, direction, depth, hit);
+  }
 };
 
 template <bool kCheckNumerics>

@@ -1,5 +1,5 @@
-// The recursive tracer of one method. Included once by a generated file for each build of each method, which
-// defines MALUS_METHOD as the method's struct and every MALUS_EFFECT_ as 1 or 0.
+// Recursive tracer of one method. A generated file per build of a method defines MALUS_METHOD, the method's struct, and
+// every MALUS_EFFECT_ macro as 1 or 0, and includes this once.
 #include "render/embree/scene_access.h"
 
 #include "shaders/optics/language_begin.h"
@@ -32,7 +32,7 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 
   Payload traceRay(real3 origin, real3 direction, real depth) {
     Hit hit;
-    if (!findHit(origin, direction, depth, hit)) return shadeEnvironment(direction, depth);
+    if (!nearestHit(origin, direction, depth, hit)) return shadeEnvironment(direction, depth);
 #if MALUS_EFFECT_TEXTURES
     const Material material = materialAt(hit);
 #else

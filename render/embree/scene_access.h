@@ -1,5 +1,5 @@
-// What every tracer of a method sees and does: the scene, its rays, what is counted. The shared surfaces become members
-// of the tracers, so that they see the method, the scene and these by their own names.
+// Base of every tracer: the scene, shadow rays and counters, as shaders/surfaces/hooks.h names them. The shared
+// surfaces are members of the tracers and find these by name.
 #pragma once
 
 #include "render/embree/tile.h"
@@ -8,7 +8,7 @@
 
 namespace malus::embree {
 
-// What this translation unit has.
+// Effects compiled into this translation unit.
 static constexpr std::uint32_t kTileEffects = 0
 #define MALUS_SHADER_ROW(id, macro, build, name, alias, description) \
   | (MALUS_EFFECT_##macro * shaders::bitOf(shaders::Effect::k##id))
@@ -38,8 +38,10 @@ struct SceneAccess {
   const glm::vec3* textureTexels;
   const glm::vec3* environmentTexels;
   std::uint64_t rays = 0;
-  std::uint32_t pixelX = 0, pixelY = 0;  // the pixel at hand, of the whole picture
+  std::uint32_t pixelX = 0, pixelY = 0;  // the pixel that is rendered, in the whole image
   render::Faults faults;
+
+  const gpu::MaterialExtra& materialExtra(gpu::uint material) const { return extras[material]; }
 
   bool visible(const glm::vec3& origin, const glm::vec3& direction, float distance) {
     ++rays;
@@ -47,7 +49,7 @@ struct SceneAccess {
   }
 };
 
-// Every pixel of a tile. pixel(tracer, out): renders the tracer's pixel into `channels` floats.
+// Renders every pixel of a tile. pixel(tracer, out) renders the tracer's pixel into `channels` floats.
 template <class Tracer, class Pixel>
 TileOutput renderPixels(const TileInput& tile, std::size_t channels, Pixel pixel) {
   Tracer tracer(tile);

@@ -29,7 +29,8 @@ f64::Reflectance reflectanceOf(const pack::Material& m, double c, int colour) {
 
 gpu::MaterialExtra extraOf(const pack::Material& m) {
   gpu::MaterialExtra e{};
-  e.absorption = glm::vec3(m.absorption);
+  // Only glass has an inside: the other surfaces see the outer medium from both sides.
+  e.absorption = glm::vec3(m.kind == pack::MaterialKind::glass ? m.absorption : m.outsideAbsorption);
   e.outsideAbsorption = glm::vec3(m.outsideAbsorption);
   e.axis = glm::vec3(m.axis);
   e.degree = static_cast<float>(m.polarization);
@@ -82,7 +83,7 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     g.outsideEta = static_cast<float>(m.outsideEta);
     g.basicScale = static_cast<float>(basic);
     g.highlightStrength = static_cast<float>(m.highlightStrength);
-    g.highlightExponent = static_cast<int>(m.highlightExponent);
+    g.highlightExponent = m.highlightExponent;
     g.kind = surfaceKind(m.kind);
     result.materials.push_back(g);
     result.extras.push_back(extraOf(m));

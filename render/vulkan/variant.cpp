@@ -48,17 +48,6 @@ std::string preamble(const Variant& variant) {
   return text;
 }
 
-namespace {
-
-// "shaders/surfaces/glass.h" of MALUS_EFFECT_GLASS.
-std::string surfaceFile(std::uint32_t kind) {
-  std::string file = shaders::kCompiledEffects[kind].macro + std::string_view("MALUS_EFFECT_").size();
-  for (char& c : file) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return "shaders/surfaces/" + file + ".h";
-}
-
-}  // namespace
-
 std::vector<StageSource> stageSources(const Variant& variant) {
   if (isIterative(variant)) return {{"shaders/stages/camera_path.rgen", Stage::raygen}};
   std::vector<StageSource> sources = {{"shaders/stages/raygen.rgen", Stage::raygen},
@@ -66,7 +55,9 @@ std::vector<StageSource> stageSources(const Variant& variant) {
   if (has(variant, Effect::kPointLights) && has(variant, Effect::kShadows))
     sources.push_back({"shaders/stages/shadow.rmiss", Stage::miss});
   for (std::uint32_t kind = 0; kind < gpu::kSurfaceKinds; ++kind)
-    if ((variant.effects >> kind & 1) != 0) sources.push_back({surfaceFile(kind), Stage::closestHit, kind});
+    if ((variant.effects >> kind & 1) != 0)
+      sources.push_back({fmt::format("shaders/stages/surface.rchit, {}", shaders::kCompiledEffects[kind].identifier),
+                         Stage::closestHit, kind});
   return sources;
 }
 

@@ -14,6 +14,7 @@
 #define mask bool
 #define word uint
 #define FN
+#define FN_INLINE
 #define CONST const
 #define IN(T) T
 #define OUT(T) out T

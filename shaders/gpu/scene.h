@@ -16,6 +16,9 @@ using uint = std::uint32_t;
 using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
+using real = float;
+using real3 = vec3;
+using word = uint;
 #define MALUS_SIZE(T, bytes) static_assert(sizeof(T) == (bytes))
 #else
 #define MALUS_SIZE(T, bytes)
@@ -33,41 +36,10 @@ enum SurfaceKind : uint {
 };
 #endif
 
-struct Material {
-  vec3 eta;                      // real part of the index; dielectrics use eta.y in every colour
-  vec3 k;                        // imaginary part: eta - i k
-  vec3 albedo;                   // diffuse reflectance; 0: none
-  vec3 radiance;                 // emitted, divided by the square of the index it is emitted into
-  vec3 hemisphereTransmittance;  // mean transmittance of the interface for light from all directions
-  float outsideEta;              // index on the side that the normals point to
-  float basicScale;              // 1 / outsideEta^2: radiance to basic radiance
-  float highlightStrength;       // 0: none
-  int highlightExponent;
-  uint kind;  // SurfaceKind
-};
+#include "shaders/gpu/material.h"
 MALUS_SIZE(Material, 80);
-
-// What only some materials have, one for every material; read by variants whose effects need it alone.
-struct MaterialExtra {
-  vec3 absorption;             // of the body, in 1/m
-  vec3 outsideAbsorption;      // of the medium on the side that the normals point to
-  vec3 axis;                   // unit, in the scene: of an emitter's field, of a sheet's transmission or fast axis
-  float degree;                // of an emitter's linear polarization
-  vec3 transmittanceParallel;  // power transmittance of a sheet for light polarized along its axis
-  vec3 transmittanceCrossed;
-  vec3 retardanceCos;  // of a sheet
-  vec3 retardanceSin;
-  vec3 filmEta;         // index of a thin film; 0: none
-  vec3 roundTripPhase;  // twice its thickness over the wavelength
-  float roughness;      // 0: smooth
-  uint albedoMap;       // texture that albedo is multiplied by; kNoTexture: none
-  uint etaMap;          // texture in place of eta
-  uint kMap;
-  vec3 mapOrigin;  // texture coordinates: dot(p - mapOrigin, mapU or mapV)
-  vec3 mapU;
-  vec3 mapV;
-};
 MALUS_SIZE(MaterialExtra, 164);
+MALUS_SIZE(PointLight, 24);
 
 struct Texture {
   uint first;  // of its texels, row by row from the top
@@ -75,12 +47,6 @@ struct Texture {
   uint height;
 };
 MALUS_SIZE(Texture, 12);
-
-struct PointLight {
-  vec3 position;
-  vec3 intensity;  // W/sr
-};
-MALUS_SIZE(PointLight, 24);
 
 struct Mesh {
   uint firstTriangle;

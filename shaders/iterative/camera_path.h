@@ -1,182 +1,142 @@
-// The methods that follow the eye's path in a loop: what a surface does is applied to what the path carries on its way
-// out, so nothing comes back along rays. Glass is followed along the mirror direction first; the refracted ray is
-// pushed on a stack, which holds at most one ray per interaction of a path and the facets of one rough surface.
-// Included after a file of shaders/iterative. The renderer defines kPathStackSize: at least the depth (1 without glass),
-// and kFacets more with rough surfaces.
-#include "shaders/surfaces/steps.h"
+// Driver of the iterative methods, which follow the camera path in a loop: a surface is applied to the throughput of
+// the path, so that nothing returns along rays. At a surface that reflects and transmits, the reflected ray is followed
+// first and the transmitted one is pushed on a stack, which holds at most one ray per interaction of a path and the
+// facets of one rough surface. Included after a file of shaders/iterative. The renderer defines kPathStackSize: at
+// least the depth (1 if no surface both reflects and transmits), and kFacets more with rough surfaces.
+// clang-format off
+#include "shaders/surfaces/shared.h"
+#include "shaders/iterative/path.h"
+// clang-format on
 
-struct CameraPath {
-  real3 origin;
-  real3 d;
-  real depth;  // specular interactions left
-  Throughput throughput;
-};
-
-// behind: first row of the Mueller matrix in front of the camera.
-FN real3 traceCameraPath(real3 direction, real behind0, real behind1, real behind2, real behind3) {
-  CameraPath waiting[kPathStackSize];
-  int count = 0;
-  real3 sum = splat3(R(0.0));
+FN CameraPath startPath(real3 direction, real behind0, real behind1, real behind2, real behind3) {
   CameraPath p;
   p.origin = camera.position;
   p.d = direction;
   p.depth = real(camera.depth);
   p.throughput = startThroughput(direction, camera.up, behind0, behind1, behind2, behind3);
-  real least = camera.tolerance * behind0;  // what carries no more is not followed
+  return p;
+}
+
+FN PathLight environmentLight(IN(CameraPath) p) {
+  if (kEffectSky) {
+    real degree;
+    real3 radiance = skyRadiance(p.d, degree);
+    return polarizedLight(p.throughput, p.d, camera.sun, radiance, degree);
+  }
+  return unpolarizedLight(p.throughput, environmentRadiance(p.d));
+}
+
+// Whether a surface only emits or is diffuse without an interface.
+FN bool isSource(word kind) {
+  if (kEffectEmitter) {
+    if (kind == kEmitter) return true;
+  }
+  if (kEffectLambert) {
+    if (kind == kLambert) return true;
+  }
+  return false;
+}
+
+FN PathLight sourceLight(IN(Hit) h, IN(Material) m, IN(Throughput) c) {
+  if (kEffectEmitter) {
+    if (m.kind == kEmitter) return emitterLight(h, m, c);
+  }
+  return unpolarizedLight(c, directLight(h, m, h.normal).diffuse);
+}
+
+// Whether light of a layer below leaves through the surface's interface.
+FN bool hasBase(word kind) { return kind == kPaint || kind == kMetal; }
+
+// The steps of a kind of surface that reflects or transmits.
+FN Scattering surfaceScattering(INOUT(Hit) h, IN(Material) m) {
+  if (kEffectGlass) {
+    if (m.kind == kGlass) return glassScattering(h, m);
+  }
+  if (kEffectPolarizingElement) {
+    if (m.kind == kPolarizingElement) return polarizingElementScattering(h);
+  }
+  if (kEffectMetal) {
+    if (m.kind == kMetal) return metalScattering(h, m);
+  }
+  return paintScattering(h, m);
+}
+
+// Checks the light that reaches the camera from here, and that the throughput is finite.
+FN void checkPath(IN(Hit) h, IN(Throughput) c, IN(PathLight) light, real behind0) {
+  real none = R(0.0);
+  real largest = maxComponent(c);
+  real3 checked = isFinite(largest) ? light.recorded : splat3(largest);
+  real3 slack = light.emitted * (R(64.0) * kUnitRoundoff * behind0);
+  checkColour(h, checked.x, none, none, none, slack.x, 0u);
+  checkColour(h, checked.y, none, none, none, slack.y, 1u);
+  checkColour(h, checked.z, none, none, none, slack.z, 2u);
+}
+
+// Radiance that the camera records along a ray, per colour, behind an analyser: behind0 to behind3 is the first row of
+// its Mueller matrix.
+FN real3 traceCameraPath(real3 direction, real behind0, real behind1, real behind2, real behind3) {
+  CameraPath stack[kPathStackSize];
+  int count = 0;
+  real3 sum = splat3(R(0.0));
+  CameraPath p = startPath(direction, behind0, behind1, behind2, behind3);
+  real threshold = camera.tolerance * behind0;  // paths with a smaller throughput end
   bool follows = true;
   while (follows) {
     follows = false;
-    real3 seen = splat3(R(0.0));
-    real3 light = splat3(R(0.0));  // what is seen, as it leaves its source: the size of its roundings
+    PathLight light = noLight();
     Hit h;
     if (!findHit(p.origin, p.d, p.depth, h)) {
       h = environmentHit(p.d, p.depth);
-#if MALUS_EFFECT_SKY
-      real skyDegree;
-      light = skyRadiance(p.d, skyDegree);
-      seen = polarizedContribution(p.throughput, p.d, camera.sun, light, skyDegree);
-#else
-      light = environmentRadiance(p.d);
-      seen = unpolarizedContribution(p.throughput, light);
-#endif
+      light = environmentLight(p);
     } else {
       Material m = materialAt(h);
-#if MALUS_EFFECT_ABSORPTION
-      scaleThroughput(p.throughput, mediumTransmittance(h, m));
-#endif
-      bool source = false;
-#if MALUS_EFFECT_EMITTER
-      if (m.kind == kEmitter) {
-        source = true;
-        if (h.outside) light = m.radiance;
-#if MALUS_EFFECT_POLARIZED_EMITTERS
-        seen = polarizedContribution(p.throughput, h.d, cross3(h.face, extras[h.material].axis), light,
-                                     extras[h.material].degree);
-#else
-        seen = unpolarizedContribution(p.throughput, light);
-#endif
-      }
-#endif
-#if MALUS_EFFECT_LAMBERT
-      if (m.kind == kLambert) {
-        source = true;
-        light = directLight(h, m, h.normal).diffuse;
-        seen = unpolarizedContribution(p.throughput, light);
-      }
-#endif
-#if MALUS_EFFECT_POLARIZING_ELEMENT
-      if (m.kind == kPolarizingElement) {
-        source = true;
+      if (kEffectAbsorption) scaleThroughput(p.throughput, mediumTransmittance(h));
+      if (isSource(m.kind)) {
+        light = sourceLight(h, m, p.throughput);
+      } else if (h.depth > R(0.5) || hasBase(m.kind)) {  // others are black where no interaction is left
+        Scattering s = surfaceScattering(h, m);
+        rotateToSurface(p.throughput, h.d, s.frameNormal);
+        DirectLight direct = noDirectLight();
+        if (s.reflects) direct = directLight(h, m, s.reflected);
+        light.emitted = direct.diffuse + direct.highlight;
+        if (hasBase(m.kind)) light.recorded = diffuseExit(p.throughput, s.reflection, direct.diffuse);
         if (h.depth > R(0.5)) {
-          rotateToSurface(p.throughput, h.d, polarizingElementNormal(h));
-          reflectThroughput(p.throughput, polarizingElementTerms(h.material), true);
-          dropPolarization(p.throughput, camera.tolerance);
-          follows = maxComponent(p.throughput) > least;
-          p.origin = originBelow(h);
-          p.depth = h.depth - R(1.0);
-        }
-      }
-#endif
-#if MALUS_EFFECT_GLASS
-      // Clear glass met with nothing left is black.
-      if (m.kind == kGlass && h.depth < R(0.5)) source = true;
-#endif
-#if MALUS_EFFECT_PAINT || MALUS_EFFECT_METAL || MALUS_EFFECT_GLASS
-      if (!source) {
-        Refraction way;
-        way.total = true;
-#if MALUS_EFFECT_COATINGS
-        way.n1 = m.outsideEta;
-        way.n2 = m.eta.y;
-#endif
-        bool coloured = m.kind == kMetal;
-        FresnelTerms f;
-#if MALUS_EFFECT_GLASS
-        bool glass = m.kind == kGlass;
-        if (glass) {
-          way = refractAtGlass(h, m);
-          f = glassTerms(h.c, way.n1, way.n2, h.material);
-        } else
-#endif
-          f = opaqueTerms(h.c, m, h.material);
-#if MALUS_EFFECT_COATINGS
-        coloured = coloured || hasFilm(h.material);
-#endif
-        rotateToSurface(p.throughput, h.d, h.normal);
-        real3 mirror = mirrorDirection(h.d, h.normal, h.c);
-        DirectLight direct = directLight(h, m, mirror);
-        light = direct.diffuse + direct.highlight;
-#if MALUS_EFFECT_GLASS
-        if (!glass)
-#endif
-          seen = diffuseExit(p.throughput, f, direct.diffuse);
-        if (h.depth > R(0.5)) {
-#if MALUS_EFFECT_GLASS
-          if (glass && !way.total) {
-            waiting[count].origin = originBelow(h);
-            waiting[count].d = way.through;
-            waiting[count].depth = h.depth - R(1.0);
-            waiting[count].throughput = p.throughput;
-#if MALUS_EFFECT_COATINGS
-            if (hasFilm(h.material))
-              reflectThroughput(waiting[count].throughput,
-                                filmTransmissionTerms(h.c, way.n1, extras[h.material].filmEta,
-                                                      extras[h.material].roundTripPhase, splat3(way.n2)),
-                                true);
-            else
-#endif
-              transmitThroughput(waiting[count].throughput, f);
-            dropPolarization(waiting[count].throughput, camera.tolerance);
-            if (maxComponent(waiting[count].throughput) > least) count = count + 1;
-          }
-#endif
-#if MALUS_EFFECT_ROUGHNESS
-          bool rough = isRough(h);
-          if (rough) {
-            for (uint i = 0u; i < kFacets; ++i) {
-              Facet facet = sampleFacet(h, i);
-              if (facet.weight <= R(0.0)) continue;
-              waiting[count].origin = originAbove(h);
-              waiting[count].d = facet.mirror;
-              waiting[count].depth = h.depth - R(1.0) + kBehindRough;
-              waiting[count].throughput = p.throughput;
-              rotateToSurface(waiting[count].throughput, h.d, facet.normal);
-              reflectThroughput(waiting[count].throughput, opaqueTerms(facet.c, m, h.material), coloured);
-              scaleThroughput(waiting[count].throughput, splat3(facet.weight));
-              dropPolarization(waiting[count].throughput, camera.tolerance);
-              if (maxComponent(waiting[count].throughput) > least * (R(1.0) / real(kFacets))) count = count + 1;
+          if (s.transmits) {
+            if (s.reflects) {
+              stack[count] = p;
+              followTransmission(stack[count], h, s, camera.tolerance);
+              if (maxComponent(stack[count].throughput) > threshold) count = count + 1;
+            } else {
+              followTransmission(p, h, s, camera.tolerance);
+              follows = maxComponent(p.throughput) > threshold;
             }
           }
-#endif
-          reflectThroughput(p.throughput, f, coloured);
-          seen = seen + unpolarizedContribution(p.throughput, direct.highlight);
-          dropPolarization(p.throughput, camera.tolerance);
-          // A row whose first number is 0 has nothing left: |(q, u, v)| is no larger.
-          follows = maxComponent(p.throughput) > least;
-          p.origin = originAbove(h);
-          p.d = mirror;
-          p.depth = h.depth - R(1.0);
-#if MALUS_EFFECT_ROUGHNESS
-          if (rough) follows = false;
-#endif
+          bool rough = false;
+          if (kEffectRoughness) {
+            rough = isRough(h);
+            for (uint i = 0u; rough && i < kFacets; ++i) {
+              Facet facet = sampleFacet(h, camera.facets[i].x, camera.facets[i].y);
+              if (facet.weight <= R(0.0)) continue;
+              stack[count] = p;
+              followFacet(stack[count], h, m, facet, s.coloured, camera.tolerance);
+              if (maxComponent(stack[count].throughput) > threshold * (R(1.0) / real(kFacets))) count = count + 1;
+            }
+          }
+          if (s.reflects) {
+            reflectThroughput(p.throughput, s.reflection, s.coloured);
+            light.recorded = light.recorded + unpolarizedContribution(p.throughput, direct.highlight);
+            followReflection(p, h, s, camera.tolerance);
+            // |(q, u, v)| is at most w: where w is 0 nothing is left.
+            follows = maxComponent(p.throughput) > threshold && !rough;
+          }
         }
       }
-#endif
     }
-    if (kCheckNumerics) {
-      // What reaches the eye from here, and what the path goes on with, which must be a number too.
-      real none = R(0.0);
-      real most = maxComponent(p.throughput);
-      real3 checked = isFinite(most) ? seen : splat3(most);
-      real3 slack = light * (R(64.0) * kUnitRoundoff * behind0);
-      checkColour(h, checked.x, none, none, none, slack.x, 0u);
-      checkColour(h, checked.y, none, none, none, slack.y, 1u);
-      checkColour(h, checked.z, none, none, none, slack.z, 2u);
-    }
-    sum = sum + seen;
+    if (kCheckNumerics) checkPath(h, p.throughput, light, behind0);
+    sum = sum + light.recorded;
     if (!follows && count > 0) {
       count = count - 1;
-      p = waiting[count];
+      p = stack[count];
       follows = true;
     }
   }
@@ -202,17 +162,17 @@ FN real3 cameraPathColour(uint x, uint y) {
   return cameraPathPixel(x, y, camera.analyser.x, camera.analyser.y, camera.analyser.z, camera.analyser.w);
 }
 
-// Stokes vectors in the camera's frame, by four analysers: S0, S0 + S1, S0 + S2, S0 + S3. A row that starts with 0
-// would be stopped at once.
+// Stokes vectors in the camera's frame, by four analysers: S0, S0 + S1, S0 + S2, S0 + S3. A row whose first number is 0
+// would end the path at once.
 FN Stokes cameraPathStokes(uint x, uint y) {
-  real3 seen[4];
+  real3 recorded[4];
   for (int k = 0; k < 4; ++k)
-    seen[k] =
+    recorded[k] =
         cameraPathPixel(x, y, R(1.0), k == 1 ? R(1.0) : R(0.0), k == 2 ? R(1.0) : R(0.0), k == 3 ? R(1.0) : R(0.0));
   Stokes s;
-  s.s0 = seen[0];
-  s.s1 = seen[1] - seen[0];
-  s.s2 = seen[2] - seen[0];
-  s.s3 = seen[3] - seen[0];
+  s.s0 = recorded[0];
+  s.s1 = recorded[1] - recorded[0];
+  s.s2 = recorded[2] - recorded[0];
+  s.s3 = recorded[3] - recorded[0];
   return s;
 }

@@ -1,5 +1,5 @@
-// What the loops that carry one colour (schlick-iterative, fresnel-iterative) share: the share of a source's radiance
-// that reaches the eye. Included after their FresnelTerms.
+// Throughput of the iterative methods without polarization (schlick-iterative, fresnel-iterative): the share of a
+// source's radiance, per colour, that reaches the camera. Included after their FresnelTerms.
 
 CONST int kHasStokes = 0;
 
@@ -7,21 +7,22 @@ struct Throughput {
   real3 share;
 };
 
-// behind: first row of the Mueller matrix in front of the camera; of unpolarized light only its first number counts.
+// behind: first row of the Mueller matrix in front of the camera; unpolarized light needs only its first number.
 FN Throughput startThroughput(real3 d, real3 up, real behind0, real behind1, real behind2, real behind3) {
   Throughput c;
   c.share = splat3(behind0);
   return c;
 }
-FN real3 unpolarizedContribution(Throughput c, real3 radiance) { return c.share * radiance; }
-// Light polarized to a degree along the s direction of a surface with normal n.
-FN real3 polarizedContribution(Throughput c, real3 d, real3 n, real3 radiance, real degree) {
+FN real3 unpolarizedContribution(IN(Throughput) c, real3 radiance) { return c.share * radiance; }
+// Light with a degree of linear polarization along the s direction of a surface with normal n.
+FN real3 polarizedContribution(IN(Throughput) c, real3 d, real3 n, real3 radiance, real degree) {
   return c.share * radiance;
 }
 FN void scaleThroughput(INOUT(Throughput) c, real3 scale) { c.share = c.share * scale; }
-FN real maxComponent(Throughput c) { return maxR(c.share.x, maxR(c.share.y, c.share.z)); }
+FN real maxComponent(IN(Throughput) c) { return maxR(c.share.x, maxR(c.share.y, c.share.z)); }
 FN void dropPolarization(INOUT(Throughput) c, real tolerance) {}
 FN void rotateToSurface(INOUT(Throughput) c, real3 d, real3 n) {}
-FN real3 diffuseExit(Throughput c, FresnelTerms f, real3 radiance) { return c.share * meanTransmittance(f) * radiance; }
-FN void reflectThroughput(INOUT(Throughput) c, FresnelTerms f, mask coloured) { c.share = c.share * f.r; }
-FN void transmitThroughput(INOUT(Throughput) c, FresnelTerms f) { c.share = c.share * (splat3(R(1.0)) - f.r); }
+FN real3 diffuseExit(IN(Throughput) c, IN(FresnelTerms) f, real3 radiance) {
+  return c.share * meanTransmittance(f) * radiance;
+}
+FN void reflectThroughput(INOUT(Throughput) c, IN(FresnelTerms) f, mask coloured) { c.share = c.share * f.r; }

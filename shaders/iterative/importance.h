@@ -1,5 +1,5 @@
-// Method `importance`: the exact polarized intensity behind the camera's filter. The eye path carries importance rows
-// (optics/importance.h), one for three colours until a surface with coloured Fresnel factors is met. Nothing is
+// Method `importance`: the exact polarized intensity behind the camera's filter. The camera path carries importance
+// vectors (optics/importance.h), one for all colours until a surface whose terms differ between colours. Nothing is
 // returned along rays.
 
 #include "shaders/methods/mueller_terms.h"
@@ -7,13 +7,14 @@
 CONST int kHasStokes = 1;
 
 struct Throughput {
-  real3 x;             // frame of the rows: unit, across the ray; their y is cross(-d, x)
-  ImportanceVector r;  // of red, or of all three colours
+  real3 x;             // frame of the vectors: unit, perpendicular to the ray; their y is cross(-d, x)
+  ImportanceVector r;  // of red, or of all colours
   ImportanceVector g;
   ImportanceVector b;
-  mask split;  // the colours have rows of their own
+  mask split;  // green and blue have their own vectors
 };
 
+// d: direction of the camera ray; behind: first row of the Mueller matrix in front of the camera.
 FN Throughput startThroughput(real3 d, real3 up, real behind0, real behind1, real behind2, real behind3) {
   Throughput c;
   c.x = sDirection(d, up);
@@ -27,101 +28,96 @@ FN Throughput startThroughput(real3 d, real3 up, real behind0, real behind1, rea
   return c;
 }
 
-FN real3 colourWeights(Throughput c) { return c.split ? make3(c.r.w, c.g.w, c.b.w) : splat3(c.r.w); }
+FN real3 colourWeights(IN(Throughput) c) { return select3(c.split, make3(c.r.w, c.g.w, c.b.w), splat3(c.r.w)); }
+FN real3 colourLinear(IN(Throughput) c) { return select3(c.split, make3(c.r.q, c.g.q, c.b.q), splat3(c.r.q)); }
 
-// Unpolarized light: the first number of each row.
-FN real3 unpolarizedContribution(Throughput c, real3 radiance) { return colourWeights(c) * radiance; }
-FN real maxComponent(Throughput c) { return c.split ? maxR(c.r.w, maxR(c.g.w, c.b.w)) : c.r.w; }
+// Unpolarized light: the first component of each vector.
+FN real3 unpolarizedContribution(IN(Throughput) c, real3 radiance) { return colourWeights(c) * radiance; }
+FN real maxComponent(IN(Throughput) c) { return selectR(c.split, maxR(c.r.w, maxR(c.g.w, c.b.w)), c.r.w); }
 
-// Whether only the power of light counts: a row that is not polarized turns into itself.
-FN mask isUnpolarized(ImportanceVector r) { return r.q == R(0.0) && r.u == R(0.0) && r.v == R(0.0); }
+// Without polarization components a vector is the same in every frame.
+FN mask isUnpolarized(ImportanceVector r) {
+  return andM(equalR(r.q, R(0.0)), andM(equalR(r.u, R(0.0)), equalR(r.v, R(0.0))));
+}
 
-// A row whose polarization is at most `tolerance` of it loses it: what is wrong by that is at most as large a share of
-// the light that it meets.
+// Sets the polarization to 0 where it is at most `tolerance` times w. The relative error that this adds to the light
+// that arrives is at most `tolerance`.
 FN ImportanceVector dropSmallPolarization(ImportanceVector r, real tolerance) {
-  real most = tolerance * r.w;
-  if (r.q * r.q + r.u * r.u + r.v * r.v > most * most) return r;
-  r.q = R(0.0);
-  r.u = R(0.0);
-  r.v = R(0.0);
-  return r;
+  real bound = tolerance * r.w;
+  mask drops = andM(lessR(R(0.0), tolerance), notM(lessR(bound * bound, r.q * r.q + r.u * r.u + r.v * r.v)));
+  ImportanceVector t;
+  t.w = r.w;
+  t.q = selectR(drops, R(0.0), r.q);
+  t.u = selectR(drops, R(0.0), r.u);
+  t.v = selectR(drops, R(0.0), r.v);
+  return t;
 }
 FN void dropPolarization(INOUT(Throughput) c, real tolerance) {
-  if (tolerance <= R(0.0)) return;
+  if (!anyM(lessR(R(0.0), tolerance))) return;
   c.r = dropSmallPolarization(c.r, tolerance);
-  if (!c.split) return;
-  c.g = dropSmallPolarization(c.g, tolerance);
-  c.b = dropSmallPolarization(c.b, tolerance);
+  if (!anyM(c.split)) return;
+  c.g = selectImportance(c.split, dropSmallPolarization(c.g, tolerance), c.g);
+  c.b = selectImportance(c.split, dropSmallPolarization(c.b, tolerance), c.b);
 }
 
-// Into the frame of a surface with normal n: from n's components across the ray, no angle. Where they are 0 every
-// frame is one of the surface's.
+// Into the frame of a surface with normal n, from n's components perpendicular to the ray. At normal incidence, where
+// they are 0, every frame is a frame of the surface.
 FN void rotateToSurface(INOUT(Throughput) c, real3 d, real3 n) {
   real3 y = cross3(c.x, d);
   real nx = dot3(n, c.x);
   real ny = dot3(n, y);
   real sum = nx * nx + ny * ny;
-  if (sum < R(1e-30)) return;
+  mask inclined = notM(lessR(sum, R(1e-30)));
+  if (!anyM(inclined)) return;
   real root = R(1.0) / sqrtR(sum);
-  c.x = c.x * (R(0.0) - ny * root) + y * (nx * root);
-  if (!c.split && isUnpolarized(c.r)) return;
+  c.x = select3(inclined, c.x * (R(0.0) - ny * root) + y * (nx * root), c.x);
+  mask rotates = andM(inclined, orM(c.split, notM(isUnpolarized(c.r))));
+  if (!anyM(rotates)) return;
   real inverse = root * root;
   real cos2 = (ny - nx) * (ny + nx) * inverse;
   real sin2 = R(-2.0) * nx * ny * inverse;
-  c.r = rotateImportance(c.r, cos2, sin2);
-  if (!c.split) return;
-  c.g = rotateImportance(c.g, cos2, sin2);
-  c.b = rotateImportance(c.b, cos2, sin2);
+  c.r = selectImportance(rotates, rotateImportance(c.r, cos2, sin2), c.r);
+  mask splitRotates = andM(rotates, c.split);
+  if (!anyM(splitRotates)) return;
+  c.g = selectImportance(splitRotates, rotateImportance(c.g, cos2, sin2), c.g);
+  c.b = selectImportance(splitRotates, rotateImportance(c.b, cos2, sin2), c.b);
 }
 
-FN void splitColours(INOUT(Throughput) c) {
-  if (c.split) return;
-  c.g = c.r;
-  c.b = c.r;
-  c.split = true;
+// Gives green and blue their own vectors where `coloured`.
+FN void splitColours(INOUT(Throughput) c, mask coloured) {
+  mask splits = andM(coloured, notM(c.split));
+  if (!anyM(splits)) return;
+  c.g = selectImportance(splits, c.r, c.g);
+  c.b = selectImportance(splits, c.r, c.b);
+  c.split = orM(c.split, splits);
 }
 
-// Light polarized to a degree along the s direction of a surface with normal n.
+// Light with a degree of linear polarization along the s direction of a surface with normal n.
 FN real3 polarizedContribution(Throughput c, real3 d, real3 n, real3 radiance, real degree) {
   rotateToSurface(c, d, n);
-  real3 q = c.split ? make3(c.r.q, c.g.q, c.b.q) : splat3(c.r.q);
-  return (colourWeights(c) + q * degree) * radiance;
+  return (colourWeights(c) + colourLinear(c) * degree) * radiance;
 }
 
 FN void scaleThroughput(INOUT(Throughput) c, real3 scale) {
-  if (!c.split && scale.x == scale.y && scale.y == scale.z) {
-    c.r = scaleImportance(c.r, scale.x);
-    return;
-  }
-  splitColours(c);
+  splitColours(c, notM(andM(equalR(scale.x, scale.y), equalR(scale.y, scale.z))));
   c.r = scaleImportance(c.r, scale.x);
-  c.g = scaleImportance(c.g, scale.y);
-  c.b = scaleImportance(c.b, scale.z);
+  if (!anyM(c.split)) return;
+  c.g = selectImportance(c.split, scaleImportance(c.g, scale.y), c.g);
+  c.b = selectImportance(c.split, scaleImportance(c.b, scale.z), c.b);
 }
 
 // Diffuse light from below the interface: unpolarized, transmitted with 1 - R_s and 1 - R_p.
-FN real3 diffuseExit(Throughput c, FresnelTerms f, real3 radiance) {
+FN real3 diffuseExit(IN(Throughput) c, IN(FresnelTerms) f, real3 radiance) {
   real3 mean = splat3(R(1.0)) - (f.rs + f.rp) * R(0.5);
   real3 difference = (f.rp - f.rs) * R(0.5);
-  real3 q = c.split ? make3(c.r.q, c.g.q, c.b.q) : splat3(c.r.q);
-  return (mean * colourWeights(c) + difference * q) * radiance;
+  return (mean * colourWeights(c) + difference * colourLinear(c)) * radiance;
 }
 
-FN void reflectThroughput(INOUT(Throughput) c, FresnelTerms f, mask coloured) {
-  if (coloured) splitColours(c);
+// Through an interface, against the light. coloured: the terms differ between colours.
+FN_INLINE void reflectThroughput(INOUT(Throughput) c, IN(FresnelTerms) f, mask coloured) {
+  splitColours(c, coloured);
   c.r = applyInterfaceTransposed(c.r, f.rs.x, f.rp.x, f.xRe.x, f.xIm.x);
-  if (!c.split) return;
-  c.g = applyInterfaceTransposed(c.g, f.rs.y, f.rp.y, f.xRe.y, f.xIm.y);
-  c.b = applyInterfaceTransposed(c.b, f.rs.z, f.rp.z, f.xRe.z, f.xIm.z);
-}
-
-// Clear glass: T_s, T_p = 1 - R_s, 1 - R_p.
-FN void transmitThroughput(INOUT(Throughput) c, FresnelTerms f) {
-  real ts = R(1.0) - f.rs.x;
-  real tp = R(1.0) - f.rp.x;
-  real x = sqrtR(ts * tp);
-  c.r = applyInterfaceTransposed(c.r, ts, tp, x, R(0.0));
-  if (!c.split) return;
-  c.g = applyInterfaceTransposed(c.g, ts, tp, x, R(0.0));
-  c.b = applyInterfaceTransposed(c.b, ts, tp, x, R(0.0));
+  if (!anyM(c.split)) return;
+  c.g = selectImportance(c.split, applyInterfaceTransposed(c.g, f.rs.y, f.rp.y, f.xRe.y, f.xIm.y), c.g);
+  c.b = selectImportance(c.split, applyInterfaceTransposed(c.b, f.rs.z, f.rp.z, f.xRe.z, f.xIm.z), c.b);
 }

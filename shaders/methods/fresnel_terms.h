@@ -4,6 +4,17 @@ struct FresnelTerms {
   real3 r;
 };
 
+FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
+  FresnelTerms f;
+  f.r = select3(m, a.r, b.r);
+  return f;
+}
+// Transmission T = 1 - R.
+FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
+  FresnelTerms f;
+  f.r = splat3(R(1.0)) - reflection.r;
+  return f;
+}
 FN real meanReflectance(Reflectance f) { return R(0.5) * (f.rs + f.rp); }
 
 FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflectance blue) {

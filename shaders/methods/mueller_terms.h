@@ -8,6 +8,24 @@ struct FresnelTerms {
   real3 xIm;
 };
 
+FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
+  FresnelTerms f;
+  f.rs = select3(m, a.rs, b.rs);
+  f.rp = select3(m, a.rp, b.rp);
+  f.xRe = select3(m, a.xRe, b.xRe);
+  f.xIm = select3(m, a.xIm, b.xIm);
+  return f;
+}
+// Transmission of a dielectric, in the form of a reflection: T_s = 1 - R_s, T_p = 1 - R_p, X = sqrt(T_s T_p).
+FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
+  FresnelTerms f;
+  f.rs = splat3(R(1.0)) - reflection.rs;
+  f.rp = splat3(R(1.0)) - reflection.rp;
+  real3 product = f.rs * f.rp;
+  f.xRe = make3(sqrtR(product.x), sqrtR(product.y), sqrtR(product.z));
+  f.xIm = splat3(R(0.0));
+  return f;
+}
 FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflectance blue) {
   FresnelTerms f;
   f.rs = make3(red.rs, green.rs, blue.rs);

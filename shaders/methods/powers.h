@@ -7,6 +7,19 @@ struct FresnelTerms {
   real3 rp;
 };
 
+FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
+  FresnelTerms f;
+  f.rs = select3(m, a.rs, b.rs);
+  f.rp = select3(m, a.rp, b.rp);
+  return f;
+}
+// Transmission T_s = 1 - R_s, T_p = 1 - R_p.
+FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
+  FresnelTerms f;
+  f.rs = splat3(R(1.0)) - reflection.rs;
+  f.rp = splat3(R(1.0)) - reflection.rp;
+  return f;
+}
 FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflectance blue) {
   FresnelTerms f;
   f.rs = make3(red.rs, green.rs, blue.rs);

@@ -4,6 +4,17 @@ struct FresnelTerms {
   real3 r;
 };
 
+FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
+  FresnelTerms f;
+  f.r = select3(m, a.r, b.r);
+  return f;
+}
+// Transmission T = 1 - R.
+FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
+  FresnelTerms f;
+  f.r = splat3(R(1.0)) - reflection.r;
+  return f;
+}
 FN FresnelTerms dielectricTerms(real c, real n1, real n2) {
   FresnelTerms f;
   f.r = splat3(schlickReflectance(c, n1, n2, R(0.0)));

@@ -20,6 +20,15 @@ FN ImportanceVector rotateImportance(ImportanceVector r, real cos2, real sin2) {
   return t;
 }
 
+FN ImportanceVector selectImportance(mask m, ImportanceVector a, ImportanceVector b) {
+  ImportanceVector t;
+  t.w = selectR(m, a.w, b.w);
+  t.q = selectR(m, a.q, b.q);
+  t.u = selectR(m, a.u, b.u);
+  t.v = selectR(m, a.v, b.v);
+  return t;
+}
+
 FN ImportanceVector scaleImportance(ImportanceVector r, real scale) {
   ImportanceVector t;
   t.w = r.w * scale;

@@ -1,5 +1,6 @@
 // Undoes language_begin.h.
 #undef FN
+#undef FN_INLINE
 #undef CONST
 #undef IN
 #undef OUT

@@ -1,6 +1,6 @@
-// Every operation that the shared files call beside + - * / on real and real3. A build on another number
-// type (a SIMD batch, the two-lane type of the tests) supplies these instead of this file; so the shared
-// files hold no `if`, no `?:` and no `bool` on data, no swizzles, no constructors, no trigonometry.
+// Every operation that the shared files call beside + - * / on real and real3. A build on another number type (a SIMD
+// packet, the two-lane type of the tests) supplies these instead of this file. The shared files therefore contain no
+// `if` on data but `if (anyM(mask))`, no `?:`, no swizzles, no constructors and no trigonometry.
 
 FN real3 make3(real x, real y, real z) {
   real3 v;
@@ -17,6 +17,9 @@ FN mask equalR(real a, real b) { return a == b; }
 FN mask andM(mask a, mask b) { return a && b; }
 FN mask orM(mask a, mask b) { return a || b; }
 FN mask notM(mask a) { return !a; }
+// Whether the mask is true in any lane: to skip work that no lane needs. What the skipped block writes is selected by
+// the same mask.
+FN bool anyM(mask a) { return a; }
 
 FN real selectR(mask m, real a, real b) { return m ? a : b; }
 FN real minR(real a, real b) { return a < b ? a : b; }
@@ -55,5 +58,7 @@ FN word wordOfReal(real x) { return word(x); }
 FN real realOfWord(word x) { return real(x); }
 #endif
 FN word joinWord(word low, word high) { return (low & 0xffffu) | (high << 16); }
+FN mask equalW(word a, word b) { return a == b; }
+FN mask hasBit(word w, int bit) { return ((w >> bit) & 1u) == 1u; }
 FN word lowHalf(word w) { return w & 0xffffu; }
 FN word highHalf(word w) { return w >> 16; }

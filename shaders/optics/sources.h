@@ -8,7 +8,7 @@ FN real3 lambertRadiance(real3 albedo, real3 irradiance, real3 entering) {
 
 // Normalized Phong lobe, in 1/sr: (m + 1)/(2 pi) cos^m of the angle between the mirror direction and the
 // light. Source: Lafortune and Willems, Using the modified Phong reflectance model, 1994.
-FN real phongLobe(real3 mirror, real3 toLight, int exponent) {
+FN real phongLobe(real3 mirror, real3 toLight, word exponent) {
   real c = maxR(dot3(mirror, toLight), R(0.0));
-  return (real(exponent) + R(1.0)) / (R(2.0) * kPi) * powInteger(c, exponent);
+  return (realOfWord(exponent) + R(1.0)) / (R(2.0) * kPi) * powInteger(c, exponent);
 }

@@ -20,11 +20,11 @@ FN real clampUnit(real x) { return minR(maxR(x, R(0.0)), R(1.0)); }
 
 // x^n for 0 <= n < 4096 by squaring, the same on every device, where pow() is not. Its error is at most n
 // roundings, which is what the rounding of x itself costs.
-FN real powInteger(real x, int n) {
+FN real powInteger(real x, word n) {
   real result = R(1.0);
   real power = x;
   for (int bit = 0; bit < 12; ++bit) {
-    result = result * selectR(((n >> bit) & 1) == 1, power, R(1.0));
+    result = result * selectR(hasBit(n, bit), power, R(1.0));
     power = power * power;
   }
   return result;

@@ -9,8 +9,6 @@ Hit makeHitFromMesh(uint geometry, uint primitive, vec2 barycentric, vec3 origin
     interpolated = normals[corner.x] * b0 + normals[corner.y] * barycentric.x + normals[corner.z] * barycentric.y;
   Hit h = makeHit(d, positions[corner.x], positions[corner.y], positions[corner.z], barycentric.x, barycentric.y,
                  interpolated, depth, mesh.material);
-#if MALUS_EFFECT_ABSORPTION
-  h.travelled = length(h.position - origin);
-#endif
+  if (kEffectAbsorption) h.travelled = length(h.position - origin);
   return h;
 }

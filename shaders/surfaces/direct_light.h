@@ -1,15 +1,16 @@
-// Light that point lights and the environment's fill send to the eye by way of a surface, before the
-// interface that it leaves through. Every surface blocks a point light.
+// Light of the point lights and of the environment's ambient irradiance that a surface scatters toward the camera,
+// before the interface that it leaves through. Every surface blocks a point light.
 
 struct DirectLight {
   real3 diffuse;    // radiance of the Lambert layer
-  real3 highlight;  // radiance in the mirror direction
+  real3 highlight;  // radiance in the direction of the mirror ray
 };
 
-// Transmittance of the material's interface, mean of s and p, for light at an angle with cosine c.
-FN real3 enteringTransmittance(IN(Material) m, uint index, real c) {
-  if (m.kind == kPaint || m.kind == kMetal) return meanTransmittance(opaqueTerms(c, m, index));
-  return splat3(R(1.0));
+FN DirectLight noDirectLight() {
+  DirectLight none;
+  none.diffuse = splat3(R(0.0));
+  none.highlight = splat3(R(0.0));
+  return none;
 }
 
 FN real3 environmentIrradiance(real3 n) {
@@ -26,49 +27,36 @@ FN real3 environmentIrradiance(real3 n) {
   return e;
 }
 
-FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 mirror) {
-  DirectLight sum;
-  sum.diffuse = splat3(R(0.0));
-  sum.highlight = splat3(R(0.0));
-#if MALUS_EFFECT_POINT_LIGHTS || MALUS_EFFECT_AMBIENT
-  bool isDiffuse = maxR(m.albedo.x, maxR(m.albedo.y, m.albedo.z)) > R(0.0);
-#endif
-#if MALUS_EFFECT_POINT_LIGHTS
-  bool isGlossy = m.highlightStrength > R(0.0) && h.depth > R(0.5);
-  if (isDiffuse || isGlossy) {
-    for (int i = 0; i < camera.lightCount; ++i) {
-      real3 origin = originAbove(h);
-      real3 toLight = lights[i].position - origin;
-      real distanceSq = dot3(toLight, toLight);
-      real distanceToLight = sqrtR(distanceSq);
-      real3 l = toLight * (R(1.0) / distanceToLight);
-      real c = dot3(h.normal, l);
-      if (c <= R(0.0) || dot3(h.face, l) <= R(0.0)) continue;
-#if MALUS_EFFECT_HIGHLIGHTS
-      real lobe = isGlossy ? m.highlightStrength * phongLobe(mirror, l, m.highlightExponent) : R(0.0);
-#else
-      real lobe = R(0.0);
-#endif
-      if (!isDiffuse && lobe <= R(0.0)) continue;
-#if MALUS_EFFECT_SHADOWS
-      if (camera.shadows != 0u && !visible(origin, l, distanceToLight)) continue;
-#endif
-      real3 arriving = lights[i].intensity * (R(1.0) / distanceSq);
-#if MALUS_EFFECT_ABSORPTION
-      arriving = arriving * transmittanceOver(mediumAbsorption(h, m), distanceToLight);
-#endif
-      if (isDiffuse)
-        sum.diffuse = sum.diffuse +
-                      lambertRadiance(m.albedo, arriving * c, enteringTransmittance(m, h.material, minR(c, R(1.0))));
-      sum.highlight = sum.highlight + arriving * lobe;
-    }
+// Adds one point light, by a shadow ray if it can contribute.
+FN void addPointLight(INOUT(DirectLight) sum, IN(Hit) h, IN(Material) m, IN(PointLight) light, real3 reflected,
+                      mask diffuse, mask glossy) {
+  real3 origin = originAbove(h);
+  LightSample s = sampleLight(h, m, light, origin, reflected, diffuse, glossy);
+  if (!s.lit) return;
+  if (kEffectShadows) {
+    if (camera.shadows != 0u && !visible(origin, s.direction, s.distance)) return;
   }
-#endif
-#if MALUS_EFFECT_AMBIENT
-  if (isDiffuse && camera.ambientIrradiance > R(0.0))
-    sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, environmentIrradiance(h.normal) * camera.ambientIrradiance,
-                                                m.hemisphereTransmittance);
-#endif
+  real3 irradiance = lightIrradiance(h, light, s);
+  if (diffuse)
+    sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, irradiance * s.cosine,
+                                                enteringTransmittance(m, h.material, minR(s.cosine, R(1.0))));
+  sum.highlight = sum.highlight + irradiance * s.lobe;
+}
+
+// reflected: direction of the mirror ray, for the highlight.
+FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 reflected) {
+  DirectLight sum = noDirectLight();
+  mask diffuse = lessR(R(0.0), maxR(m.albedo.x, maxR(m.albedo.y, m.albedo.z)));
+  if (kEffectPointLights) {
+    mask glossy = m.highlightStrength > R(0.0) && h.depth > R(0.5);
+    if (diffuse || glossy)
+      for (int i = 0; i < camera.lightCount; ++i) addPointLight(sum, h, m, lights[i], reflected, diffuse, glossy);
+  }
+  if (kEffectAmbient) {
+    if (diffuse && camera.ambientIrradiance > R(0.0))
+      sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, environmentIrradiance(h.normal) * camera.ambientIrradiance,
+                                                  m.hemisphereTransmittance);
+  }
   sum.diffuse = sum.diffuse * m.basicScale;
   sum.highlight = sum.highlight * m.basicScale;
   return sum;

@@ -1,31 +1,30 @@
-// Rough surfaces: the mirror's reflection is the mean over a fixed set of facets, each a polarized mirror. Only the
-// first rough surface of a path is; behind it others are smooth, so that rays do not multiply. A depth with a fraction
-// of a quarter marks such a path.
+// Rough surfaces: the reflection is the mean over a fixed set of microfacets, each a polarized mirror. Only the first
+// rough surface of a path is treated so; later ones are smooth, so that rays do not multiply. A depth with a fraction
+// of a quarter marks a path behind a rough surface.
 
-#if MALUS_EFFECT_ROUGHNESS
 CONST real kBehindRough = R(0.25);
 
-FN bool isRough(IN(Hit) h) {
+FN mask isRough(IN(Hit) h) {
   real fraction = h.depth - floorR(h.depth);
-  return extras[h.material].roughness > R(0.0) && fraction <= R(0.0);
+  return andM(lessR(R(0.0), materialExtra(h.material).roughness), lessEqualR(fraction, R(0.0)));
 }
 
 struct Facet {
   real3 normal;
-  real c;        // cosine of incidence on it
-  real3 mirror;  // where it reflects the ray to
-  real weight;   // of its light in the sum; 0: it shows nothing
+  real c;        // cosine of the angle of incidence on the facet
+  real3 mirror;  // direction of the reflected ray
+  real weight;   // of its light in the mean; 0 where it reflects nothing
 };
 
-FN Facet sampleFacet(IN(Hit) h, uint index) {
-  real alpha = extras[h.material].roughness;
+// Facet for a point (px, py) of the unit disk (optics/facets.h).
+FN Facet sampleFacet(IN(Hit) h, real px, real py) {
+  real alpha = materialExtra(h.material).roughness;
   real3 toCamera = h.d * R(-1.0);
   Facet f;
-  f.normal = facetNormal(toCamera, h.normal, alpha, camera.facets[index].x, camera.facets[index].y);
+  f.normal = facetNormal(toCamera, h.normal, alpha, px, py);
   f.c = clampUnit(dot3(toCamera, f.normal));
   f.mirror = mirrorDirection(h.d, f.normal, f.c);
-  f.weight = facetWeight(toCamera, f.mirror, h.normal, alpha) * (R(1.0) / real(kFacets));
-  if (dot3(f.mirror, h.face) <= R(0.0)) f.weight = R(0.0);
+  f.weight = facetWeight(toCamera, f.mirror, h.normal, alpha) * (R(1.0) / R(kFacets));
+  f.weight = selectR(lessEqualR(dot3(f.mirror, h.face), R(0.0)), R(0.0), f.weight);
   return f;
 }
-#endif

@@ -1,42 +1,41 @@
 // Point where a ray meets a surface.
 
 struct Hit {
-  real3 d;         // unit direction of the ray, away from the eye
+  real3 d;         // unit direction of the ray, away from the camera
   real3 position;  // of the hit
-  real3 start;     // where further rays leave: the position, off the triangle's edges
+  real3 start;     // from where further rays leave: the position, moved off the triangle's edges
   real3 error;     // bound on the position's rounding error
   real3 face;      // unit normal of the face, against the ray
   real3 normal;    // unit normal to shade with, against the ray
   real c;          // cosine of the angle of incidence, in [0, 1]
-  mask outside;    // the side that the mesh's normals point to was hit
+  mask outside;    // the ray hits the side that the mesh's normals point to
   real depth;      // specular interactions left
-  uint material;   // index of its material
-#if MALUS_EFFECT_ABSORPTION
-  real travelled;  // from the ray's origin, set by who found the hit
-#endif
+  word material;   // index of the surface's material
+  real travelled;  // distance from the ray's origin, set by findHit; only with absorption
 };
 
 CONST real kUnitRoundoff = R(5.9604644775390625e-8);  // 2^-24, of float
 
-// d: ray; p0..p2: corners, counter-clockwise seen from outside; b1, b2: barycentric coordinates of p1, p2;
-// interpolated: normal of the vertices there, or 0 for a flat mesh; material: its index.
-FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 interpolated, real depth, uint material) {
+// Hit of a ray in direction d. p0, p1, p2: corners of the triangle, counter-clockwise seen from outside; b1, b2:
+// barycentric coordinates of p1 and p2; interpolated: normal interpolated from the vertices, or 0 for a flat mesh.
+FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 interpolated, real depth, word material) {
   real b0 = R(1.0) - b1 - b2;
-  real3 across = cross3(p1 - p0, p2 - p0);
-  real areaSq = dot3(across, across);
+  real3 normal = cross3(p1 - p0, p2 - p0);
+  real areaSq = dot3(normal, normal);
   // A triangle without area has no normal: it is shaded as if it faced the ray.
-  real3 face = select3(lessR(R(0.0), areaSq), across * (R(1.0) / sqrtR(maxR(areaSq, R(1e-38)))), d * R(-1.0));
+  real3 face = select3(lessR(R(0.0), areaSq), normal * (R(1.0) / sqrtR(maxR(areaSq, R(1e-38)))), d * R(-1.0));
   Hit h;
   h.d = d;
   h.position = p0 * b0 + p1 * b1 + p2 * b2;
   h.error = hitPointError(p0, p1, p2, b0, b1, b2, kUnitRoundoff) +
             splat3(intersectionError(p0, p1, p2, h.position, kUnitRoundoff));
-  // Close to an edge, by the least height that the triangle can have.
+  // Move the start off an edge that may be nearer than the margin, judged by the smallest possible height.
   real margin = R(4.0) * largestPart(h.error);
   real longest = maxR(largestPart(p1 - p0), maxR(largestPart(p2 - p0), largestPart(p2 - p1))) * R(1.7320508);
   h.start = h.position;
-  if (minR(b0, minR(b1, b2)) * sqrtR(areaSq) < margin * longest)
-    h.start = insideTriangle(h.position, p0, p1, p2, b0, b1, b2, across, margin);
+  mask nearEdge = lessR(minR(b0, minR(b1, b2)) * sqrtR(areaSq), margin * longest);
+  if (anyM(nearEdge))
+    h.start = select3(nearEdge, insideTriangle(h.position, p0, p1, p2, b0, b1, b2, normal, margin), h.start);
   h.outside = lessR(dot3(d, face), R(0.0));
   mask flatMesh = equalR(dot3(interpolated, interpolated), R(0.0));
   h.normal = shadingNormal(d, face, select3(flatMesh, face, interpolated));
@@ -44,10 +43,11 @@ FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 in
   h.c = clampUnit(R(0.0) - dot3(d, h.normal));
   h.depth = depth;
   h.material = material;
+  h.travelled = R(0.0);
   return h;
 }
 
-// What the check of numbers names where a ray leaves the scene.
+// In place of a hit where a ray leaves the scene, for the report of an unphysical value.
 FN Hit environmentHit(real3 d, real depth) {
   real3 none = splat3(R(0.0));
   Hit h;
@@ -61,12 +61,10 @@ FN Hit environmentHit(real3 d, real depth) {
   h.outside = true;
   h.depth = depth;
   h.material = kEnvironment;
-#if MALUS_EFFECT_ABSORPTION
   h.travelled = R(0.0);
-#endif
   return h;
 }
 
-// Origin of a ray that leaves on the side of the eye.
+// Origins of rays that leave on the side of the camera, and on the other side.
 FN real3 originAbove(IN(Hit) h) { return rayOrigin(h.start, h.error, h.face, kUnitRoundoff); }
 FN real3 originBelow(IN(Hit) h) { return rayOrigin(h.start, h.error, h.face * R(-1.0), kUnitRoundoff); }

@@ -6,16 +6,17 @@
 //   materials[]          by Hit.material
 //   lights[]             camera.lightCount point lights
 //   environmentTexels[]  octahedral map with a border of one texel
-//   extras[]             by Hit.material; only if an effect needs them
 //   textures[], textureTexels[]  only with MALUS_EFFECT_TEXTURES
 //   kCheckNumerics       compile-time constant: whether to check every value (check.h)
 //
 // Functions:
+//   MaterialExtra materialExtra(material)
+//     Returns the rarer properties of a material. Called only if an effect of the build needs them.
 //   Payload traceRay(origin, direction, depth)
 //     Traces one ray and shades what it meets, with `depth` specular interactions left. Recursive methods only.
 //   bool findHit(origin, direction, depth, out hit)
 //     Returns whether the ray meets a surface, and the nearest hit. Iterative methods only.
-//   bool visible(origin, direction, distance)
+//   mask visible(origin, direction, distance)
 //     Returns whether no surface lies on the ray within the distance.
 //   void noteFault(hit, stokes, kind, colour, slack)
 //     Records an unphysical value: its kind (shaders/gpu/fault.h), the colour's index, the rounding error allowed.
@@ -28,11 +29,21 @@ const bool kCheckNumerics = true;
 const bool kCheckNumerics = false;
 #endif
 
+MaterialExtra materialExtra(word material) {
+#if MALUS_EFFECT_POLARIZING_ELEMENT || MALUS_EFFECT_TEXTURES || MALUS_EFFECT_ABSORPTION || MALUS_EFFECT_COATINGS || \
+    MALUS_EFFECT_ROUGHNESS || MALUS_EFFECT_POLARIZED_EMITTERS
+  return extras[material];
+#else
+  MaterialExtra unused;
+  return unused;
+#endif
+}
+
 #ifdef MALUS_PATH_STACK_SIZE
 bool findHit(real3 origin, real3 direction, real depth, OUT(Hit) hit);
 #else
 Payload traceRay(real3 origin, real3 direction, real depth);
 #endif
-bool visible(real3 origin, real3 direction, real distanceToLight);
+mask visible(real3 origin, real3 direction, real distanceToLight);
 void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack);
 #endif

@@ -1,16 +1,15 @@
-// Absorption in the media between surfaces (Beer-Lambert).
+// Absorption in the media between surfaces. Source: Beer-Lambert law.
 
-#if MALUS_EFFECT_ABSORPTION
+// Transmittance over a distance in metres; absorption: coefficient in 1/m.
 FN real3 transmittanceOver(real3 absorption, real distance) {
   return make3(expR(R(0.0) - absorption.x * distance), expR(R(0.0) - absorption.y * distance),
                expR(R(0.0) - absorption.z * distance));
 }
-// Of the medium on the side of the ray, over the way that the ray came. Only glass has an inside.
-FN real3 mediumAbsorption(IN(Hit) h, IN(Material) m) {
-  if (m.kind == kGlass && !h.outside) return extras[h.material].absorption;
-  return extras[h.material].outsideAbsorption;
+
+// Absorption coefficient of the medium on the side that is hit, in 1/m.
+FN real3 mediumAbsorption(IN(Hit) h) {
+  return select3(h.outside, materialExtra(h.material).outsideAbsorption, materialExtra(h.material).absorption);
 }
-FN real3 mediumTransmittance(IN(Hit) h, IN(Material) m) {
-  return transmittanceOver(mediumAbsorption(h, m), h.travelled);
-}
-#endif
+
+// Transmittance of the medium between the ray's origin and the hit.
+FN real3 mediumTransmittance(IN(Hit) h) { return transmittanceOver(mediumAbsorption(h), h.travelled); }

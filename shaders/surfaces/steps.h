@@ -1,16 +1,17 @@
-// Parts of the surfaces that recursive and iterative methods share, in the order of their dependence. Include this, or
-// recursive.h or iterative/camera_path.h, which include it, and no single file of this folder. C++ includes it inside
-// a tracer; GLSL after the scene's buffers.
+// Steps: what a surface does with one ray, without sending another. They keep the rules of the shared language
+// (shaders/optics/CONVENTIONS.md), so that a build on SIMD lanes runs them too. A renderer's drivers (shared.h,
+// recursive.h, iterative/camera_path.h) branch and send the rays. Steps read material data by hooks.h alone.
 // clang-format off
+#include "shaders/surfaces/effects.h"
 #include "shaders/surfaces/hit.h"
 #include "shaders/surfaces/hooks.h"
-#include "shaders/surfaces/check.h"
-#include "shaders/surfaces/textures.h"
 #include "shaders/surfaces/medium.h"
-#include "shaders/surfaces/interface.h"
-#include "shaders/surfaces/direct_light.h"
-#include "shaders/surfaces/refraction.h"
-#include "shaders/surfaces/polarizing_element_terms.h"
+#include "shaders/surfaces/interface_terms.h"
+#include "shaders/surfaces/scattering.h"
+#include "shaders/surfaces/opaque.h"
+#include "shaders/surfaces/glass.h"
+#include "shaders/surfaces/polarizing_element.h"
 #include "shaders/surfaces/facet.h"
-#include "shaders/surfaces/environment.h"
-#include "shaders/surfaces/camera_colour.h"
+#include "shaders/surfaces/emission.h"
+#include "shaders/surfaces/point_light.h"
+#include "shaders/surfaces/bilinear.h"

@@ -1,0 +1,42 @@
+// Materials and point lights, in the words of the shared language (shaders/optics/CONVENTIONS.md): a build on another
+// number type has the same structs with one value per lane. No include guard.
+
+struct Material {
+  real3 eta;                      // real part of the index; dielectrics use eta.y in every colour
+  real3 k;                        // imaginary part: eta - i k
+  real3 albedo;                   // diffuse reflectance; 0: none
+  real3 radiance;                 // emitted, divided by the square of the index it is emitted into
+  real3 hemisphereTransmittance;  // mean transmittance of the interface for light from all directions
+  real outsideEta;                // index on the side that the normals point to
+  real basicScale;                // 1 / outsideEta^2: radiance to basic radiance
+  real highlightStrength;         // 0: none
+  word highlightExponent;         // below 4096
+  word kind;                      // SurfaceKind
+};
+
+// Properties that only some materials have, one struct per material. Read only by variants whose effects need it.
+struct MaterialExtra {
+  real3 absorption;         // in 1/m, on the side that the normals point away from
+  real3 outsideAbsorption;  // in 1/m, on the side that the normals point to
+  real3 axis;               // unit vector, in the scene: of an emitter's field, a polarizer's transmission axis or a
+                            // wave plate's fast axis
+  real degree;              // degree of linear polarization of an emitter
+  real3 transmittanceParallel;  // power transmittance of a polarizing element for light polarized along its axis
+  real3 transmittanceCrossed;   // and across it
+  real3 retardanceCos;          // of a wave plate
+  real3 retardanceSin;
+  real3 filmEta;         // index of a thin film; 0: none
+  real3 roundTripPhase;  // twice its thickness over the wavelength in vacuum
+  real roughness;        // GGX alpha; 0: smooth
+  word albedoMap;        // texture that albedo is multiplied by; kNoTexture: none
+  word etaMap;           // texture in place of eta
+  word kMap;             // texture in place of k
+  real3 mapOrigin;       // texture coordinates: dot(p - mapOrigin, mapU or mapV)
+  real3 mapU;
+  real3 mapV;
+};
+
+struct PointLight {
+  real3 position;
+  real3 intensity;  // W/sr
+};

@@ -1,0 +1,71 @@
+// Steps along a camera path, without tracing: the rays that leave a surface and the light that a path meets.
+
+struct CameraPath {
+  real3 origin;
+  real3 d;     // unit direction
+  real depth;  // specular interactions left
+  Throughput throughput;
+};
+
+// Light where a ray of a path ends.
+struct PathLight {
+  real3 recorded;  // part of it that the camera records
+  real3 emitted;   // radiance as it leaves its sources, the scale of their rounding errors (check.h)
+};
+
+FN PathLight noLight() {
+  PathLight l;
+  l.recorded = splat3(R(0.0));
+  l.emitted = splat3(R(0.0));
+  return l;
+}
+
+FN PathLight unpolarizedLight(IN(Throughput) c, real3 radiance) {
+  PathLight l;
+  l.recorded = unpolarizedContribution(c, radiance);
+  l.emitted = radiance;
+  return l;
+}
+
+// Light with a degree of linear polarization along the s direction of a surface with normal n.
+FN PathLight polarizedLight(IN(Throughput) c, real3 d, real3 n, real3 radiance, real degree) {
+  PathLight l;
+  l.recorded = polarizedContribution(c, d, n, radiance, degree);
+  l.emitted = radiance;
+  return l;
+}
+
+FN PathLight emitterLight(IN(Hit) h, IN(Material) m, IN(Throughput) c) {
+  if (kEffectPolarizedEmitters)
+    return polarizedLight(c, h.d, emissionNormal(h), emission(h, m), materialExtra(h.material).degree);
+  return unpolarizedLight(c, emission(h, m));
+}
+
+// The next ray of a path whose throughput has been rotated to the surface. tolerance: relative error that may be lost
+// with small polarization.
+
+FN void followTransmission(INOUT(CameraPath) p, IN(Hit) h, IN(Scattering) s, real tolerance) {
+  p.origin = originBelow(h);
+  p.d = s.transmitted;
+  p.depth = h.depth - R(1.0);
+  reflectThroughput(p.throughput, s.transmission, s.coloured);
+  dropPolarization(p.throughput, tolerance);
+}
+
+// The throughput is that behind the reflection already: the highlight joins the light of the mirror ray.
+FN void followReflection(INOUT(CameraPath) p, IN(Hit) h, IN(Scattering) s, real tolerance) {
+  p.origin = originAbove(h);
+  p.d = s.reflected;
+  p.depth = h.depth - R(1.0);
+  dropPolarization(p.throughput, tolerance);
+}
+
+FN void followFacet(INOUT(CameraPath) p, IN(Hit) h, IN(Material) m, IN(Facet) facet, mask coloured, real tolerance) {
+  p.origin = originAbove(h);
+  p.d = facet.mirror;
+  p.depth = h.depth - R(1.0) + kBehindRough;
+  rotateToSurface(p.throughput, h.d, facet.normal);
+  reflectThroughput(p.throughput, opaqueTerms(facet.c, m, h.material), coloured);
+  scaleThroughput(p.throughput, splat3(facet.weight));
+  dropPolarization(p.throughput, tolerance);
+}

@@ -1,0 +1,45 @@
+// Light of one point light at a hit: first its geometry, then, where no surface blocks it, its contribution.
+
+struct LightSample {
+  real3 direction;  // unit vector toward the light
+  real distance;    // in metres
+  real distanceSq;
+  real cosine;  // of the angle between direction and the shading normal
+  real lobe;    // highlight in the reflected direction, in 1/sr times the material's strength
+  mask lit;     // the light is in front of the face and shows in the diffuse light or the highlight
+};
+
+// origin: of the shadow ray. reflected: direction of the mirror ray. diffuse, glossy: whether the material scatters so.
+FN LightSample sampleLight(IN(Hit) h, IN(Material) m, IN(PointLight) light, real3 origin, real3 reflected, mask diffuse,
+                           mask glossy) {
+  real3 toLight = light.position - origin;
+  LightSample s;
+  s.distanceSq = dot3(toLight, toLight);
+  s.distance = sqrtR(s.distanceSq);
+  s.direction = toLight * (R(1.0) / s.distance);
+  s.cosine = dot3(h.normal, s.direction);
+  s.lobe = R(0.0);
+  s.lit = notM(orM(lessEqualR(s.cosine, R(0.0)), lessEqualR(dot3(h.face, s.direction), R(0.0))));
+  if (kEffectHighlights) {
+    mask shows = andM(s.lit, glossy);
+    if (anyM(shows))
+      s.lobe = selectR(shows, m.highlightStrength * phongLobe(reflected, s.direction, m.highlightExponent), R(0.0));
+  }
+  s.lit = andM(s.lit, notM(andM(notM(diffuse), lessEqualR(s.lobe, R(0.0)))));
+  return s;
+}
+
+// Irradiance on a surface that faces the light, in W/m^2.
+FN real3 lightIrradiance(IN(Hit) h, IN(PointLight) light, LightSample s) {
+  real3 irradiance = light.intensity * (R(1.0) / s.distanceSq);
+  if (kEffectAbsorption) irradiance = irradiance * transmittanceOver(mediumAbsorption(h), s.distance);
+  return irradiance;
+}
+
+// Mean of s and p of the transmittance of the material's interface for light at an angle with cosine c; 1 for
+// materials without an interface. Light that enters the layer below is multiplied by it.
+FN real3 enteringTransmittance(IN(Material) m, word material, real c) {
+  mask opaque = orM(equalW(m.kind, kPaint), equalW(m.kind, kMetal));
+  if (!anyM(opaque)) return splat3(R(1.0));
+  return select3(opaque, meanTransmittance(opaqueTerms(c, m, material)), splat3(R(1.0)));
+}

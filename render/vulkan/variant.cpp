@@ -1,7 +1,6 @@
 #include "render/vulkan/variant.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-// A toy SIMD type of two lanes, and the shared files compiled on it: in place of math.h it supplies every
-// operation itself. Nothing converts to bool or to a scalar, so an `if`, a `?:` or a comparison on data in a
-// shared file does not compile here.
+// A SIMD type of two lanes for tests, and the shared files compiled on it. It supplies every operation of math.h
+// itself. Nothing converts to bool or to a scalar, so that an `if`, a `?:` or a comparison on data in a shared file
+// does not compile here.
 #pragma once
 
 #include <cmath>
@@ -21,6 +21,10 @@ struct Mask2 {
 // Bits; only the functions of lanes_math.h take them apart.
 struct Word2 {
   std::uint32_t lane[2];
+  Word2() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a constant that is the same in all lanes
+  constexpr Word2(std::uint32_t both) : lane{both, both} {}
+  constexpr Word2(std::uint32_t a, std::uint32_t b) : lane{a, b} {}
 };
 
 template <class S>
@@ -29,6 +33,7 @@ struct Lane2 {
   Lane2() = default;
   constexpr Lane2(S a, S b) : lane{a, b} {}
   constexpr explicit Lane2(double both) : lane{static_cast<S>(both), static_cast<S>(both)} {}
+  constexpr explicit Lane2(std::uint32_t both) : lane{static_cast<S>(both), static_cast<S>(both)} {}
   constexpr explicit Lane2(int both) : lane{static_cast<S>(both), static_cast<S>(both)} {}
   friend Lane2 operator+(Lane2 a, Lane2 b) { return {a.lane[0] + b.lane[0], a.lane[1] + b.lane[1]}; }
   friend Lane2 operator-(Lane2 a, Lane2 b) { return {a.lane[0] - b.lane[0], a.lane[1] - b.lane[1]}; }

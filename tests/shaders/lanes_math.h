@@ -13,6 +13,7 @@ FN mask equalR(real a, real b) { return {a.lane[0] == b.lane[0], a.lane[1] == b.
 FN mask andM(mask a, mask b) { return {a.lane[0] && b.lane[0], a.lane[1] && b.lane[1]}; }
 FN mask orM(mask a, mask b) { return {a.lane[0] || b.lane[0], a.lane[1] || b.lane[1]}; }
 FN mask notM(mask a) { return {!a.lane[0], !a.lane[1]}; }
+FN bool anyM(mask a) { return a.lane[0] || a.lane[1]; }
 
 FN real selectR(mask m, real a, real b) {
   return {m.lane[0] ? a.lane[0] : b.lane[0], m.lane[1] ? a.lane[1] : b.lane[1]};
@@ -28,23 +29,25 @@ FN real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 FN real3 cross3(real3 a, real3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 FN word halfBits(real x) {
-  return {{glm::packHalf1x16(static_cast<float>(x.lane[0])), glm::packHalf1x16(static_cast<float>(x.lane[1]))}};
+  return {glm::packHalf1x16(static_cast<float>(x.lane[0])), glm::packHalf1x16(static_cast<float>(x.lane[1]))};
 }
 FN real halfValue(word w) {
   return {glm::unpackHalf1x16(static_cast<std::uint16_t>(w.lane[0])),
           glm::unpackHalf1x16(static_cast<std::uint16_t>(w.lane[1]))};
 }
 FN word fractionBits(real x) {
-  return {{glm::packSnorm1x16(static_cast<float>(x.lane[0])), glm::packSnorm1x16(static_cast<float>(x.lane[1]))}};
+  return {glm::packSnorm1x16(static_cast<float>(x.lane[0])), glm::packSnorm1x16(static_cast<float>(x.lane[1]))};
 }
 FN real fractionValue(word w) {
   return {glm::unpackSnorm1x16(static_cast<std::uint16_t>(w.lane[0])),
           glm::unpackSnorm1x16(static_cast<std::uint16_t>(w.lane[1]))};
 }
-FN word wordOfReal(real x) { return {{static_cast<std::uint32_t>(x.lane[0]), static_cast<std::uint32_t>(x.lane[1])}}; }
+FN word wordOfReal(real x) { return {static_cast<std::uint32_t>(x.lane[0]), static_cast<std::uint32_t>(x.lane[1])}; }
 FN real realOfWord(word w) { return {static_cast<scalar>(w.lane[0]), static_cast<scalar>(w.lane[1])}; }
 FN word joinWord(word low, word high) {
-  return {{(low.lane[0] & 0xffffu) | (high.lane[0] << 16), (low.lane[1] & 0xffffu) | (high.lane[1] << 16)}};
+  return {(low.lane[0] & 0xffffu) | (high.lane[0] << 16), (low.lane[1] & 0xffffu) | (high.lane[1] << 16)};
 }
-FN word lowHalf(word w) { return {{w.lane[0] & 0xffffu, w.lane[1] & 0xffffu}}; }
-FN word highHalf(word w) { return {{w.lane[0] >> 16, w.lane[1] >> 16}}; }
+FN word lowHalf(word w) { return {w.lane[0] & 0xffffu, w.lane[1] & 0xffffu}; }
+FN word highHalf(word w) { return {w.lane[0] >> 16, w.lane[1] >> 16}; }
+FN mask equalW(word a, word b) { return {a.lane[0] == b.lane[0], a.lane[1] == b.lane[1]}; }
+FN mask hasBit(word w, int bit) { return {(w.lane[0] >> bit & 1u) == 1u, (w.lane[1] >> bit & 1u) == 1u}; }

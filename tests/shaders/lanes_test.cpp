@@ -1,5 +1,5 @@
-// Every shared file compiles on a two-lane type, and gives in each lane what the scalar build gives, to the bit:
-// both do the same operations in the same order. The lanes get unrelated inputs, so they part at every select.
+// Every shared file compiles on a two-lane type and gives in each lane the scalar build's result, bit by bit: both do
+// the same operations in the same order. The lanes get unrelated inputs, so that they differ at every select.
 #include "tests/shaders/lanes.h"
 
 #include <cstring>
@@ -30,8 +30,8 @@ S drawScalar(Draw& draw) {
 }
 template <class S, class T>
 T drawAny(Draw& draw) {
-  if constexpr (std::is_same_v<T, int>) {
-    return static_cast<int>(draw.below(4096));
+  if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::uint32_t>) {
+    return static_cast<T>(draw.below(4096));
   } else if constexpr (std::is_same_v<T, bool>) {
     return draw.below(2) == 0;
   } else {
@@ -52,7 +52,7 @@ template <class To, class S, class From>
 To packed(const From& a, const From& b) {
   if constexpr (std::is_same_v<To, From>) {
     return a;
-  } else if constexpr (std::is_same_v<From, bool>) {
+  } else if constexpr (std::is_same_v<From, bool> || std::is_same_v<From, std::uint32_t>) {
     return {a, b};
   } else {
     static_assert(sizeof(To) == 2 * sizeof(From));
@@ -155,8 +155,8 @@ void compareOptics() {
     F::frameRotation(n0, x0, y0, u0, v0);
     F::frameRotation(n1, x1, y1, u1, v1);
     L::frameRotation(n, x, y, u, v);
-    expectSame<S>(u, u0, u1, "turnTo cos");
-    expectSame<S>(v, v0, v1, "turnTo sin");
+    expectSame<S>(u, u0, u1, "frameRotation cos");
+    expectSame<S>(v, v0, v1, "frameRotation sin");
     expectSame<S>(L::sDirection(a, n), F::sDirection(a0, n0), F::sDirection(a1, n1), "sDirection");
     F::octahedralFromDirection(a0, u0, v0);
     F::octahedralFromDirection(a1, u1, v1);
@@ -166,8 +166,8 @@ void compareOptics() {
     F::cameraFrameRotation(a0, n0, u0, v0);
     F::cameraFrameRotation(a1, n1, u1, v1);
     L::cameraFrameRotation(a, n, u, v);
-    expectSame<S>(u, u0, u1, "cameraFrameTurn cos");
-    expectSame<S>(v, v0, v1, "cameraFrameTurn sin");
+    expectSame<S>(u, u0, u1, "cameraFrameRotation cos");
+    expectSame<S>(v, v0, v1, "cameraFrameRotation sin");
     const real c0 = drawScalar<S>(draw), c1 = drawScalar<S>(draw);
     const auto r0 = F::refractionTerms(c0, S(1.5), 1), r1 = F::refractionTerms(c1, S(1.5), 1);
     const auto r = L::refractionTerms({c0, c1}, Lane(1.5), Lane(1));
@@ -197,6 +197,7 @@ void compareMethod() {
   MALUS_SAME(meanTransmittance)
   MALUS_SAME(dielectricTerms)
   MALUS_SAME(conductorTerms)
+  MALUS_SAME(transmissionTerms)
   auto p = L::payloadUnpolarized(lanes32::splat3({1, 2}));
   L::payloadSetDepth(p, {3, 4});
   EXPECT_EQ(L::payloadDepth(p).lane[1], 4);

@@ -39,7 +39,7 @@ std::optional<double> parseNumber(std::string_view text) {
 
 constexpr std::size_t kMostAngles = 100000;
 
-// "DEG" or "FROM:TO:STEP"; both ends are there, the last step may be shorter. Empty where the text is no such thing.
+// "DEG" or "FROM:TO:STEP", with both ends; the last step may be shorter. Empty if the text has another form.
 std::vector<double> parseAngles(const std::string& text) {
   std::vector<double> parts;
   for (std::size_t at = 0; at <= text.size();) {
@@ -77,7 +77,8 @@ Interface interfaceFor(const MaterialArguments& a) {
     interface.k2 = found->k[colour];
   }
   if (interface.n2 < pack::kMinEta && interface.k2 < pack::kMinEta)
-    throw Error("--eta", "is too small", fmt::format("{:g} or more, or a k of as much", pack::kMinEta),
+    throw Error("--eta", "the index is too small",
+                fmt::format("{:g} or more, or --k {:g} or more", pack::kMinEta, pack::kMinEta),
                 fmt::format("{:g}", interface.n2));
   return interface;
 }
@@ -141,25 +142,26 @@ void printCsv(const std::vector<SurfaceResponse>& rows) {
 }
 
 void runMaterial(const MaterialArguments& a) {
-  if (a.name.empty() == !a.eta) throw CLI::ValidationError("material", "either a NAME or --eta is needed");
+  if (a.name.empty() == !a.eta) throw CLI::ValidationError("material", "needs either a NAME or --eta");
   const std::vector<double> angles = parseAngles(a.angle);
   if (angles.empty())
     throw CLI::ValidationError(
-        "--angle",
-        fmt::format("DEG or FROM:TO:STEP within 0 to 90 with at most {} steps, not '{}'", kMostAngles, a.angle));
+        "--angle", fmt::format("expected DEG or FROM:TO:STEP within 0 to 90 with at most {} steps, found '{}'",
+                               kMostAngles, a.angle));
   const Interface interface = interfaceFor(a);
   std::vector<SurfaceResponse> rows;
   for (const double angle : angles)
-    rows.push_back(surfaceResponse(interface, angle, a.precision == "float" ? Precision::single : Precision::twofold));
+    rows.push_back(surfaceResponse(interface, angle,
+                                   a.precision == "float" ? Precision::singlePrecision : Precision::doublePrecision));
 
   json document = json::array();
   for (const SurfaceResponse& r : rows) document.push_back(toJson(a, interface, r));
   if (!a.plot.empty()) {
     const auto extension = std::filesystem::path(a.plot).extension();
     if (extension != ".png" && extension != ".svg" && extension != ".pdf")
-      throw Error(a.plot, "unknown kind of plot", ".png, .svg or .pdf", extension.string());
+      throw Error(a.plot, "unknown plot format", ".png, .svg or .pdf", extension.string());
     writeBeside(a.plot, [&](const std::filesystem::path& file) {
-      runReportScript("material_plot.py", {file.string()}, document.dump(), "the plot could not be made");
+      runReportScript("material_plot.py", {file.string()}, document.dump(), "cannot draw the plot");
     });
   }
   if (a.json)
@@ -174,26 +176,26 @@ void runMaterial(const MaterialArguments& a) {
 
 void addMaterialCommand(CLI::App& app) {
   auto a = std::make_shared<MaterialArguments>();
-  CLI::App* command = app.add_subcommand("material", "Tells what a surface does to polarized light");
-  command->add_option("name", a->name, "material from --list-materials");
-  CLI::Option* eta = command->add_option("--eta", a->eta, "real part of the index, instead of a name")
+  CLI::App* command = app.add_subcommand("material", "Print the response of a surface to polarized light");
+  command->add_option("name", a->name, "Material from --list-materials");
+  CLI::Option* eta = command->add_option("--eta", a->eta, "Real part of the index, in place of a name")
                          ->check(CLI::Range(0.0, pack::kMaxEta));
-  command->add_option("--k", a->k, "imaginary part: the index is eta - i k; over 0 it is a metal")
+  command->add_option("--k", a->k, "Imaginary part: the index is eta - i k; a metal if above 0")
       ->check(CLI::Range(0.0, pack::kMaxEta))
       ->needs(eta);
-  command->add_option("--outside", a->outside, "index that the light comes from")
+  command->add_option("--outside", a->outside, "Index of the medium of the incident light")
       ->check(CLI::Range(pack::kMinEta, pack::kMaxEta))
       ->capture_default_str();
-  command->add_option("--wavelength", a->wavelengthNm, "of a named material, in nm: red, green or blue")
+  command->add_option("--wavelength", a->wavelengthNm, "Wavelength for a named material: red, green or blue [nm]")
       ->check(CLI::IsMember({630u, 532u, 465u}))
       ->capture_default_str();
-  command->add_option("--angle", a->angle, "of incidence in degrees: DEG, or FROM:TO:STEP")->capture_default_str();
-  command->add_option("--precision", a->precision, "arithmetic of the renderers: double or float")
+  command->add_option("--angle", a->angle, "Angle of incidence: DEG, or FROM:TO:STEP [degrees]")->capture_default_str();
+  command->add_option("--precision", a->precision, "Precision of the arithmetic")
       ->check(CLI::IsMember({"double", "float"}))
       ->capture_default_str();
-  CLI::Option* csv = command->add_flag("--csv", a->csv, "comma-separated values, every digit");
-  command->add_flag("--json", a->json, "an object for one angle, a list for several")->excludes(csv);
-  command->add_option("--plot", a->plot, "curves over the angle: .png, .svg or .pdf");
+  CLI::Option* csv = command->add_flag("--csv", a->csv, "Print comma-separated values with every digit");
+  command->add_flag("--json", a->json, "Print JSON: an object for one angle, a list for several")->excludes(csv);
+  command->add_option("--plot", a->plot, "Plot of the curves over the angle: .png, .svg or .pdf")->type_name("FILE");
   command->callback([a] { runMaterial(*a); });
 }
 

@@ -1,8 +1,8 @@
-// The command line that looks up what a surface does to polarization:
+// The response of a surface to polarized light:
 //   malus material NAME | --eta N [--k K]  [--outside N] [--wavelength 630|532|465] [--angle DEG | FROM:TO:STEP]
 //                  [--precision double|float] [--csv | --json] [--plot FILE]
 //
-// --json: one object for one angle, a list of them for several, each whole in itself: material (null for --eta),
+// --json: one object for one angle, a list of objects for several. Keys: material (null for --eta),
 // wavelengthNm (null for --eta), eta, k, outside, precision, angleDegrees, rs, rp, ts, tp, diattenuation,
 // phaseDegrees, reflection[16], transmission[16] (render/material/surface_response.h; ts, tp, transmission are null
 // for metals).
@@ -12,6 +12,7 @@
 
 namespace malus::render {
 
+// Adds the subcommand `material`. Its callback throws malus::Error: an unknown material, a plot that cannot be written.
 void addMaterialCommand(CLI::App& app);
 
 }  // namespace malus::render

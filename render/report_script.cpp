@@ -25,15 +25,16 @@ void runReportScript(const std::string& script, const std::vector<std::string>& 
                      const std::string& failure) {
   std::error_code failed;
   const fs::path path = fs::read_symlink("/proc/self/exe", failed).parent_path() / MALUS_DATA_PATH / "report" / script;
-  if (!fs::exists(path, failed)) throw Error(path.string(), "the report's script is missing", "malus's own file");
+  if (!fs::exists(path, failed))
+    throw Error(path.string(), "the script of the report is missing", "the file that malus installs");
   const std::string text = path.string();
   std::vector<char*> command = {const_cast<char*>(kPython), const_cast<char*>(text.c_str())};
   for (const std::string& argument : arguments) command.push_back(const_cast<char*>(argument.c_str()));
   command.push_back(nullptr);
 
-  // Its standard input is a pipe.
+  // Connect its standard input to a pipe.
   std::array<int, 2> ends{};
-  if (::pipe(ends.data()) != 0) throw Error(kPython, "cannot be started", "a pipe");
+  if (::pipe(ends.data()) != 0) throw Error(kPython, "cannot start the script", "a pipe");
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
@@ -44,7 +45,7 @@ void runReportScript(const std::string& script, const std::vector<std::string>& 
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(ends[0]);
   if (started) {
-    auto* const before = std::signal(SIGPIPE, SIG_IGN);  // a script that ends early says so itself
+    auto* const before = std::signal(SIGPIPE, SIG_IGN);  // a script that ends early prints the reason
     for (std::size_t at = 0; at < input.size();) {
       const ssize_t wrote = ::write(ends[1], input.data() + at, input.size() - at);
       if (wrote <= 0) break;
@@ -55,7 +56,7 @@ void runReportScript(const std::string& script, const std::vector<std::string>& 
   ::close(ends[1]);
   int status = 0;
   if (!started || ::waitpid(child, &status, 0) < 0)
-    throw Error(kPython, "cannot be started",
+    throw Error(kPython, "cannot start the script",
                 "packages python3, python3-matplotlib, python3-jinja2, python3-openimageio");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error(script, failure);
 }

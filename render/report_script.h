@@ -1,4 +1,4 @@
-// Runs one of the Python scripts of tools/report, by Debian's Python, which has matplotlib and Jinja2.
+// Runs a Python script of tools/report with Debian's Python, for which matplotlib and Jinja2 are packaged.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace malus::render {
 
-// script: file name. input: what it reads from its standard input. Throws Error: the script or Python is missing, or
-// it failed; it has said why on stderr.
+// script: file name. input: its standard input. failure: message if the script fails; it prints the reason to stderr.
+// Throws Error: the script or Python is missing, or the script failed.
 void runReportScript(const std::string& script, const std::vector<std::string>& arguments, const std::string& input,
                      const std::string& failure);
 

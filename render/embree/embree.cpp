@@ -16,12 +16,12 @@ std::string Bvh::version() {
 Bvh::Bvh(const render::RenderScene& scene, unsigned threads) {
   device_ = rtcNewDevice(threads == 0 ? "" : fmt::format("threads={}", threads).c_str());
   if (!device_)
-    throw Error("Embree", "cannot make a device", "",
+    throw Error("Embree", "cannot create a device", "a working Embree library",
                 fmt::format("error {}", static_cast<int>(rtcGetDeviceError(nullptr))));
   scene_ = rtcNewScene(device_);
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    // Embree's own buffers: it reads 16 bytes for every 12-byte vertex.
+    // Embree allocates the buffers: it reads 16 bytes per vertex, although a vertex has 12.
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
                                              scene.meshVertices[i]);
@@ -39,7 +39,7 @@ Bvh::Bvh(const render::RenderScene& scene, unsigned threads) {
   }
   rtcCommitScene(scene_);
   if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-    throw Error("Embree", "cannot build the acceleration structure", "",
+    throw Error("Embree", "cannot build the acceleration structure", "enough memory",
                 fmt::format("error {}", static_cast<int>(error)));
 }
 

@@ -1,5 +1,5 @@
-// Embree 3 (Debian 12) and Embree 4 (Debian 13) behind one face: a device, a scene of triangle meshes and
-// two questions. ROBUST always, or rays leak through shared edges.
+// Embree 3 (Debian 12) and Embree 4 (Debian 13) behind one interface: a device, a scene of triangle meshes and two
+// queries. The scene is built with RTC_SCENE_FLAG_ROBUST: without it, rays leak through shared edges.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -25,19 +25,19 @@ struct Intersection {
   float b1 = 0, b2 = 0;   // barycentric coordinates of its second and third corner
 };
 
-// As in Vulkan a triangle at distance 0 is no hit: an eye that stands exactly on a face looks from it.
+// As in Vulkan, a triangle at distance 0 is not hit, so that a camera exactly on a face does not see that face.
 inline constexpr float kNearest = std::numeric_limits<float>::min();
 
 class Bvh {
  public:
-  // threads: 0 for all. Throws Error where Embree does.
+  // threads: 0 for all. Throws Error if Embree reports an error.
   Bvh(const render::RenderScene& scene, unsigned threads);
   ~Bvh();
   Bvh(const Bvh&) = delete;
   Bvh& operator=(const Bvh&) = delete;
 
   Intersection nearest(const glm::vec3& origin, const glm::vec3& direction) const;
-  // Whether nothing lies within distance.
+  // Whether there is no triangle within distance.
   bool visible(const glm::vec3& origin, const glm::vec3& direction, float distance) const;
 
   static std::string version();  // "Embree 3.13.5"

@@ -27,12 +27,12 @@ double sinceMs(Clock::time_point start) {
 }
 constexpr std::size_t kTileSide = 16;
 
-// The first build of a method that has all effects; one that checks where that is asked for.
-const Method& buildFor(std::string_view name, std::uint32_t effects, bool checks) {
+// Returns the first build of a method that contains all effects and, if asked for, the numeric checks.
+const Method& findBuild(std::string_view name, std::uint32_t effects, bool checks) {
   const Method* found = nullptr;
   for (const Method* m : allMethods())
     if (m->name == name && (effects & ~m->effects) == 0 && (!checks || m->renderTileChecked) && !found) found = m;
-  return *found;  // the last build has everything
+  return *found;  // the last build contains every effect and the checks
 }
 }  // namespace
 
@@ -63,14 +63,14 @@ std::uint32_t Renderer::maxDepth(std::string_view /*method*/) const { return pac
 
 render::RenderResult Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
   const render::MethodInfo& info = render::methodNamed(name);
-  const Method& method = buildFor(name, render::compiledEffects(*impl_->source, parameters), parameters.checkNumerics);
+  const Method& method = findBuild(name, render::compiledEffects(*impl_->source, parameters), parameters.checkNumerics);
 
-  render::RenderResult picture;
-  picture.width = parameters.region.width;
-  picture.height = parameters.region.height;
-  picture.channels = render::hasStokes(info, parameters) ? render::kStokesChannels : render::kColourChannels;
-  picture.pixels.resize(picture.channels * picture.width * picture.height);
-  picture.device = device();
+  render::RenderResult result;
+  result.width = parameters.region.width;
+  result.height = parameters.region.height;
+  result.channels = render::hasStokes(info, parameters) ? render::kStokesChannels : render::kColourChannels;
+  result.pixels.resize(result.channels * result.width * result.height);
+  result.device = device();
   const gpu::CameraParameters camera = render::makeCameraParameters(*impl_->source, parameters);
 
   const auto start = Clock::now();
@@ -78,24 +78,23 @@ render::RenderResult Renderer::render(std::string_view name, const render::Rende
   std::mutex merging;
   tbb::task_arena arena(impl_->threads);
   arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range2d<std::uint32_t>(0, parameters.region.height, kTileSide, 0, parameters.region.width,
-                                            kTileSide),
-        [&](const tbb::blocked_range2d<std::uint32_t>& r) {
-          const auto renderTile = parameters.checkNumerics ? method.renderTileChecked : method.renderTile;
-          const TileOutput tile =
-              renderTile({impl_->bvh.get(), &impl_->scene, &camera, r.cols().begin(), r.rows().begin(), r.cols().end(),
-                          r.rows().end(), picture.pixels.data(), render::hasStokes(info, parameters)});
-          rays += tile.rays;
-          if (tile.faults.count == 0) return;
-          const std::scoped_lock lock(merging);
-          picture.faults.add(tile.faults, camera.width);
-        });
+    tbb::parallel_for(tbb::blocked_range2d<std::uint32_t>(0, parameters.region.height, kTileSide, 0,
+                                                          parameters.region.width, kTileSide),
+                      [&](const tbb::blocked_range2d<std::uint32_t>& r) {
+                        const auto renderTile = parameters.checkNumerics ? method.renderTileChecked : method.renderTile;
+                        const TileOutput tile = renderTile({impl_->bvh.get(), &impl_->scene, &camera, r.cols().begin(),
+                                                            r.rows().begin(), r.cols().end(), r.rows().end(),
+                                                            result.pixels.data(), render::hasStokes(info, parameters)});
+                        rays += tile.rays;
+                        if (tile.faults.count == 0) return;
+                        const std::scoped_lock lock(merging);
+                        result.faults.add(tile.faults, camera.width);
+                      });
   });
-  picture.cost.traceMs = picture.cost.wallMs = sinceMs(start);
-  picture.cost.buildMs = impl_->buildMs;
-  picture.cost.rays = rays;
-  return picture;
+  result.cost.traceMs = result.cost.wallMs = sinceMs(start);
+  result.cost.buildMs = impl_->buildMs;
+  result.cost.rays = rays;
+  return result;
 }
 
 }  // namespace malus::embree

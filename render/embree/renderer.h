@@ -1,4 +1,4 @@
-// The Embree renderer: float, one ray at a time, tiles on TBB threads.
+// The Embree renderer: single precision, one ray at a time, tiles in parallel on TBB threads.
 #pragma once
 
 #include <memory>

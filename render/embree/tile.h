@@ -1,4 +1,4 @@
-// One method's rendering of a tile; each build of a method is a translation unit of its own (method_tracer.h).
+// Rendering of one tile by one method. Each build of a method is a separate translation unit (method_tracer.h).
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@ struct TileInput {
   const Bvh* bvh;
   const render::RenderScene* scene;
   const gpu::CameraParameters* camera;
-  std::uint32_t beginX, beginY, endX, endY;  // within the region
-  float* pixels;                             // the region's
-  bool stokes;                               // of a loop: Stokes vectors by four analysers
+  std::uint32_t beginX, beginY, endX, endY;  // pixels within the region
+  float* pixels;                             // of the whole region, top row first
+  bool stokes;                               // iterative methods: render Stokes vectors by four analysers
 };
 
 struct TileOutput {
   std::uint64_t rays = 0;
-  render::Faults faults;  // of the checking variant
+  render::Faults faults;  // of renderTileChecked only
 };
 
 struct Method {
@@ -29,7 +29,7 @@ struct Method {
   const char* build;
   std::uint32_t effects;  // bits of shaders::Effect that are compiled in
   TileOutput (*renderTile)(const TileInput&);
-  TileOutput (*renderTileChecked)(const TileInput&);  // with --check-numerics; not every build has it
+  TileOutput (*renderTileChecked)(const TileInput&);  // with --check-numerics; null in some builds
 };
 
 }  // namespace malus::embree

@@ -1,6 +1,5 @@
-// The raw picture of a division-of-focal-plane polarization camera: every pixel behind a linear polarizer of
-// its own, four angles in squares of 2 x 2 pixels, so that demosaicing and shape-from-polarization code can be
-// fed with it.
+// Raw image of a division-of-focal-plane polarization camera: each pixel is behind a linear polarizer, at four angles
+// in squares of 2 x 2 pixels. Input for demosaicing and shape-from-polarization code.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +10,12 @@
 
 namespace malus::render {
 
-// Angle of the polarizer of a pixel in degrees, counter-clockwise from the picture's x; (0, 0) is the file's
-// upper left pixel. Rows 90, 45 / 135, 0: the layout of Sony's Polarsens sensors (IMX250MZR, IMX264MZR), here
-// without colour filters.
+// Angle of the polarizer of a pixel in degrees, counter-clockwise from the x axis of the image; (0, 0) is the upper
+// left pixel. Rows 90, 45 / 135, 0: the layout of Sony's Polarsens sensors (IMX250MZR, IMX264MZR), without colour
+// filters.
 double mosaicDegrees(int x, int y);
 
-// Light that the sensor sees: the luminance (.2126 R + .7152 G + .0722 B) or one colour.
+// Light that the sensor measures: the luminance (.2126 R + .7152 G + .0722 B, ITU-R BT.709) or one colour.
 enum class MosaicChannel { luminance, red, green, blue };
 
 struct MosaicSettings {
@@ -32,14 +31,14 @@ struct Mosaic {
   std::vector<std::uint16_t> values;  // top row first, 0 to 2^bits - 1
 };
 
-// From channels S0.R ... S2.B, of the light before any filter: 1/2 (S0 + S1 cos 2a + S2 sin 2a) times
-// 2^exposureEv, where 1 is full scale; linear, cut off at full scale and rounded to the nearest step. Unpolarized
-// light of radiance 1 thus reads half of full scale at exposure 0. Width and height must be even, so that every
-// square is whole. Throws Error: channels missing, odd size, other numbers of bits.
-Mosaic mosaic(const image::Image& picture, const MosaicSettings& settings);
+// Computes 1/2 (S0 + S1 cos 2a + S2 sin 2a) times 2^exposureEv from the channels S0.R ... S2.B, which are of the light
+// before any filter; 1 is full scale. Linear, clamped at full scale and rounded to the nearest step: unpolarized light
+// of radiance 1 gives half of full scale at exposure 0. Width and height must be even. Throws Error: a missing channel,
+// an odd size, another number of bits.
+Mosaic mosaic(const image::Image& image, const MosaicSettings& settings);
 
-// Grey PNG (.png) or uncompressed TIFF (.tif, .tiff). 12 bits lie in 16 as cameras deliver them (GenICam's
-// Mono12): values 0 to 4095, not shifted. Throws Error for another extension, or where it cannot write.
+// Writes a grey PNG (.png) or an uncompressed TIFF (.tif, .tiff). 12 bits are stored in 16 as cameras deliver them
+// (GenICam's Mono12): values 0 to 4095, not shifted. Throws Error: another extension, a file that cannot be written.
 void writeMosaic(const std::filesystem::path& path, const Mosaic& mosaic);
 
 }  // namespace malus::render

@@ -9,36 +9,36 @@
 
 namespace malus::render {
 
-image::Image toImage(const RenderResult& picture, const pack::Pack& pack, const RenderParameters& parameters,
+image::Image toImage(const RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
                      const std::string& renderer, const std::string& method) {
-  image::Image result;
-  result.width = static_cast<int>(picture.width);
-  result.height = static_cast<int>(picture.height);
-  result.channels = {"R", "G", "B"};
-  if (picture.channels == kStokesChannels)
+  image::Image image;
+  image.width = static_cast<int>(result.width);
+  image.height = static_cast<int>(result.height);
+  image.channels = {"R", "G", "B"};
+  if (result.channels == kStokesChannels)
     for (const char* s : {"S0", "S1", "S2", "S3"})
-      for (const char* c : {"R", "G", "B"}) result.channels.push_back(fmt::format("{}.{}", s, c));
-  result.pixels = picture.pixels;
+      for (const char* c : {"R", "G", "B"}) image.channels.push_back(fmt::format("{}.{}", s, c));
+  image.pixels = result.pixels;
 
   const pack::Camera& camera = pack.scene.camera;
-  const glm::dvec3 eye = camera.position + pack.scene.origin;
+  const glm::dvec3 position = camera.position + pack.scene.origin;
   const auto dot = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
-  // Row vectors times this matrix: OpenEXR's convention; the camera looks along -z.
+  // OpenEXR multiplies row vectors by this matrix; the camera looks along -z.
   std::vector<float> worldToCamera;
   for (int row = 0; row < 4; ++row) {
     const auto entry = [&](const glm::dvec3& axis) {
-      return static_cast<float>(row < 3 ? axis[row] : -dot(eye, axis));
+      return static_cast<float>(row < 3 ? axis[row] : -dot(position, axis));
     };
     worldToCamera.insert(worldToCamera.end(),
                          {entry(camera.right), entry(camera.up), entry(-camera.forward), row < 3 ? 0.0f : 1.0f});
   }
-  result.attributes = {
+  image.attributes = {
       {"worldToCamera", worldToCamera},
       {"malus:scene", pack.scene.name},
       {"malus:pack", fmt::format("{:016x}", pack.hash)},
       {"malus:renderer", renderer},
       {"malus:method", method},
-      {"malus:device", picture.device},
+      {"malus:device", result.device},
       {"malus:depth", static_cast<double>(parameters.depth)},
       {"malus:samples", static_cast<double>(parameters.samples)},
       {"malus:verticalFovDegrees", camera.verticalFovDegrees},
@@ -48,7 +48,7 @@ image::Image toImage(const RenderResult& picture, const pack::Pack& pack, const 
        fmt::format("{} {} {} {} of {} {}", parameters.region.x, parameters.region.y, parameters.region.width,
                    parameters.region.height, parameters.width, parameters.height)},
   };
-  return result;
+  return image;
 }
 
 std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureEv) {
@@ -78,8 +78,7 @@ void writeImage(const std::filesystem::path& path, const image::Image& image, do
   else if (extension == ".png")
     image::writePng(path, image.width, image.height, 3, toneMapped(image, exposureEv));
   else
-    throw Error(path.string(), "unknown kind of picture", ".exr or .png",
-                extension.empty() ? "no extension" : extension);
+    throw Error(path.string(), "unknown image format", ".exr or .png", extension.empty() ? "no extension" : extension);
 }
 
 }  // namespace malus::render

@@ -1,4 +1,4 @@
-// A rendered picture as files: EXR with every channel and its metadata, PNG for the eye.
+// Image files of a render: EXR with every channel and its metadata, PNG for display.
 #pragma once
 
 #include <filesystem>
@@ -12,17 +12,16 @@
 
 namespace malus::render {
 
-// Channels R, G, B (behind the filter) and, where the picture has them, S0.R ... S3.B; the attributes
-// worldToCamera and malus:scene, pack, renderer, method, device, depth, samples, analyser, region,
-// verticalFovDegrees.
-image::Image toImage(const RenderResult& picture, const pack::Pack& pack, const RenderParameters& parameters,
+// Channels R, G, B (behind the filter) and, if the result has them, S0.R ... S3.B; the attributes worldToCamera and
+// malus:scene, pack, renderer, method, device, depth, samples, analyser, region, verticalFovDegrees.
+image::Image toImage(const RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
                      const std::string& renderer, const std::string& method);
 
-// 8-bit sRGB of linear radiance: times 2^exposureEv, linear up to 0.7, then an exponential shoulder that
-// reaches 1 at infinity, then the sRGB curve (IEC 61966-2-1). Takes channels R, G, B.
+// Converts the channels R, G, B from linear radiance to 8-bit sRGB: times 2^exposureEv, linear up to 0.7, above that an
+// exponential shoulder that approaches 1, then the sRGB curve (IEC 61966-2-1).
 std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureEv);
 
-// By the extension of path: .exr or .png. Throws Error for another.
+// Writes .exr or .png by the extension of path. exposureEv: of .png, in stops. Throws Error for another extension.
 void writeImage(const std::filesystem::path& path, const image::Image& image, double exposureEv);
 
 }  // namespace malus::render

@@ -16,38 +16,40 @@ using Stokes3 = std::array<double, 3>;
 constexpr const char* kColours[] = {"R", "G", "B"};
 constexpr double kPi = std::numbers::pi;
 
-std::size_t stokesChannel(const image::Image& picture, int component, int colour) {
+std::size_t stokesChannel(const image::Image& image, int component, int colour) {
   const std::string name = fmt::format("S{}.{}", component, kColours[colour]);
-  const int index = picture.channel(name);
-  if (index < 0) throw Error("", fmt::format("the picture has no channel {}", name), "a picture of a Stokes method");
+  const int index = image.channel(name);
+  if (index < 0)
+    throw Error("", fmt::format("the image has no channel {}", name),
+                "an image rendered with Stokes vectors (--method stokes)");
   return static_cast<std::size_t>(index);
 }
 
-std::vector<Stokes3> weightedStokes(const image::Image& picture, const std::array<double, 3>& weights) {
-  const std::size_t channels = picture.channels.size();
-  std::vector<Stokes3> result(channels == 0 ? 0 : picture.pixels.size() / channels, Stokes3{});
+std::vector<Stokes3> weightedStokes(const image::Image& image, const std::array<double, 3>& weights) {
+  const std::size_t channels = image.channels.size();
+  std::vector<Stokes3> result(channels == 0 ? 0 : image.pixels.size() / channels, Stokes3{});
   for (int component = 0; component < 3; ++component)
     for (int colour = 0; colour < 3; ++colour) {
-      const std::size_t channel = stokesChannel(picture, component, colour);
+      const std::size_t channel = stokesChannel(image, component, colour);
       const double weight = weights[static_cast<std::size_t>(colour)];
       if (weight == 0) continue;
       for (std::size_t i = 0; i < result.size(); ++i)
         result[i][static_cast<std::size_t>(component)] +=
-            weight * static_cast<double>(picture.pixels[i * channels + channel]);
+            weight * static_cast<double>(image.pixels[i * channels + channel]);
     }
   return result;
 }
 
-// One channel a colour, made from the colour's S0, S1, S2.
+// One channel per colour, computed from its S0, S1, S2.
 template <class F>
-image::Image perColour(const image::Image& picture, const char* name, F value) {
+image::Image perColour(const image::Image& image, const char* name, F value) {
   image::Image result;
-  result.width = picture.width;
-  result.height = picture.height;
-  result.attributes = picture.attributes;
+  result.width = image.width;
+  result.height = image.height;
+  result.attributes = image.attributes;
   for (int colour = 0; colour < 3; ++colour) {
     result.channels.push_back(fmt::format("{}.{}", name, kColours[colour]));
-    const std::vector<Stokes3> stokes = colourStokes(picture, colour);
+    const std::vector<Stokes3> stokes = colourStokes(image, colour);
     result.pixels.resize(3 * stokes.size());
     for (std::size_t i = 0; i < stokes.size(); ++i)
       result.pixels[3 * i + static_cast<std::size_t>(colour)] = value(stokes[i]);
@@ -56,9 +58,9 @@ image::Image perColour(const image::Image& picture, const char* name, F value) {
 }
 
 template <class F>
-std::vector<std::uint8_t> coloured(const image::Image& picture, F colour) {
+std::vector<std::uint8_t> coloured(const image::Image& image, F colour) {
   std::vector<std::uint8_t> bytes;
-  for (const Stokes3& s : luminanceStokes(picture)) {
+  for (const Stokes3& s : luminanceStokes(image)) {
     const std::array<std::uint8_t, 3> c = colour(s);
     bytes.insert(bytes.end(), c.begin(), c.end());
   }
@@ -94,16 +96,15 @@ constexpr std::array<std::array<std::uint8_t, 3>, 18> kViridis = {{
     {253, 231, 37},
 }};
 
-void write(const std::filesystem::path& path, const image::Image& picture,
-           image::Image (*channels)(const image::Image&), std::vector<std::uint8_t> (*colours)(const image::Image&)) {
+void write(const std::filesystem::path& path, const image::Image& image, image::Image (*channels)(const image::Image&),
+           std::vector<std::uint8_t> (*colours)(const image::Image&)) {
   const std::string extension = path.extension().string();
   if (extension == ".exr")
-    image::writeExr(path, channels(picture));
+    image::writeExr(path, channels(image));
   else if (extension == ".png")
-    image::writePng(path, picture.width, picture.height, 3, colours(picture));
+    image::writePng(path, image.width, image.height, 3, colours(image));
   else
-    throw Error(path.string(), "unknown kind of picture", ".exr or .png",
-                extension.empty() ? "no extension" : extension);
+    throw Error(path.string(), "unknown image format", ".exr or .png", extension.empty() ? "no extension" : extension);
 }
 
 }  // namespace
@@ -115,22 +116,22 @@ double degreeOfLinearPolarization(double s0, double s1, double s2) {
 
 double angleOfLinearPolarization(double s1, double s2) {
   const double half = std::atan2(s2, s1) / 2, angle = half < 0 ? half + kPi : half;
-  return angle >= 0 && angle < kPi ? angle : 0;  // a negative angle of the size of rounding, NaN
+  return angle >= 0 && angle < kPi ? angle : 0;  // NaN, or a negative angle of the size of rounding errors
 }
 
-std::vector<Stokes3> luminanceStokes(const image::Image& picture) {
-  return weightedStokes(picture, {0.2126, 0.7152, 0.0722});
+std::vector<Stokes3> luminanceStokes(const image::Image& image) {
+  return weightedStokes(image, {0.2126, 0.7152, 0.0722});
 }
-std::vector<Stokes3> colourStokes(const image::Image& picture, int colour) {
-  return weightedStokes(picture, {colour == 0 ? 1.0 : 0.0, colour == 1 ? 1.0 : 0.0, colour == 2 ? 1.0 : 0.0});
+std::vector<Stokes3> colourStokes(const image::Image& image, int colour) {
+  return weightedStokes(image, {colour == 0 ? 1.0 : 0.0, colour == 1 ? 1.0 : 0.0, colour == 2 ? 1.0 : 0.0});
 }
 
-image::Image dolpChannels(const image::Image& picture) {
-  return perColour(picture, "DoLP",
+image::Image dolpChannels(const image::Image& image) {
+  return perColour(image, "DoLP",
                    [](const Stokes3& s) { return static_cast<float>(degreeOfLinearPolarization(s[0], s[1], s[2])); });
 }
-image::Image aolpChannels(const image::Image& picture) {
-  return perColour(picture, "AoLP", [](const Stokes3& s) {
+image::Image aolpChannels(const image::Image& image) {
+  return perColour(image, "AoLP", [](const Stokes3& s) {
     const double angle = angleOfLinearPolarization(s[1], s[2]);
     const auto rounded = static_cast<float>(angle);
     return static_cast<double>(rounded) < kPi ? rounded : 0.0f;  // the nearest float to pi is above it
@@ -146,8 +147,8 @@ std::array<std::uint8_t, 3> dolpColour(double dolp) {
         static_cast<double>(kViridis[i][c]), static_cast<double>(kViridis[i + 1][c]), x - static_cast<double>(i))));
   return colour;
 }
-std::vector<std::uint8_t> dolpColours(const image::Image& picture) {
-  return coloured(picture, [](const Stokes3& s) { return dolpColour(degreeOfLinearPolarization(s[0], s[1], s[2])); });
+std::vector<std::uint8_t> dolpColours(const image::Image& image) {
+  return coloured(image, [](const Stokes3& s) { return dolpColour(degreeOfLinearPolarization(s[0], s[1], s[2])); });
 }
 
 std::array<std::uint8_t, 3> aolpColour(double aolp, double dolp) {
@@ -163,17 +164,17 @@ std::array<std::uint8_t, 3> aolpColour(double aolp, double dolp) {
           srgbByte(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
           srgbByte(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
-std::vector<std::uint8_t> aolpColours(const image::Image& picture) {
-  return coloured(picture, [](const Stokes3& s) {
+std::vector<std::uint8_t> aolpColours(const image::Image& image) {
+  return coloured(image, [](const Stokes3& s) {
     return aolpColour(angleOfLinearPolarization(s[1], s[2]), degreeOfLinearPolarization(s[0], s[1], s[2]));
   });
 }
 
-void writeDolp(const std::filesystem::path& path, const image::Image& picture) {
-  write(path, picture, dolpChannels, dolpColours);
+void writeDolp(const std::filesystem::path& path, const image::Image& image) {
+  write(path, image, dolpChannels, dolpColours);
 }
-void writeAolp(const std::filesystem::path& path, const image::Image& picture) {
-  write(path, picture, aolpChannels, aolpColours);
+void writeAolp(const std::filesystem::path& path, const image::Image& image) {
+  write(path, image, aolpChannels, aolpColours);
 }
 
 }  // namespace malus::render

@@ -9,7 +9,7 @@ namespace malus::render {
 
 namespace {
 
-// The two builds of the optics as types.
+// The single- and double-precision optics as types.
 struct Single {
   using real = float;
   using Stokes = f32::Stokes;
@@ -20,7 +20,7 @@ struct Single {
     return f32::stokesInterface(s, f32::splat3(rs), f32::splat3(rp), f32::splat3(xRe), f32::splat3(xIm));
   }
 };
-struct Twofold {
+struct Double {
   using real = double;
   using Stokes = f64::Stokes;
   static auto dielectric(real c, real n1, real n2) { return f64::dielectricReflectance(c, n1, n2); }
@@ -31,9 +31,9 @@ struct Twofold {
   }
 };
 
-// Columns are what the renderers make of the four unit vectors.
+// Mueller matrix, row by row, from its effect on the four unit Stokes vectors.
 template <class O, class Apply>
-std::array<double, 16> matrixOf(const Apply& apply) {
+std::array<double, 16> muellerMatrix(const Apply& apply) {
   std::array<double, 16> m{};
   for (std::size_t column = 0; column < 4; ++column) {
     typename O::Stokes unit{};
@@ -46,7 +46,7 @@ std::array<double, 16> matrixOf(const Apply& apply) {
 }
 
 template <class O>
-SurfaceResponse responseOf(const Interface& interface, double angleDegrees) {
+SurfaceResponse respond(const Interface& interface, double angleDegrees) {
   using real = typename O::real;
   SurfaceResponse response;
   response.angleDegrees = angleDegrees;
@@ -62,20 +62,21 @@ SurfaceResponse responseOf(const Interface& interface, double angleDegrees) {
   response.diattenuation = sum > 0 ? (response.rs - response.rp) / sum : 0;
   response.phaseDegrees = std::atan2(double(r.xIm) + 0.0, double(r.xRe) + 0.0) * 180 / std::numbers::pi;
   response.reflection =
-      matrixOf<O>([&](const typename O::Stokes& s) { return O::applied(s, r.rs, r.rp, r.xRe, r.xIm); });
+      muellerMatrix<O>([&](const typename O::Stokes& s) { return O::applied(s, r.rs, r.rp, r.xRe, r.xIm); });
   if (metal) return response;
   const auto t = O::through(c, n1, n2);
   response.ts = t.ts;
   response.tp = t.tp;
-  response.transmission = matrixOf<O>([&](const typename O::Stokes& s) { return O::applied(s, t.ts, t.tp, t.x, 0); });
+  response.transmission =
+      muellerMatrix<O>([&](const typename O::Stokes& s) { return O::applied(s, t.ts, t.tp, t.x, 0); });
   return response;
 }
 
 }  // namespace
 
 SurfaceResponse surfaceResponse(const Interface& interface, double angleDegrees, Precision precision) {
-  return precision == Precision::single ? responseOf<Single>(interface, angleDegrees)
-                                        : responseOf<Twofold>(interface, angleDegrees);
+  return precision == Precision::singlePrecision ? respond<Single>(interface, angleDegrees)
+                                                 : respond<Double>(interface, angleDegrees);
 }
 
 }  // namespace malus::render

@@ -36,10 +36,10 @@ struct Tracer {
   const std::vector<dvec3>& hemisphereTransmittance;  // per material
   const render::RenderParameters& parameters;
   std::uint64_t rays = 0;
-  std::uint32_t pixelX = 0, pixelY = 0;  // the pixel at hand
+  std::uint32_t pixelX = 0, pixelY = 0;  // the current pixel
   render::Faults faults{};
 
-  // A hit whose point was found again in double on the triangle that Embree names.
+  // A hit on the triangle that Embree returns, its position recomputed in double precision.
   struct Hit {
     dvec3 d, position, start, error, face, normal;
     double c, travelled;
@@ -61,21 +61,21 @@ struct Tracer {
     hit.materialIndex = mesh.material;
     hit.face = area2 > 0 ? across / area2 : -d;
 
-    // The ray meets the plane at distance s; barycentric coordinates from signed areas there.
+    // Intersect the ray with the plane of the triangle; barycentric coordinates from signed areas.
     double b1 = at.b1, b2 = at.b2;
     const double slope = glm::dot(d, hit.face);
     if (area2 > 0 && slope != 0) {
       const dvec3 q = origin + d * (glm::dot(p0 - origin, hit.face) / slope);
       const double u = glm::dot(glm::cross(p0 - p2, q - p2), hit.face) / area2;
       const double v = glm::dot(glm::cross(p1 - p0, q - p0), hit.face) / area2;
-      // At a grazing plane the float hit is the better one.
+      // At grazing incidence the single-precision hit is more accurate.
       if (std::abs(u - b1) < 1e-2 && std::abs(v - b2) < 1e-2) b1 = u, b2 = v;
     }
     const double b0 = 1 - b1 - b2;
     hit.position = p0 * b0 + p1 * b1 + p2 * b2;
     hit.travelled = glm::length(hit.position - origin);
     hit.surface = surfaceAt(scene, mesh.material, hit.position);
-    // The next query is made in float.
+    // The next query is in single precision.
     hit.error =
         f64::hitPointError(p0, p1, p2, b0, b1, b2, 0x1p-24) + f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
     hit.start = f64::insideTriangle(hit.position, p0, p1, p2, b0, b1, b2, across, 4 * f64::largestPart(hit.error));
@@ -116,17 +116,17 @@ struct Tracer {
     return result;
   }
 
-  // Light that leaves the scene's surroundings against d: S1 is across the plane of d and the sun.
-  Light surroundings(const dvec3& d) const {
+  // Light from the environment along -d: S1 is perpendicular to the plane of d and the sun.
+  Light environmentLight(const dvec3& d) const {
     const pack::Environment& e = scene.environment;
     if (!e.hasSun()) return unpolarized(environment(d));
     const double cosine = glm::dot(d, e.sun);
     const dvec3 radiance = environment(d) * (e.size == 0 ? f64::rayleighPhase(cosine) : 1.0);
-    return turned(glm::transpose(toSurface(d, f64::sDirection(d, e.sun))),
-                  polarized(radiance, f64::rayleighDegree(cosine, e.skyDegree)));
+    return rotated(glm::transpose(toSurface(d, f64::sDirection(d, e.sun))),
+                   polarized(radiance, f64::rayleighDegree(cosine, e.skyDegree)));
   }
 
-  // Of the medium on the side of the ray.
+  // Absorption of the medium on the side of the ray, in 1/m.
   static dvec3 absorptionAt(const Hit& h) {
     const pack::Material& m = *h.surface.material;
     return pack::hasInside(m.kind) && !h.outside ? m.absorption : m.outsideAbsorption;
@@ -156,7 +156,7 @@ struct Tracer {
       const dvec3 entering =
           !pack::hasIndex(m.kind)
               ? dvec3(1)
-              : interfaceOf(h.surface, std::min(c, 1.0), m.outsideEta, h.surface.eta.y).meanTransmittance;
+              : evaluateInterface(h.surface, std::min(c, 1.0), m.outsideEta, h.surface.eta.y).meanTransmittance;
       if (isDiffuse) diffuse += f64::lambertRadiance(albedo, arriving * c, entering);
       highlight += arriving * lobe;
     }
@@ -171,8 +171,8 @@ struct Tracer {
   // |(S1, S2, S3)| - S0.
   static double excess(const dvec4& s) { return glm::length(dvec3(s[1], s[2], s[3])) - s[0]; }
 
-  // The check of --check-numerics, where it is asked for. arriving: the light that met the surface, each part in a
-  // frame of its own; rounding adds up to 4 eps of it.
+  // Checks `sent` if --check-numerics asks for it. arriving: the light that arrives at the surface, each part in any
+  // frame; rounding adds up to 4 eps of it.
   Light checked(const Hit& h, std::uint32_t depth, const Light& sent, std::span<const Light> arriving) {
     if (!parameters.checkNumerics) return sent;
     constexpr double kBounce = 4 * std::numeric_limits<double>::epsilon();
@@ -193,8 +193,8 @@ struct Tracer {
     return sent;
   }
 
-  // Light that the facets of a rough surface send toward the eye, in the ray's canonical frame: each facet reflects
-  // in a frame of its own.
+  // Light that the facets of a rough surface reflect toward the camera, in the canonical frame of the ray. Each facet
+  // reflects in its own s-p frame.
   Light facetLight(const Hit& h, double n1, double n2, std::uint32_t depth, Light& arrivedPart) {
     const double alpha = h.surface.material->roughness;
     Light sum = unpolarized(dvec3(0));
@@ -206,32 +206,32 @@ struct Tracer {
       const double weight = f64::facetWeight(-h.d, mirror, h.normal, alpha) / gpu::kFacets;
       if (weight <= 0 || glm::dot(mirror, h.face) <= 0) continue;
       const dvec3 s = f64::sDirection(h.d, normal);
-      const Light arriving = turned(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1, true));
+      const Light arriving = rotated(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1, true));
       arrivedPart = arrivedPart + scaled(arriving, dvec3(weight));
-      sum = sum +
-            scaled(turned(glm::transpose(toSurface(h.d, s)), interfaceOf(h.surface, c, n1, n2).reflection * arriving),
-                   dvec3(weight));
+      sum = sum + scaled(rotated(glm::transpose(toSurface(h.d, s)),
+                                 evaluateInterface(h.surface, c, n1, n2).reflection * arriving),
+                         dvec3(weight));
     }
     return sum;
   }
 
-  // Light that comes back along a ray, in the ray's canonical frame, as basic radiance. behindRough: a rough surface
-  // was met on the way; others are smooth then.
+  // Light that arrives along -d, in the canonical frame of the ray, as basic radiance. behindRough: the path has met a
+  // rough surface; further ones are treated as smooth.
   Light trace(const dvec3& origin, const dvec3& queryOrigin, const dvec3& d, std::uint32_t depth,
               bool behindRough = false) {
     Hit h{};
     h.d = d;
     h.materialIndex = gpu::kEnvironment;
-    if (!intersect(origin, queryOrigin, d, h)) return checked(h, depth, surroundings(d), {});
+    if (!intersect(origin, queryOrigin, d, h)) return checked(h, depth, environmentLight(d), {});
     const pack::Material& m = *h.surface.material;
     const dvec3 medium = transmittanceOver(absorptionAt(h), h.travelled);
 
-    // Surfaces without an interface.
+    // Handle surfaces without an interface.
     if (pack::isEmitter(m.kind)) {
       const dvec3 radiance = h.outside ? m.radiance / (m.outsideEta * m.outsideEta) * medium : dvec3(0);
       if (m.polarization == 0) return checked(h, depth, unpolarized(radiance), {});
       const dvec3 s = f64::sDirection(d, glm::cross(h.face, m.axis));
-      return checked(h, depth, turned(glm::transpose(toSurface(d, s)), polarized(radiance, m.polarization)), {});
+      return checked(h, depth, rotated(glm::transpose(toSurface(d, s)), polarized(radiance, m.polarization)), {});
     }
     dvec3 diffuse, highlight;
     if (!pack::isInterface(m.kind)) {
@@ -239,59 +239,59 @@ struct Tracer {
       return checked(h, depth, unpolarized(diffuse * medium), {});
     }
 
-    // Sheets: straight on.
+    // Handle polarizing elements: the ray continues straight on.
     if (pack::isPolarizingElement(m.kind)) {
       if (depth == 0) return unpolarized(dvec3(0));
-      const dmat4 turn = toSurface(d, f64::sDirection(d, glm::cross(h.face, m.axis)));
-      const Light arriving = turned(turn, trace(h.position, queryBelow(h), d, depth - 1, behindRough));
-      return checked(h, depth, scaled(turned(glm::transpose(turn), sheetMatrix(m) * arriving), medium),
+      const dmat4 rotation = toSurface(d, f64::sDirection(d, glm::cross(h.face, m.axis)));
+      const Light arriving = rotated(rotation, trace(h.position, queryBelow(h), d, depth - 1, behindRough));
+      return checked(h, depth, scaled(rotated(glm::transpose(rotation), polarizingElementMatrix(m) * arriving), medium),
                      std::array<Light, 1>{arriving});
     }
 
-    // Interfaces: from the index on this side to the one beyond.
+    // Handle interfaces, from the index on this side to the index beyond.
     const bool glass = pack::hasInside(m.kind);
     if (glass && depth == 0) return unpolarized(dvec3(0));
     const double inside = h.surface.eta.y;
     const double n1 = !glass || h.outside ? m.outsideEta : inside, n2 = !glass || h.outside ? inside : m.outsideEta;
-    dvec3 through(0);
+    dvec3 refracted(0);
     bool total = false;
     if (glass) {
-      through = f64::refractedDirection(d, h.normal, h.c, n1, n2);
+      refracted = f64::refractedDirection(d, h.normal, h.c, n1, n2);
       total = f64::refractionTerms(h.c, n1, n2).total;
-      if (!total && glm::dot(through, h.face) >= 0) {
+      if (!total && glm::dot(refracted, h.face) >= 0) {
         h.normal = h.face;
         h.c = f64::clampUnit(-glm::dot(d, h.face));
-        through = f64::refractedDirection(d, h.normal, h.c, n1, n2);
+        refracted = f64::refractedDirection(d, h.normal, h.c, n1, n2);
         total = f64::refractionTerms(h.c, n1, n2).total;
       }
     }
-    const Interface interface = interfaceOf(h.surface, h.c, n1, n2);
+    const Interface interface = evaluateInterface(h.surface, h.c, n1, n2);
     const dvec3 mirror = f64::mirrorDirection(d, h.normal, h.c);
-    const dvec3 s = f64::sDirection(d, h.normal);  // across all three rays
+    const dvec3 s = f64::sDirection(d, h.normal);  // the same for all three rays
     directLight(h, depth, mirror, diffuse, highlight);
 
-    // What leaves in the surface's frame: diffuse light through the interface, the mirror ray reflected, the
-    // refracted ray transmitted; then back to the ray's own frame.
+    // Sum the outgoing light in the frame of the surface: diffuse light through the interface, the reflected mirror
+    // ray, the transmitted refracted ray. Then rotate it to the canonical frame of the ray.
     Light toCamera = glass ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
     std::array<Light, 4> parts = {unpolarized(diffuse), unpolarized(highlight), Light{}, Light{}};
     const dmat4 toRay = glm::transpose(toSurface(d, s));
     if (m.roughness > 0 && !behindRough && depth > 0) {
-      toCamera = turned(toRay, toCamera + interface.reflection * unpolarized(highlight));
+      toCamera = rotated(toRay, toCamera + interface.reflection * unpolarized(highlight));
       return checked(h, depth, scaled(toCamera + facetLight(h, n1, n2, depth, parts[2]), medium), parts);
     }
     if (depth > 0) {
       const Light arriving =
-          turned(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1, behindRough));
+          rotated(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1, behindRough));
       parts[2] = arriving;
       toCamera = toCamera + interface.reflection * (arriving + unpolarized(highlight));
       if (glass && !total) {
         const Light below =
-            turned(toSurface(through, s), trace(h.position, queryBelow(h), through, depth - 1, behindRough));
+            rotated(toSurface(refracted, s), trace(h.position, queryBelow(h), refracted, depth - 1, behindRough));
         toCamera = toCamera + interface.transmission * below;
         parts[3] = below;
       }
     }
-    return checked(h, depth, scaled(turned(toRay, toCamera), medium), parts);
+    return checked(h, depth, scaled(rotated(toRay, toCamera), medium), parts);
   }
 };
 
@@ -326,12 +326,12 @@ std::uint32_t Renderer::maxDepth(std::string_view /*method*/) const { return pac
 render::RenderResult Renderer::render(std::string_view /*method*/, const render::RenderParameters& parameters) {
   const pack::Scene& scene = impl_->scene;
   const auto start = Clock::now();
-  render::RenderResult picture;
-  picture.width = parameters.region.width;
-  picture.height = parameters.region.height;
-  picture.channels = render::kStokesChannels;
-  picture.pixels.resize(picture.channels * picture.width * picture.height);
-  picture.device = device();
+  render::RenderResult result;
+  result.width = parameters.region.width;
+  result.height = parameters.region.height;
+  result.channels = render::kStokesChannels;
+  result.pixels.resize(result.channels * result.width * result.height);
+  result.device = device();
   const pack::Camera& camera = scene.camera;
   const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi),
                tanX = tanY * parameters.width / parameters.height;
@@ -350,11 +350,11 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
           const double px = (parameters.region.x + x + (i + 0.5) / parameters.samples) / parameters.width;
           const double py = (parameters.region.y + y + (j + 0.5) / parameters.samples) / parameters.height;
           const dvec3 d = f64::cameraDirection(camera.right, camera.up, camera.forward, tanX, tanY, px, py);
-          // The camera's frame of this ray: x across d and up, the s direction of a surface with normal up.
-          sum = sum + turned(toSurface(d, f64::sDirection(d, camera.up)),
-                             tracer.trace(camera.position, camera.position, d, parameters.depth));
+          // The camera frame of this ray: x is the s direction of a surface whose normal is `up`.
+          sum = sum + rotated(toSurface(d, f64::sDirection(d, camera.up)),
+                              tracer.trace(camera.position, camera.position, d, parameters.depth));
         }
-      float* out = picture.pixels.data() + (std::size_t{y} * parameters.region.width + x) * picture.channels;
+      float* out = result.pixels.data() + (std::size_t{y} * parameters.region.width + x) * result.channels;
       const double scale = toRadiance / (static_cast<double>(parameters.samples) * parameters.samples);
       for (std::size_t c = 0; c < 3; ++c) {
         const dvec4 s = sum[c] * scale;
@@ -365,7 +365,7 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
     }
     rays += tracer.rays;
     const std::scoped_lock lock(merging);
-    picture.faults.add(tracer.faults, parameters.width);
+    result.faults.add(tracer.faults, parameters.width);
   };
   const auto traceAll = [&] { tbb::parallel_for(std::uint32_t{0}, parameters.region.height, row); };
   if (impl_->threads == 0)
@@ -373,10 +373,10 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
   else
     tbb::task_arena(static_cast<int>(impl_->threads)).execute(traceAll);
 
-  picture.cost.buildMs = impl_->buildMs;
-  picture.cost.traceMs = picture.cost.wallMs = sinceMs(start);
-  picture.cost.rays = rays;
-  return picture;
+  result.cost.buildMs = impl_->buildMs;
+  result.cost.traceMs = result.cost.wallMs = sinceMs(start);
+  result.cost.rays = rays;
+  return result;
 }
 
 render::RenderResult render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads) {

@@ -9,7 +9,7 @@
 
 namespace malus::reference {
 
-// Images have Stokes channels always.
+// Images always have Stokes channels.
 class Renderer final : public render::Renderer {
  public:
   // Builds the acceleration structure. scene must outlive the renderer. threads: 0 for all cores. Throws Error if
@@ -29,7 +29,7 @@ class Renderer final : public render::Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-// One image by a renderer made for it.
+// Renders one image by a new renderer.
 render::RenderResult render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads);
 
 }  // namespace malus::reference

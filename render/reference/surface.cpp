@@ -12,7 +12,7 @@ namespace malus::reference {
 
 namespace {
 
-// Bilinear, repeated; (0, 0) is the upper left corner.
+// Bilinear lookup in a repeated texture; (0, 0) is the upper left corner.
 dvec3 textureAt(const pack::Texture& t, double u, double v) {
   const double x = (u - std::floor(u)) * t.width - 0.5, y = (v - std::floor(v)) * t.height - 0.5;
   const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
@@ -43,7 +43,7 @@ Surface surfaceAt(const pack::Scene& scene, std::uint32_t index, const dvec3& p)
   return s;
 }
 
-Interface interfaceOf(const Surface& surface, double c, double n1, double n2) {
+Interface evaluateInterface(const Surface& surface, double c, double n1, double n2) {
   const pack::Material& m = *surface.material;
   Interface result;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -68,13 +68,14 @@ Interface interfaceOf(const Surface& surface, double c, double n1, double n2) {
   return result;
 }
 
-Mueller sheetMatrix(const pack::Material& m) {
+Mueller polarizingElementMatrix(const pack::Material& m) {
   Mueller result;
   for (std::size_t i = 0; i < 3; ++i) {
     const int colour = static_cast<int>(i);
-    const double along = m.transmittanceParallel[colour], across = m.transmittanceCrossed[colour],
-                 both = std::sqrt(along * across), retardance = m.retardanceDegrees[colour] * std::numbers::pi / 180;
-    result[i] = interfaceMatrix(along, across, both * std::cos(retardance), -both * std::sin(retardance));
+    const double parallel = m.transmittanceParallel[colour], crossed = m.transmittanceCrossed[colour],
+                 mean = std::sqrt(parallel * crossed),
+                 retardance = m.retardanceDegrees[colour] * std::numbers::pi / 180;
+    result[i] = interfaceMatrix(parallel, crossed, mean * std::cos(retardance), -mean * std::sin(retardance));
   }
   return result;
 }

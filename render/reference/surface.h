@@ -1,4 +1,4 @@
-// What the reference's surfaces do to light, as Mueller matrices.
+// Mueller matrices of the reference's surfaces.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace malus::reference {
 
-// A material at a place, where pictures may tell its numbers.
+// A material at a position, with the values of its textures.
 struct Surface {
   const pack::Material* material = nullptr;
   dvec3 eta{1.0}, k{0.0}, albedo{0.0};
@@ -17,17 +17,17 @@ Surface surfaceAt(const pack::Scene& scene, std::uint32_t material, const dvec3&
 
 struct Interface {
   Mueller reflection;
-  Mueller transmission;  // T_s, T_p = 1 - R: of metals only their diffuse light's weight
+  Mueller transmission;  // T_s, T_p = 1 - R; of a metal only the weight of its diffuse light
   dvec3 meanTransmittance;
 };
-// c: cosine of incidence, from index n1 to n2 (of a metal its own index counts); its thin film included.
-Interface interfaceOf(const Surface& surface, double c, double n1, double n2);
+// From index n1 to n2 at cosine of incidence c, with the thin film; a metal has its own index in place of n2.
+Interface evaluateInterface(const Surface& surface, double c, double n1, double n2);
 
-// A polarizer or wave plate, in the frame whose x is its axis seen along the ray: [[A, B], [B, A]] of the two
+// A polarizer or wave plate in the frame whose x is its axis, seen along the ray: [[A, B], [B, A]] of the two
 // transmittances, and their geometric mean times [[cos, sin], [-sin, cos]] of the retardance on (S2, S3).
-Mueller sheetMatrix(const pack::Material& material);
+Mueller polarizingElementMatrix(const pack::Material& material);
 
-// Beer-Lambert; absorption in 1/m.
+// Beer-Lambert transmittance; absorption in 1/m, distance in m.
 dvec3 transmittanceOver(const dvec3& absorption, double distance);
 
 }  // namespace malus::reference

@@ -1,4 +1,4 @@
-// What a renderer returns: the region's pixels, top row first, and what it cost.
+// The result of a render: the pixels of the region, top row first, and their cost.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ inline constexpr std::size_t kStokesChannels = gpu::kStokesChannels;
 
 struct Cost {
   double buildMs = 0;      // acceleration structure
-  double uploadMs = 0;     // the scene to the device
-  double compileMs = 0;    // shaders and pipeline, where this render was their first use
-  double traceMs = 0;      // rays and shading alone (on a GPU by its own clock)
-  double readBackMs = 0;   // the picture from the device
-  double wallMs = 0;       // tracing and read-back as the caller sees them
-  std::uint64_t rays = 0;  // camera, specular and shadow rays; 0 where they were not counted
+  double uploadMs = 0;     // upload of the scene to the device
+  double compileMs = 0;    // shaders and pipeline, if this render used them first
+  double traceMs = 0;      // rays and shading alone; on a GPU by its own clock
+  double readBackMs = 0;   // copy of the image from the device
+  double wallMs = 0;       // tracing and read-back by the clock of the caller
+  std::uint64_t rays = 0;  // camera, specular and shadow rays; 0 if not counted
 };
 
 struct RenderResult {
@@ -30,7 +30,7 @@ struct RenderResult {
   std::size_t channels = kColourChannels;
   std::vector<float> pixels;
   Cost cost;
-  Faults faults;  // where the view asked for it
+  Faults faults;  // if RenderParameters::checkNumerics is set
   std::string device;
 };
 

@@ -1,5 +1,5 @@
-// What few scenes have (absorption, films, sheets, displays, a clear sky, textures, rough surfaces): closed forms on
-// every renderer, and the scenes of scenes/effects.
+// Effects that few scenes have (absorption, films, polarizing elements, displays, a clear sky, textures, rough
+// surfaces): closed forms on every renderer, and the scenes of scenes/effects.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,27 +38,27 @@ Stokes stokesAt(const RenderResult& p, std::size_t pixel, std::size_t colour) {
   return s;
 }
 
-// The picture by every renderer that has Stokes vectors; the reference comes first.
+// The image by every renderer with Stokes vectors; the reference is the first.
 std::map<std::string, RenderResult> everywhere(const pack::Scene& scene) {
   RenderParameters parameters = render::defaultParameters(scene);
   parameters.stokes = true;
   embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
-  std::map<std::string, RenderResult> pictures;
+  std::map<std::string, RenderResult> results;
   for (const char* method : {"stokes", "importance"})
-    pictures[std::string("vulkan ") + method] = vulkan.render(method, parameters);
+    results[std::string("vulkan ") + method] = vulkan.render(method, parameters);
   parameters.checkNumerics = true;
-  pictures["reference"] = reference::render(scene, parameters, 0);
+  results["reference"] = reference::render(scene, parameters, 0);
   for (const char* method : {"stokes", "importance"})
-    pictures[std::string("embree ") + method] = embree.render(method, parameters);
-  for (const auto& [name, picture] : pictures) EXPECT_EQ(picture.faults.count, 0u) << name;
-  return pictures;
+    results[std::string("embree ") + method] = embree.render(method, parameters);
+  for (const auto& [name, result] : results) EXPECT_EQ(result.faults.count, 0u) << name;
+  return results;
 }
 
 // The middle pixel's Stokes vector on all of them.
 void expectEverywhere(const pack::Scene& scene, std::size_t colour, const Stokes& truth, double tolerance) {
-  for (const auto& [name, picture] : everywhere(scene)) {
-    const Stokes s = stokesAt(picture, picture.pixels.size() / picture.channels / 2, colour);
+  for (const auto& [name, result] : everywhere(scene)) {
+    const Stokes s = stokesAt(result, result.pixels.size() / result.channels / 2, colour);
     for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(s[k], truth[k], tolerance) << name << ", S" << k;
   }
 }
@@ -129,7 +129,7 @@ TEST(EffectClosedForms, DisplayIsSeenAtItsAngleAndDegree) {
   panel.polarization = 0.75;
   test::addSquare(scene, test::addMaterial(scene, panel), {0, 0, 0}, {0, 0, 1}, 1);
   expectEverywhere(scene, 0, {3, 3 * 0.75 * std::cos(0.6), 3 * 0.75 * std::sin(0.6), 0}, 2e-6);
-  // Seen slantwise the field lies across the absorbing axis: that of a panel turned about its own field does not move.
+  // At an oblique angle the field is perpendicular to the absorbing axis: that of a panel turned about its own field does not move.
   test::look(scene, {4, 0, 4}, {0, 0, 0});
   scene.materials[0].axis = {1, 0, 0};
   expectEverywhere(scene, 0, {3, 3 * 0.75, 0, 0}, 2e-6);
@@ -156,13 +156,13 @@ TEST(EffectClosedForms, DisplayVanishesInAGlassTableAtBrewstersAngle) {
 
 TEST(EffectClosedForms, SkyIsPolarizedAcrossTheSun) {
   pack::Scene scene = along(0);
-  test::addSquare(scene, test::addMaterial(scene, {}), {0, 0, 100}, {0, 0, -1}, 1);  // behind the eye
+  test::addSquare(scene, test::addMaterial(scene, {}), {0, 0, 100}, {0, 0, -1}, 1);  // behind the camera
   scene.environment.radiance = {1, 2, 4};
   scene.environment.skyDegree = 0.8;
   // The sun to the right, at 90 degrees: the field is upright (S1 < 0); phase 3/4.
   scene.environment.sun = {1, 0, 0};
   expectEverywhere(scene, 2, {3, -3 * 0.8, 0, 0}, 3e-6);
-  // 60 degrees from the view, in the direction of +45 degrees of the picture: field at 135.
+  // 60 degrees from the view, in the direction of +45 degrees of the image: field at 135.
   scene.environment.sun = {std::sin(std::numbers::pi / 3) * std::sqrt(0.5),
                            std::sin(std::numbers::pi / 3) * std::sqrt(0.5), -0.5};
   const double phase = 0.75 * 1.25, degree = 0.8 * 0.75 / 1.25;
@@ -186,7 +186,7 @@ TEST(EffectClosedForms, GlassTakesWhatBeerAndLambertSay) {
   expectEverywhere(scene, 0, {t, 0, 0, 0}, 2e-6);
   expectEverywhere(scene, 1, {t * std::exp(-0.25), 0, 0, 0}, 2e-6);
   expectEverywhere(scene, 2, {t * std::exp(-2.5), 0, 0, 0}, 2e-6);
-  // The medium outside: 4 m from the eye to the plate, 0.75 m behind it.
+  // The medium outside: 4 m from the camera to the plate, 0.75 m behind it.
   scene.materials[0].absorption = glm::dvec3(0);
   scene.materials[0].outsideAbsorption = scene.materials[1].outsideAbsorption = glm::dvec3(0.1);
   expectEverywhere(scene, 0, {t * std::exp(-0.475), 0, 0, 0}, 2e-6);
@@ -214,7 +214,7 @@ TEST(EffectClosedForms, QuarterWaveCoatingTakesTheReflectionAway) {
   expectEverywhere(pane, 1, {1, 0, 0, 0}, 2e-6);
 }
 
-TEST(EffectClosedForms, TexturesAreWhatTheirPicturesSay) {
+TEST(EffectClosedForms, TexturesEqualTheirImages) {
   pack::Scene scene = along(0);
   scene.environment.radiance = glm::dvec3(1);
   scene.environment.ambientIrradiance = 1;
@@ -273,7 +273,7 @@ TEST(EffectClosedForms, RoughMirrorsKeepWhatTheyReflect) {
 // The scenes, and the effect that each is there for.
 struct EffectScene {
   const char* effect;
-  double leastChange;  // relative RMS error of the picture without the effect
+  double leastChange;  // relative RMS error of the image without the effect
 };
 const std::map<std::string, EffectScene>& scenes() {
   static const std::map<std::string, EffectScene> kScenes = {
@@ -301,15 +301,15 @@ const pack::Scene& sceneNamed(const std::string& name) {
 class EffectScenes : public testing::TestWithParam<std::string> {};
 
 TEST_P(EffectScenes, RenderersAgreeWithTheReference) {
-  const auto pictures = everywhere(sceneNamed(GetParam()));
-  const RenderResult& truth = pictures.at("reference");
-  for (const auto& [name, picture] : pictures) {
-    ASSERT_EQ(picture.pixels.size(), truth.pixels.size());
+  const auto results = everywhere(sceneNamed(GetParam()));
+  const RenderResult& truth = results.at("reference");
+  for (const auto& [name, result] : results) {
+    ASSERT_EQ(result.pixels.size(), truth.pixels.size());
     std::size_t off = 0;
     for (std::size_t i = 0; i < truth.pixels.size(); i += truth.channels) {
       double largest = 0;
       for (std::size_t k = 0; k < truth.channels; ++k)
-        largest = std::max(largest, static_cast<double>(std::abs(picture.pixels[i + k] - truth.pixels[i + k])));
+        largest = std::max(largest, static_cast<double>(std::abs(result.pixels[i + k] - truth.pixels[i + k])));
       if (largest > 1e-3) ++off;
     }
     EXPECT_LE(off, 3u) << name;  // at edges
@@ -321,12 +321,12 @@ TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
   const EffectScene& expected = scenes().at(GetParam());
   for (const auto& [name, other] : scenes())
     EXPECT_EQ(bake::isOn(scene.effects, std::string_view(other.effect)), name == GetParam()) << other.effect;
-  // Without it the picture is another.
+  // Without it the image differs.
   const RenderParameters parameters = render::defaultParameters(scene);
   const RenderResult truth = reference::render(scene, parameters, 0),
                      without = reference::render(bake::withoutEffects(scene, {expected.effect}), parameters, 0);
   EXPECT_GT(render::imageError(without, truth, 0).relRms, expected.leastChange);
-  // What is forced off is warned of.
+  // An effect that is forced off causes a warning.
   std::vector<std::string> kept;
   for (const pack::Effect& e : scene.effects)
     if (e.name != expected.effect) kept.push_back(e.name);
@@ -339,7 +339,8 @@ TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
 }
 
 // On Vulkan, whose variants differ; Embree draws these scenes by the build that has everything anyway, and every other
-// scene by each build in tests/hard_cases. `sp` tells light without a direction from polarized light of degree 0.
+// scene by each build in tests/hard_cases. `sp` distinguishes light without a polarization direction from polarized
+// light of degree 0.
 TEST_P(EffectScenes, AutoEqualsAll) {
   const pack::Scene& scene = sceneNamed(GetParam());
   vulkan::Renderer vulkan(scene, {});
@@ -363,7 +364,7 @@ TEST_P(EffectScenes, ToleranceBoundsTheError) {
   embree::Renderer embree(scene, 0);
   RenderParameters parameters = render::defaultParameters(scene);
   const RenderResult exact = embree.render("importance", parameters);
-  // The brightest source, which a picture may show in mirrors alone; a Rayleigh sky is up to 1.5 times its mean.
+  // The brightest source, which an image may show only in mirrors; a Rayleigh sky is up to 1.5 times its mean.
   double most = *std::max_element(exact.pixels.begin(), exact.pixels.end());
   for (int c = 0; c < 3; ++c) {
     most = std::max(most, 1.5 * scene.environment.radiance[c]);
@@ -372,12 +373,12 @@ TEST_P(EffectScenes, ToleranceBoundsTheError) {
   std::uint64_t rays = exact.cost.rays;
   for (const double tolerance : {1e-6, 1e-4, 1e-3}) {
     parameters.tolerance = tolerance;
-    const RenderResult picture = embree.render("importance", parameters);
-    EXPECT_LE(picture.cost.rays, rays);
-    rays = picture.cost.rays;
+    const RenderResult result = embree.render("importance", parameters);
+    EXPECT_LE(result.cost.rays, rays);
+    rays = result.cost.rays;
     double largest = 0;
     for (std::size_t i = 0; i < exact.pixels.size(); ++i)
-      largest = std::max(largest, static_cast<double>(std::abs(picture.pixels[i] - exact.pixels[i])));
+      largest = std::max(largest, static_cast<double>(std::abs(result.pixels[i] - exact.pixels[i])));
     EXPECT_LE(largest, (parameters.depth + 16) * tolerance * most) << tolerance;
   }
 }

@@ -1,6 +1,6 @@
-// Pictures by the Embree renderer for callgrind to count: one dump a picture, each from the renderer's call to its
-// return. Arguments: PACK METHOD OFF EFFECTS for each picture; OFF an effect to leave out or "-", EFFECTS "auto" or
-// "all". The method is drawn as it is named; DEPTH=n in the place of EFFECTS is auto at that depth.
+// Images by the Embree renderer for callgrind: one dump per image, of the call of the renderer. Arguments: PACK METHOD
+// OFF EFFECTS for each image; OFF is an effect to leave out or "-", EFFECTS is "auto", "all", or "DEPTH=n" for auto at
+// that depth. The method is not replaced by a cheaper one.
 #include <valgrind/callgrind.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// The three scenes, small, on both renderers: against stored pictures that were looked at, against each
+// The three scenes, small, on both renderers: against stored images that were inspected, against each
 // other, and against the double-precision reference. Tolerances: tolerances.json.
 //
-// MALUS_UPDATE_REFERENCES=1 writes the stored pictures anew and fails, so that it cannot go unnoticed. They
+// MALUS_UPDATE_REFERENCES=1 writes the stored images again and fails, so that it cannot go unnoticed. They
 // are looked at before they are committed, and never together with the code that they judge.
 #include <algorithm>
 #include <cmath>
@@ -54,9 +54,9 @@ render::RenderParameters smallView(const pack::Scene& scene) {
   return parameters;
 }
 
-image::Image asImage(const pack::Pack& pack, const render::RenderResult& picture, const std::string& renderer,
+image::Image asImage(const pack::Pack& pack, const render::RenderResult& result, const std::string& renderer,
                      const std::string& method) {
-  image::Image image = toImage(picture, pack, smallView(pack.scene), renderer, method);
+  image::Image image = toImage(result, pack, smallView(pack.scene), renderer, method);
   // Devices and packs differ in their names only.
   std::erase_if(image.attributes, [](const auto& a) { return a.first == "malus:device" || a.first == "malus:pack"; });
   return image;
@@ -82,7 +82,7 @@ void expectClose(const image::Image& a, const image::Image& b, const std::string
 
 class Scenes : public testing::TestWithParam<std::string> {};
 
-TEST_P(Scenes, EqualTheStoredPictures) {
+TEST_P(Scenes, EqualTheStoredImages) {
   const pack::Pack& pack = packOf(GetParam());
   const bool update = std::getenv("MALUS_UPDATE_REFERENCES") != nullptr;
   for (const std::string method : {"schlick", "fresnel", "sp", "reference"}) {
@@ -121,8 +121,8 @@ TEST_P(Scenes, EveryValueIsOneThatLightCanHave) {
   const pack::Scene& scene = packOf(GetParam()).scene;
   render::RenderParameters parameters = smallView(scene);
   parameters.checkNumerics = true;
-  const auto expectSound = [&](const render::RenderResult& picture, const std::string& what) {
-    EXPECT_EQ(picture.faults.count, 0u) << what << ": " << describe(picture.faults, scene);
+  const auto expectSound = [&](const render::RenderResult& result, const std::string& what) {
+    EXPECT_EQ(result.faults.count, 0u) << what << ": " << describe(result.faults, scene);
   };
   expectSound(reference::render(scene, parameters, 0), "reference");
   embree::Renderer embree(scene, 0);

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double kPi = std::numbers::pi;
 
-// Even light over the picture: each colour's S0, with one degree and angle of polarization.
+// Uniform light over the image: S0 of each colour, with one degree and angle of polarization.
 image::Image patch(int width, int height, const std::array<double, 3>& s0, double dolp, double aolp) {
   image::Image image;
   image.width = width;
@@ -125,7 +125,7 @@ TEST(Mosaic, FilesHoldTheValues) {
         std::ifstream file(p, std::ios::binary);
         return std::string(std::istreambuf_iterator<char>(file), {});
       };
-      EXPECT_EQ(bytesOf(path), bytesOf(again)) << "equal pictures are equal files";
+      EXPECT_EQ(bytesOf(path), bytesOf(again)) << "equal images give equal files";
       EXPECT_EQ(bytesOf(path).find("DateTime"), std::string::npos);
       fs::remove(path);
       fs::remove(again);

@@ -13,19 +13,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string bytesOf(const fs::path& path) {
+std::string readBytes(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-RenderResult stokesPicture() {
-  RenderResult picture;
-  picture.width = 3;
-  picture.height = 2;
-  picture.channels = kStokesChannels;
-  for (std::size_t i = 0; i < 6 * kStokesChannels; ++i) picture.pixels.push_back(static_cast<float>(i) * 0.01f);
-  picture.device = "a device";
-  return picture;
+RenderResult stokesResult() {
+  RenderResult result;
+  result.width = 3;
+  result.height = 2;
+  result.channels = kStokesChannels;
+  for (std::size_t i = 0; i < 6 * kStokesChannels; ++i) result.pixels.push_back(static_cast<float>(i) * 0.01f);
+  result.device = "a device";
+  return result;
 }
 
 pack::Pack somePack() {
@@ -37,7 +37,7 @@ pack::Pack somePack() {
 }
 
 image::Image someImage() {
-  return toImage(stokesPicture(), somePack(), RenderParameters{3, 2, {0, 0, 3, 2}}, "embree", "stokes");
+  return toImage(stokesResult(), somePack(), RenderParameters{3, 2, {0, 0, 3, 2}}, "embree", "stokes");
 }
 
 TEST(Output, ExrKeepsChannelsAndMetadata) {
@@ -66,15 +66,15 @@ TEST(Output, ExrKeepsChannelsAndMetadata) {
   EXPECT_EQ(attribute("DateTime"), "none");
 }
 
-TEST(Output, EqualPicturesAreEqualFiles) {
+TEST(Output, EqualImagesGiveEqualFiles) {
   const fs::path folder = testing::TempDir();
   for (const char* extension : {"exr", "png"}) {
     const fs::path a = folder / (std::string("equal_a.") + extension),
                    b = folder / (std::string("equal_b.") + extension);
     writeImage(a, someImage(), 1);
     writeImage(b, someImage(), 1);
-    EXPECT_EQ(bytesOf(a), bytesOf(b)) << extension;
-    EXPECT_FALSE(bytesOf(a).empty());
+    EXPECT_EQ(readBytes(a), readBytes(b)) << extension;
+    EXPECT_FALSE(readBytes(a).empty());
   }
 }
 
@@ -95,8 +95,8 @@ TEST(Output, ToneCurveIsMonotonicAndMeetsSrgb) {
 }
 
 TEST(Output, RefusesOtherExtensions) {
-  EXPECT_THROW(writeImage("picture.jpg", someImage(), 0), Error);
-  EXPECT_THROW(writeImage("picture", someImage(), 0), Error);
+  EXPECT_THROW(writeImage("image.jpg", someImage(), 0), Error);
+  EXPECT_THROW(writeImage("image", someImage(), 0), Error);
 }
 
 TEST(Output, NoPartIsLeftWhereTheFolderIsMissing) {

@@ -32,9 +32,9 @@ TEST(SurfaceResponse, EqualsJones) {
       {1, 1.5, 0}, {1.5, 1, 0}, {1.33, 1.5195, 0}, {1, 0.1884, 3.4034}, {1.5, 2.8924, 3.0655}};
   for (const Interface& interface : interfaces)
     for (double degrees = 0; degrees <= 89; degrees += 7.1)
-      for (const Precision precision : {Precision::twofold, Precision::single}) {
+      for (const Precision precision : {Precision::doublePrecision, Precision::singlePrecision}) {
         SCOPED_TRACE(testing::Message() << interface.n1 << " to " << interface.n2 << " at " << degrees);
-        const double allowed = precision == Precision::twofold ? 1e-14 : 2e-6;
+        const double allowed = precision == Precision::doublePrecision ? 1e-14 : 2e-6;
         const SurfaceResponse r = surfaceResponse(interface, degrees, precision);
         const Complex n2(interface.n2, -interface.k2);
         const Real c = std::cos(degrees * std::numbers::pi_v<long double> / 180);
@@ -63,14 +63,14 @@ TEST(SurfaceResponse, EqualsJones) {
 }
 
 TEST(SurfaceResponse, AtTheEnds) {
-  const SurfaceResponse normal = surfaceResponse({1, 1.5, 0}, 0, Precision::twofold);
+  const SurfaceResponse normal = surfaceResponse({1, 1.5, 0}, 0, Precision::doublePrecision);
   EXPECT_NEAR(normal.rs, 0.04, 1e-15);
   EXPECT_EQ(normal.diattenuation, 0);
   EXPECT_EQ(normal.phaseDegrees, 180);
-  const SurfaceResponse grazing = surfaceResponse({1, 1.5, 0}, 90, Precision::single);
+  const SurfaceResponse grazing = surfaceResponse({1, 1.5, 0}, 90, Precision::singlePrecision);
   EXPECT_NEAR(grazing.rs, 1, 2e-7);
   EXPECT_EQ(*grazing.ts, 0);
-  const SurfaceResponse none = surfaceResponse({1.5, 1.5, 0}, 90, Precision::twofold);
+  const SurfaceResponse none = surfaceResponse({1.5, 1.5, 0}, 90, Precision::doublePrecision);
   EXPECT_EQ(none.rs, 0);
   EXPECT_EQ(none.diattenuation, 0);
   EXPECT_EQ(*none.ts, 1);

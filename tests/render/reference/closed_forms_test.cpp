@@ -57,7 +57,7 @@ TEST(ClosedForms, OneGlassMirror) {
     const pack::Scene scene = glassMirror(degrees);
     const Powers r = fresnel(std::cos(degrees * std::numbers::pi / 180), 1, kN);
     const glm::dvec4 s = reference(scene), f = embreeStokes(scene);
-    // s is the picture's x axis: S1 is positive.
+    // s is the x axis of the image: S1 is positive.
     EXPECT_NEAR(s[0], (r.s + r.p) / 2, 1e-6) << degrees;
     EXPECT_NEAR(s[1], (r.s - r.p) / 2, 1e-6) << degrees;
     EXPECT_NEAR(s[2], 0, 1e-6);
@@ -89,7 +89,7 @@ pack::Scene twoMirrors(double twist) {
   scene.environment.radiance = glm::dvec3(1);
   test::addMaterial(scene, test::dielectric(MaterialKind::mirrorGlass, kN));
   const double brewster = std::atan(kN), a = twist * std::numbers::pi / 180;
-  // The eye looks along -z at the first mirror, which sends the ray along d.
+  // The camera looks along -z at the first mirror, which sends the ray along d.
   const glm::dvec3 in(0, 0, -1), n1(0, std::sin(brewster), std::cos(brewster));
   const glm::dvec3 d = glm::normalize(in - 2 * glm::dot(in, n1) * n1);
   test::addSquare(scene, 0, {0, 0, 0}, n1, 0.5);
@@ -117,7 +117,7 @@ TEST(ClosedForms, TwoBrewsterMirrorsFollowMalus) {
   }
 }
 
-// A slab of clear glass between the eye and a white sky, seen at an angle: all orders of reflection inside.
+// A slab of clear glass between the camera and a white sky, tilted: all orders of internal reflection.
 TEST(ClosedForms, SlabOfGlassSumsAllOrders) {
   for (const double degrees : {0.0, 40.0, 60.0, 80.0}) {
     pack::Scene scene = test::emptyScene(30);
@@ -141,7 +141,7 @@ TEST(ClosedForms, SlabOfGlassSumsAllOrders) {
   }
 }
 
-// What light has two diattenuators: a Brewster mirror that sees paint at a grazing angle.
+// Two diattenuators: a Brewster mirror that reflects paint at grazing incidence.
 TEST(ClosedForms, PaintLeavesPolarized) {
   for (const double degrees : {0.0, 70.0, 80.0}) {
     pack::Scene scene = test::emptyScene(0);  // no mirror reflection: diffuse light alone

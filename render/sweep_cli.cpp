@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -14,23 +15,25 @@
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
-#include "render/cli.h"
 #include "render/image/output.h"
+#include "render/job.h"
+#include "render/options.h"
+#include "render/scene/methods.h"
 
 namespace malus::render {
 namespace fs = std::filesystem;
 
 namespace {
 
-struct SweepArguments : RenderSettings {
-  SweepArguments() { method = "stokes"; }
-  std::string folder;
+struct SweepArguments {
+  std::string pack, folder;
+  JobSettings job;
   unsigned frames = 36;
   std::optional<double> exposure;
   bool json = false;
 };
 
-// The folder, made where it is missing; removed again where nothing came to lie in it.
+// The output folder: created if it is missing, removed again if it stays empty.
 class OutputFolder {
  public:
   explicit OutputFolder(const fs::path& path) : path_(path) {
@@ -42,7 +45,7 @@ class OutputFolder {
   }
   ~OutputFolder() {
     std::error_code ignored;
-    if (made_) fs::remove(path_, ignored);  // an empty one only
+    if (made_) fs::remove(path_, ignored);  // fails unless the folder is empty
   }
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -52,16 +55,17 @@ class OutputFolder {
   bool made_ = false;
 };
 
-// The colour behind an analyser, from the Stokes channels of a rendered picture.
-image::Image behind(const Analyser& analyser, const RenderResult& picture) {
-  if (picture.channels != kStokesChannels) throw Error("malus sweep", "the picture has no Stokes vectors");
+// The colour behind an analyser, from the Stokes channels of a rendered image.
+image::Image imageBehind(const Analyser& analyser, const RenderResult& rendered) {
+  if (rendered.channels != kStokesChannels)
+    throw Error("--method", "the image has no Stokes vectors", "a method with Stokes vectors");
   image::Image result;
-  result.width = static_cast<int>(picture.width);
-  result.height = static_cast<int>(picture.height);
+  result.width = static_cast<int>(rendered.width);
+  result.height = static_cast<int>(rendered.height);
   result.channels = {"R", "G", "B"};
-  result.pixels.resize(kColourChannels * picture.width * picture.height);
+  result.pixels.resize(kColourChannels * rendered.width * rendered.height);
   for (std::size_t i = 0; i < result.pixels.size(); ++i) {
-    const float* stokes = picture.pixels.data() + i / 3 * kStokesChannels + kColourChannels + i % 3;
+    const float* stokes = rendered.pixels.data() + i / 3 * kStokesChannels + kColourChannels + i % 3;
     double intensity = 0;
     for (std::size_t k = 0; k < 4; ++k) intensity += analyser[k] * static_cast<double>(stokes[3 * k]);
     result.pixels[i] = static_cast<float>(intensity);
@@ -69,62 +73,83 @@ image::Image behind(const Analyser& analyser, const RenderResult& picture) {
   return result;
 }
 
-void runSweep(const SweepArguments& a) {
-  requireStokes(a, "--method");
-  const pack::Pack pack = pack::read(a.input);
-  RenderParameters parameters = parametersFor(a, pack.scene);
-  parameters.stokes = true;
-  const fs::path folder = a.folder;
-  const OutputFolder made(folder);
-  const std::string method = methodName(a.backend, a.method), backend = backendInfo(a.backend).name;
-  console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, backend, method));
-  const RenderResult picture = renderScene(a, pack.scene, parameters, false);
-  const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
-
-  const fs::path list = folder / "sweep.json";
-  std::error_code failed;
-  fs::remove(list, failed);  // of an earlier sweep: it would name frames of both
-  if (failed) throw Error(list.string(), "cannot replace", "a writable folder", failed.message());
-  const std::size_t digits = std::max<std::size_t>(3, std::to_string(a.frames - 1).size());
-  const auto nameOf = [&](unsigned frame) { return fmt::format("frame-{:0{}}.png", frame, digits); };
+// Writes every frame; returns their entries of sweep.json. fileName: by number.
+template <class FileName>
+nlohmann::json writeFrames(const SweepArguments& a, const FileName& fileName, const RenderResult& rendered,
+                           double exposureEv) {
   nlohmann::json frames = nlohmann::json::array();
   for (unsigned i = 0; i < a.frames; ++i) {
     const double degrees = 180.0 * i / a.frames;
     console::progress(fmt::format("writing frame {} of {}", i + 1, a.frames));
-    writeImage(folder / nameOf(i), behind(linearPolarizer(degrees), picture), exposureEv);
-    frames.push_back({{"file", nameOf(i)}, {"degrees", degrees}});
+    writeImage(fs::path(a.folder) / fileName(i), imageBehind(linearPolarizer(degrees), rendered), exposureEv);
+    frames.push_back({{"file", fileName(i)}, {"degrees", degrees}});
   }
-  const nlohmann::json result = {{"scene", pack.scene.name},  {"renderer", backend},
-                                 {"method", method},          {"device", picture.device},
-                                 {"width", picture.width},    {"height", picture.height},
-                                 {"depth", parameters.depth}, {"samples", parameters.samples},
-                                 {"exposureEv", exposureEv},  {"frames", frames}};
+  return frames;
+}
+
+void runSweep(const SweepArguments& a) {
+  requireStokes(a.job.backend, a.job.method, "--method");
+  const pack::Pack pack = pack::read(a.pack);
+  JobSettings settings = a.job;
+  settings.stokes = settings.storesStokes = true;
+  Job job(pack, settings);
+  const fs::path folder = a.folder;
+  const OutputFolder made(folder);
+  const std::string method = job.method(), backend = backendInfo(job.backend()).name;
+  console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, backend, method));
+  const RenderResult rendered = job.render();
+  const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
+
+  // Remove the list of an earlier sweep first: it would name frames of both.
+  const fs::path list = folder / "sweep.json";
+  std::error_code failed;
+  fs::remove(list, failed);
+  if (failed) throw Error(list.string(), "cannot replace", "a writable folder", failed.message());
+  const std::size_t digits = std::max<std::size_t>(3, std::to_string(a.frames - 1).size());
+  const auto fileName = [&](unsigned frame) { return fmt::format("frame-{:0{}}.png", frame, digits); };
+  const nlohmann::json frames = writeFrames(a, fileName, rendered, exposureEv);
+  const std::string& substitutedFor = job.substitutedFor();
+  const nlohmann::json result = {
+      {"scene", pack.scene.name},
+      {"renderer", backend},
+      {"method", method},
+      {"substitutedFor", substitutedFor.empty() ? nlohmann::json() : nlohmann::json(substitutedFor)},
+      {"device", rendered.device},
+      {"width", rendered.width},
+      {"height", rendered.height},
+      {"depth", job.parameters().depth},
+      {"samples", job.parameters().samples},
+      {"exposureEv", exposureEv},
+      {"frames", frames}};
   const std::string text = result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   writeFile(list, text);
   console::progressDone();
-  if (fs::exists(folder / nameOf(a.frames), failed))
+  if (fs::exists(folder / fileName(a.frames), failed))
     console::warn(
-        fmt::format("{}: {} and what follows it belong to an earlier sweep", folder.string(), nameOf(a.frames)));
+        fmt::format("{}: {} and later frames are left from an earlier sweep", folder.string(), fileName(a.frames)));
   if (a.json)
     fmt::print("{}", text);
   else
-    fmt::print("{}: {} {}, {} frames of {} x {} in {}\n", pack.scene.name, backend, method, a.frames, picture.width,
-               picture.height, folder.string());
+    fmt::print("{}: {} {}{}, {} frames of {} x {} in {}\n", pack.scene.name, backend, method,
+               substitutedFor.empty() ? "" : fmt::format(" (substituted for {})", substitutedFor), a.frames,
+               rendered.width, rendered.height, folder.string());
 }
 
 }  // namespace
 
 void addSweepCommand(CLI::App& app) {
   auto a = std::make_shared<SweepArguments>();
-  CLI::App* command =
-      app.add_subcommand("sweep", "Renders a polarizer that turns through 180 degrees, as numbered frames");
-  addRenderSettings(*command, *a);
-  command->add_option("-o,--output", a->folder, "folder for frame-000.png, ... and sweep.json")->required();
-  command->add_option("--frames", a->frames, "pictures between 0 and 180 degrees")
+  a->job.method = completeRecursiveMethod().name;
+  CLI::App* command = app.add_subcommand("sweep", "Render a polarizer that rotates by 180 degrees, as numbered frames");
+  addJobOptions(*command, a->pack, a->job);
+  command->add_option("-o,--output", a->folder, "Folder for frame-000.png, ... and sweep.json")
+      ->required()
+      ->type_name("FOLDER");
+  command->add_option("--frames", a->frames, "Number N of images, the polarizer at 0, 180/N, ... degrees")
       ->check(CLI::Range(1u, 100000u))
       ->capture_default_str();
-  addExposure(*command, a->exposure, "exposure of all frames");
-  command->add_flag("--json", a->json, "print sweep.json");
+  addExposure(*command, a->exposure);
+  command->add_flag("--json", a->json, "Print sweep.json");
   command->callback([a] { runSweep(*a); });
 }
 

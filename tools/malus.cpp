@@ -14,6 +14,7 @@
 #include "meshprep/cli.h"
 #include "render/cli.h"
 #include "render/compare/cli.h"
+#include "render/compare_images_cli.h"
 #include "render/material_cli.h"
 #include "render/sweep_cli.h"
 #include "render/vulkan/gpu_model.h"

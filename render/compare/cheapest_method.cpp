@@ -31,7 +31,7 @@ fs::path cacheFile(const std::string& key) {
   return folder / fmt::format("{:016x}.json", pack::hashOf(std::as_bytes(std::span(key))));
 }
 
-// Empty where there is no cache or another key had the same hash.
+// Empty if there is no cache, or if another key has the same hash.
 std::vector<MethodEstimate> load(const fs::path& path, const std::string& key) {
   std::error_code ignored;
   if (path.empty() || !fs::exists(path, ignored)) return {};
@@ -55,14 +55,14 @@ void save(const fs::path& path, const std::string& key, const std::vector<Method
   try {
     fs::create_directories(path.parent_path());
     writeFile(path, json{{"key", key}, {"estimates", estimates}}.dump(1));
-  } catch (const std::exception&) {  // without a cache the next run measures again
+  } catch (const std::exception&) {  // not an error: the next run measures again
   }
 }
 
 }  // namespace
 
 std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const RenderParameters& full, Renderer& renderer,
-                                            unsigned threads, const std::function<void(std::string_view)>& progress) {
+                                            unsigned threads, const Progress& progress) {
   RenderParameters parameters = full;
   parameters.width = kWidth;
   parameters.height =
@@ -77,7 +77,7 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const Render
   const fs::path path = cacheFile(key);
   if (std::vector<MethodEstimate> known = load(path, key); !known.empty()) return known;
 
-  progress("measuring every method's error on a small picture");
+  progress("measuring the error of every method on a small image");
   const RenderResult reference = makeRenderer(Backend::reference, pack.scene, {"", threads})->render("", parameters);
   std::vector<MethodEstimate> list;
   std::vector<std::vector<double>> samples;
@@ -85,13 +85,13 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const Render
       list.push_back(
           {method, imageError(renderer.render(method, parameters), reference, pack.scene.exposureEv).relRms, 0});
       samples.emplace_back();
-    } catch (const Error&) {  // this device cannot do it at this depth: others may
+    } catch (const Error&) {  // not on this device at this depth
       if (method == methodNames().back() && list.empty()) throw;
     }
   for (int round = 0; round < kRounds; ++round)
     for (std::size_t i = 0; i < list.size(); ++i)
       samples[i].push_back(renderer.render(list[i].method, parameters).cost.traceMs);
-  for (std::size_t i = 0; i < list.size(); ++i) list[i].medianMs = spreadOf(samples[i]).median;
+  for (std::size_t i = 0; i < list.size(); ++i) list[i].medianMs = computeSpread(samples[i]).median;
   save(path, key, list);
   return list;
 }

@@ -1,13 +1,12 @@
-// Which method is the cheapest that is good enough for a pack: every method is rendered small against the
-// reference, and what was found is kept in the user's cache folder by the hash of pack and view.
+// The cheapest method within an error bound on a pack. Every method renders a small image that is compared with the
+// reference; the results are cached in the user's cache folder by the hash of pack and parameters.
 #pragma once
 
-#include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bake/pack/reader.h"
+#include "render/progress.h"
 #include "render/renderer.h"
 #include "render/scene/render_parameters.h"
 
@@ -15,17 +14,17 @@ namespace malus::render {
 
 struct MethodEstimate {
   std::string method;
-  double relRms = 0;    // against the reference, of the small picture
-  double medianMs = 0;  // of its interleaved rounds
+  double relRms = 0;    // of the small image, against the reference (ImageError::relRms)
+  double medianMs = 0;  // of interleaved rounds
 };
 
-// Every method's error and time for a pack with this depth and filter, at a width of 256 pixels, from the cache if it
-// is there. renderer: made from pack.scene. threads: of the reference, 0 for all. Throws what rendering throws.
+// Measures error and time of every method on a pack with this depth and filter, at a width of 256 pixels, or reads them
+// from the cache. Leaves out methods that the device cannot render by. renderer: made from pack.scene. threads: of the
+// reference, 0 for all. Throws Error if no method renders.
 std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const RenderParameters& parameters,
-                                            Renderer& renderer, unsigned threads,
-                                            const std::function<void(std::string_view)>& progress);
+                                            Renderer& renderer, unsigned threads, const Progress& progress);
 
-// The fastest with relRms <= maxError. Throws Error, naming the best there is, where there is none.
+// The fastest with relRms <= maxError. Throws Error, naming the most accurate, if there is none.
 const MethodEstimate& cheapestUnder(const std::vector<MethodEstimate>& estimates, double maxError);
 
 }  // namespace malus::render

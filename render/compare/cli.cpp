@@ -1,18 +1,17 @@
 #include "render/compare/cli.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "bake/pack/format.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/compare/results.h"
 #include "render/method_option.h"
+#include "render/options.h"
 #include "render/report_script.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/gpu_model.h"
@@ -27,44 +26,57 @@ struct Arguments {
   std::string output;
   ComparisonSettings settings;
   bool noReport = false, json = false;
+
+  // Depth at which pipelines are compiled for statistics.
+  std::uint32_t depth(const pack::Scene& scene) const {
+    return settings.depths.empty() ? scene.depth : settings.depths.front();
+  }
 };
+
+void append(Comparison& comparison, const std::vector<vulkan::PipelineStatistics>& list, const std::string& scene) {
+  for (const vulkan::PipelineStatistics& s : list) {
+    nlohmann::json entry = vulkan::toJson(s);
+    entry["scene"] = scene;
+    if (s.family.empty()) entry["family"] = s.device;  // a real device
+    comparison.gpuModel.push_back(std::move(entry));
+  }
+}
+
+// Adds the statistics that the driver of the timed device reports of its pipelines, if it does.
+void addDeviceStatistics(Comparison& comparison, const Arguments& a) {
+  if (!comparison.devices.contains(backendInfo(Backend::vulkan).name)) return;
+  for (const auto& [name, pack] : comparison.packs)
+    if (!comparison.interrupted) try {
+        append(comparison,
+               vulkan::deviceStatistics(pack.scene, a.settings.methods, a.depth(pack.scene), a.settings.device), name);
+      } catch (const Error& error) {  // the timings are still valid
+        console::warn(fmt::format("{}: no statistics of the device's pipelines: {}", name, error.what()));
+      }
+}
+
+// Adds a compiler's estimates for GPU families that this machine does not have.
+void addFamilyEstimates(Comparison& comparison, const Arguments& a) {
+  for (const std::string& family : a.settings.gpuFamilies)
+    for (const std::string& path : a.packs) {
+      if (comparison.interrupted) return;
+      const pack::Scene scene = pack::read(path).scene;
+      console::progress(fmt::format("{}: compiling for {}", scene.name, family));
+      append(comparison, vulkan::gpuModel(path, family, a.settings.methods, a.depth(scene)), scene.name);
+    }
+}
 
 void runCompare(const Arguments& a) {
   const fs::path folder = a.output;
   std::error_code failed;
-  fs::create_directories(folder / "pictures", failed);
+  fs::create_directories(folder / "images", failed);
   if (failed)
-    throw Error((folder / "pictures").string(), "cannot make the folder", "a writable place", failed.message());
+    throw Error((folder / "images").string(), "cannot create the folder", "a writable place", failed.message());
 
   const InterruptScope scope;
   Comparison comparison = compare({a.packs.begin(), a.packs.end()}, a.settings, folder, console::progress);
   console::progressDone();
-  const auto depthOf = [&](const pack::Scene& scene) {
-    return a.settings.depths.empty() ? scene.depth : a.settings.depths.front();
-  };
-  const auto keep = [&](const std::vector<vulkan::PipelineStatistics>& list, const std::string& scene) {
-    for (const vulkan::PipelineStatistics& s : list) {
-      comparison.gpuModel.push_back(vulkan::toJson(s));
-      comparison.gpuModel.back()["scene"] = scene;
-      if (s.family.empty()) comparison.gpuModel.back()["family"] = s.device;  // a real one
-    }
-  };
-  // What the compiler of the device that was timed tells of its pipelines, where it tells.
-  const auto& backends = a.settings.backends;
-  if (std::find(backends.begin(), backends.end(), Backend::vulkan) != backends.end())
-    for (const auto& [name, pack] : comparison.packs)
-      if (!comparison.interrupted && comparison.devices.contains("vulkan")) try {
-          keep(vulkan::deviceStatistics(pack.scene, a.settings.methods, depthOf(pack.scene), a.settings.device), name);
-        } catch (const Error& error) {  // what was timed is worth more
-          console::warn(fmt::format("{}: no statistics of the device's pipelines: {}", name, error.what()));
-        }
-  // Compilers' estimates for GPUs that are not here.
-  for (const std::string& family : a.settings.gpuFamilies)
-    for (std::size_t i = 0; i < a.packs.size() && !comparison.interrupted; ++i) {
-      const pack::Scene scene = pack::read(a.packs[i]).scene;
-      console::progress(fmt::format("{}: compiling for {}", scene.name, family));
-      keep(vulkan::gpuModel(a.packs[i], family, a.settings.methods, depthOf(scene)), scene.name);
-    }
+  addDeviceStatistics(comparison, a);
+  addFamilyEstimates(comparison, a);
   const nlohmann::json results = toJson(comparison, a.settings);
   writeFile(folder / "results.json", results.dump(1) + "\n");
   writeFile(folder / "results.csv", toCsv(comparison));
@@ -76,62 +88,57 @@ void runCompare(const Arguments& a) {
     console::warn(fmt::format("interrupted: {} finished rounds are in {}", comparison.rounds, folder.string()));
     throw Interrupted{};
   }
-  if (!a.noReport) {
-    console::progress("writing the report");
-    runReportScript("compare_report.py", {folder.string()}, "",
-                    "the report's pages could not be made; results.json and results.csv are there");
-    console::progressDone();
-    if (!a.json) fmt::print("report: {}\n", (folder / "index.html").string());
-  }
+  if (a.noReport) return;
+  console::progress("writing the report");
+  runReportScript("compare_report.py", {folder.string()}, "",
+                  "cannot write the report; results.json and results.csv are complete");
+  console::progressDone();
+  if (!a.json) fmt::print("report: {}\n", (folder / "index.html").string());
+}
+
+void addBackends(CLI::App& command, std::vector<Backend>& backends) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--backends",
+          [&backends](const std::vector<std::string>& names) {
+            backends.clear();
+            for (const std::string& name : names) backends.push_back(backendNamed(name));
+          },
+          "Renderers (default: all that render by methods)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(methodBackendNames()));
 }
 
 }  // namespace
 
 void addCompareCommand(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  a->settings.methods = methodNames();
-  CLI::App* command = app.add_subcommand("compare", "Compares methods and renderers: error against time");
-  command->add_option("packs", a->packs, "scene packs")->required();
-  command->add_option("-o,--output", a->output, "folder for the report")->required();
-  command->add_option("--methods", a->settings.methods, "methods (default: all)")
-      ->delimiter(',')
-      ->transform(methodName());
-  command
-      ->add_option_function<std::vector<std::string>>(
-          "--backends",
-          [a](const std::vector<std::string>& names) {
-            a->settings.backends.clear();
-            for (const std::string& name : names) a->settings.backends.push_back(backendNamed(name));
-          },
-          "renderers (default: both)")
-      ->delimiter(',')
-      ->check(CLI::IsMember(methodBackendNames()));
-  auto* width = command->add_option("--width", a->settings.widths, "widths of the pictures (default: the scene's)")
-                    ->delimiter(',')
-                    ->check(CLI::Range(1u, 16384u));
-  auto* height = command->add_option("--height", a->settings.heights, "their heights (default: by the scene's aspect)")
-                     ->delimiter(',')
-                     ->check(CLI::Range(1u, 16384u));
-  command->add_option("--scale", a->settings.scale, "size relative to the scene's, along each side")
+  ComparisonSettings& settings = a->settings;
+  settings.methods = methodNames();
+  CLI::App* command = app.add_subcommand("compare", "Compare methods and renderers: error against time");
+  command->add_option("packs", a->packs, "Scene packs")->required()->type_name("PACK");
+  command->add_option("-o,--output", a->output, "Folder for the report")->required()->type_name("FOLDER");
+  command->add_option("--methods", settings.methods, "Methods (default: all)")->delimiter(',')->transform(methodName());
+  addBackends(*command, settings.backends);
+  CLI::Option* width = addWidth(*command, settings.widths);
+  CLI::Option* height = addHeight(*command, settings.heights);
+  command->add_option("--scale", settings.scale, "Size relative to the pack's, along each side (default: 1)")
       ->check(CLI::Range(0.001, 4.0))
       ->excludes(width)
       ->excludes(height);
-  command->add_option("--depth", a->settings.depths, "depths (default: the scene's)")
-      ->delimiter(',')
-      ->check(CLI::Range(0u, pack::kMaxDepth));
-  command->add_option("--rounds", a->settings.rounds, "timed rounds after the warm-up")->capture_default_str();
-  command->add_option("--threads", a->settings.threads, "CPU threads, 0 for all")
-      ->check(CLI::Range(0u, 1024u))
-      ->capture_default_str();
-  command->add_option("--device", a->settings.device, "Vulkan device: number or part of its name from --list-devices");
-  command->add_option("--polarizer", a->settings.polarizerDegrees,
-                      "linear polarizer in front of the camera, in degrees");
+  addDepth(*command, settings.depths);
+  command->add_option("--rounds", settings.rounds, "Timed rounds after the warm-up")->capture_default_str();
+  addDevice(*command, settings.device, settings.threads);
   command
-      ->add_option("--gpu-model", a->settings.gpuFamilies,
-                   "GPU families (navi21, navi31, ...): a compiler's static cost estimate for each, not a time")
+      ->add_option("--polarizer", settings.polarizerDegrees,
+                   "Linear polarizer in front of the camera, from the image's x axis, counter-clockwise [degrees]")
+      ->check(finite());
+  command
+      ->add_option("--gpu-model", settings.gpuFamilies,
+                   "GPU families (navi21, navi31, ...) for a compiler's static cost estimate")
       ->delimiter(',');
-  command->add_flag("--no-report", a->noReport, "results.json, results.csv and pictures only");
-  command->add_flag("--json", a->json, "print results.json instead of the table");
+  command->add_flag("--no-report", a->noReport, "Write only results.json, results.csv and the images");
+  command->add_flag("--json", a->json, "Print results.json instead of the table");
   command->callback([a] { runCompare(*a); });
 }
 

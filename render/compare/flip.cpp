@@ -31,19 +31,19 @@ Colour product(const double (&m)[3][3], const Colour& v) {
 }
 const Colour kWhite = product(kToXyz, {1, 1, 1});
 
-// Opponent space YCxCz, in which the eye's contrast sensitivity is known, and back.
-Colour opponentOf(const Colour& linear) {
+// Opponent space YCxCz, in which the contrast sensitivity of human vision is known, and back.
+Colour toOpponent(const Colour& linear) {
   const Colour xyz = product(kToXyz, linear);
   const double x = xyz[0] / kWhite[0], y = xyz[1] / kWhite[1], z = xyz[2] / kWhite[2];
   return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
-Colour linearOf(const Colour& opponent) {
+Colour toLinearRgb(const Colour& opponent) {
   const double y = (opponent[0] + 16) / 116, x = y + opponent[1] / 500, z = y - opponent[2] / 200;
   return product(kFromXyz, {x * kWhite[0], y * kWhite[1], z * kWhite[2]});
 }
 
-// CIELAB with the Hunt effect: colours of dark surroundings look weaker.
-Colour huntLabOf(const Colour& linear) {
+// CIELAB with the Hunt effect: colours of low luminance look less saturated.
+Colour toHuntLab(const Colour& linear) {
   const Colour xyz = product(kToXyz, linear);
   const auto f = [](double t) {
     constexpr double kDelta = 6.0 / 29;
@@ -63,7 +63,7 @@ struct Size {
 // Taps from -radius to radius.
 using Kernel = std::vector<double>;
 template <class F>
-Kernel kernelOf(int radius, F value) {
+Kernel makeKernel(int radius, F value) {
   Kernel k;
   for (int i = -radius; i <= radius; ++i) k.push_back(value(static_cast<double>(i)));
   return k;
@@ -76,8 +76,8 @@ Kernel balanced(Kernel k) {
   return k;
 }
 
-// along: taps in x, across: taps in y; pixels beyond the picture repeat its border.
-Plane convolved(const Plane& in, const Size& size, const Kernel& along, const Kernel& across) {
+// Separable convolution. Pixels outside the image repeat its border.
+Plane convolved(const Plane& in, const Size& size, const Kernel& kernelX, const Kernel& kernelY) {
   Plane rows(in.size()), out(in.size());
   const auto pass = [&](const Plane& from, Plane& to, const Kernel& kernel, bool horizontal) {
     const auto radius = static_cast<std::ptrdiff_t>(kernel.size() / 2);
@@ -95,32 +95,32 @@ Plane convolved(const Plane& in, const Size& size, const Kernel& along, const Ke
       }
     });
   };
-  pass(in, rows, along, true);
-  pass(rows, out, across, false);
+  pass(in, rows, kernelX, true);
+  pass(rows, out, kernelY, false);
   return out;
 }
 
-// Contrast sensitivity of one opponent channel: a sum of two Gaussians in the picture, each separable.
+// Contrast sensitivity of one opponent channel: a sum of two separable Gaussians over the image.
 struct Sensitivity {
   double a1, b1, a2, b2;
 };
 constexpr Sensitivity kSensitivity[3] = {{1, 0.0047, 0, 1e-5}, {1, 0.0053, 0, 1e-5}, {34.1, 0.04, 13.5, 0.025}};
 
-Plane asSeen(const Plane& in, const Size& size, const Sensitivity& s, double pixelsPerDegree) {
+Plane filteredBySensitivity(const Plane& in, const Size& size, const Sensitivity& s, double pixelsPerDegree) {
   constexpr double kPi = std::numbers::pi, kWidest = 0.04;
   const int radius = static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixelsPerDegree));
   const auto gaussian = [&](double b) {
-    return kernelOf(radius,
-                    [&](double i) { return std::exp(-kPi * kPi * (i / pixelsPerDegree) * (i / pixelsPerDegree) / b); });
+    return makeKernel(
+        radius, [&](double i) { return std::exp(-kPi * kPi * (i / pixelsPerDegree) * (i / pixelsPerDegree) / b); });
   };
-  const auto sumOf = [](const Kernel& k) {
+  const auto tapSum = [](const Kernel& k) {
     double sum = 0;
     for (const double v : k) sum += v;
     return sum;
   };
   const Kernel g1 = gaussian(s.b1), g2 = gaussian(s.b2);
   const double w1 = s.a1 * std::sqrt(kPi / s.b1), w2 = s.a2 * std::sqrt(kPi / s.b2);
-  const double total = w1 * sumOf(g1) * sumOf(g1) + w2 * sumOf(g2) * sumOf(g2);
+  const double total = w1 * tapSum(g1) * tapSum(g1) + w2 * tapSum(g2) * tapSum(g2);
   Plane out = convolved(in, size, g1, g1);
   for (double& v : out) v *= w1 / total;
   if (w2 > 0) {
@@ -134,14 +134,14 @@ Plane asSeen(const Plane& in, const Size& size, const Sensitivity& s, double pix
 struct Features {
   Plane edges, points;
 };
-Features featuresOf(const Plane& achromatic, const Size& size, double pixelsPerDegree) {
+Features detectFeatures(const Plane& achromatic, const Size& size, double pixelsPerDegree) {
   constexpr double kFeatureDegrees = 0.082;
   const double sd = 0.5 * kFeatureDegrees * pixelsPerDegree;
   const int radius = static_cast<int>(std::ceil(3 * sd));
   const auto g = [&](double i) { return std::exp(-i * i / (2 * sd * sd)); };
-  const Kernel smooth = balanced(kernelOf(radius, g));
-  const Kernel first = balanced(kernelOf(radius, [&](double i) { return -i * g(i); }));
-  const Kernel second = balanced(kernelOf(radius, [&](double i) { return (i * i / (sd * sd) - 1) * g(i); }));
+  const Kernel smooth = balanced(makeKernel(radius, g));
+  const Kernel first = balanced(makeKernel(radius, [&](double i) { return -i * g(i); }));
+  const Kernel second = balanced(makeKernel(radius, [&](double i) { return (i * i / (sd * sd) - 1) * g(i); }));
   const auto strength = [&](const Kernel& kernel) {
     Plane x = convolved(achromatic, size, kernel, smooth);
     const Plane y = convolved(achromatic, size, smooth, kernel);
@@ -151,12 +151,12 @@ Features featuresOf(const Plane& achromatic, const Size& size, double pixelsPerD
   return {strength(first), strength(second)};
 }
 
-struct Seen {
-  std::array<Plane, 3> filtered;  // opponent channels behind the eye's sensitivity
+struct Perceived {
+  std::array<Plane, 3> filtered;  // opponent channels, filtered by the contrast sensitivity
   Features features;
 };
-Seen seen(const RenderResult& picture, double gain, double pixelsPerDegree) {
-  const Size size{picture.width, picture.height};
+Perceived perceive(const RenderResult& image, double gain, double pixelsPerDegree) {
+  const Size size{image.width, image.height};
   const std::size_t count = size.width * size.height;
   std::array<Plane, 3> planes;
   for (Plane& p : planes) p.resize(count);
@@ -164,16 +164,17 @@ Seen seen(const RenderResult& picture, double gain, double pixelsPerDegree) {
   for (std::size_t i = 0; i < count; ++i) {
     Colour c{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const double value = picture.pixels[i * picture.channels + k] * gain;
+      const double value = image.pixels[i * image.channels + k] * gain;
       c[k] = std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 1.0;
     }
-    const Colour o = opponentOf(c);
+    const Colour o = toOpponent(c);
     for (std::size_t k = 0; k < 3; ++k) planes[k][i] = o[k];
     achromatic[i] = (o[0] + 16) / 116;
   }
-  Seen result;
-  for (std::size_t k = 0; k < 3; ++k) result.filtered[k] = asSeen(planes[k], size, kSensitivity[k], pixelsPerDegree);
-  result.features = featuresOf(achromatic, size, pixelsPerDegree);
+  Perceived result;
+  for (std::size_t k = 0; k < 3; ++k)
+    result.filtered[k] = filteredBySensitivity(planes[k], size, kSensitivity[k], pixelsPerDegree);
+  result.features = detectFeatures(achromatic, size, pixelsPerDegree);
   return result;
 }
 
@@ -183,19 +184,19 @@ constexpr double kKnee = 0.4, kKneeValue = 0.95;
 
 }  // namespace
 
-double meanFlip(const RenderResult& picture, const RenderResult& reference, double exposureEv, double pixelsPerDegree) {
-  if (picture.width != reference.width || picture.height != reference.height)
-    throw Error("", "pictures differ in size", fmt::format("{} x {}", reference.width, reference.height),
-                fmt::format("{} x {}", picture.width, picture.height));
+double meanFlip(const RenderResult& image, const RenderResult& reference, double exposureEv, double pixelsPerDegree) {
+  if (image.width != reference.width || image.height != reference.height)
+    throw Error("", "the images differ in size", fmt::format("{} x {}", reference.width, reference.height),
+                fmt::format("{} x {}", image.width, image.height));
   const double gain = std::exp2(exposureEv);
-  const Seen a = seen(picture, gain, pixelsPerDegree), b = seen(reference, gain, pixelsPerDegree);
+  const Perceived a = perceive(image, gain, pixelsPerDegree), b = perceive(reference, gain, pixelsPerDegree);
   // The largest colour difference that a display can make: green against blue.
-  const double largest = std::pow(hyAb(huntLabOf({0, 1, 0}), huntLabOf({0, 0, 1})), kColourPower);
+  const double largest = std::pow(hyAb(toHuntLab({0, 1, 0}), toHuntLab({0, 0, 1})), kColourPower);
   const double knee = kKnee * largest;
-  const auto labAt = [](const Seen& s, std::size_t i) {
-    Colour c = linearOf({s.filtered[0][i], s.filtered[1][i], s.filtered[2][i]});
+  const auto labAt = [](const Perceived& s, std::size_t i) {
+    Colour c = toLinearRgb({s.filtered[0][i], s.filtered[1][i], s.filtered[2][i]});
     for (double& v : c) v = std::clamp(v, 0.0, 1.0);
-    return huntLabOf(c);
+    return toHuntLab(c);
   };
   double sum = 0;
   const std::size_t count = a.features.edges.size();

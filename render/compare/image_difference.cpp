@@ -14,13 +14,13 @@ namespace {
 
 void requireSameSize(const image::Image& a, const image::Image& b) {
   if (a.width != b.width || a.height != b.height)
-    throw Error("", "pictures differ in size", fmt::format("{} x {}", a.width, a.height),
+    throw Error("", "the images differ in size", fmt::format("{} x {}", a.width, a.height),
                 fmt::format("{} x {}", b.width, b.height));
 }
 
-std::size_t channelOf(const image::Image& image, const std::string& name) {
+std::size_t channelIndex(const image::Image& image, const std::string& name) {
   const int index = image.channel(name);
-  if (index < 0) throw Error("", fmt::format("a picture has no channel {}", name), "it in both");
+  if (index < 0) throw Error("", fmt::format("an image has no channel {}", name), "the channel in both images");
   return static_cast<std::size_t>(index);
 }
 
@@ -30,7 +30,7 @@ ImageDifference difference(const image::Image& a, const image::Image& b, const s
                            double threshold) {
   requireSameSize(a, b);
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (const std::string& name : channels) pairs.emplace_back(channelOf(a, name), channelOf(b, name));
+  for (const std::string& name : channels) pairs.emplace_back(channelIndex(a, name), channelIndex(b, name));
   ImageDifference result;
   result.pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
   std::vector<double> largest(result.pixels);
@@ -77,7 +77,7 @@ image::Image differenceImage(const image::Image& a, const image::Image& b, doubl
   result.channels = {"R", "G", "B"};
   result.pixels.resize(static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height) * 3);
   for (std::size_t c = 0; c < 3; ++c) {
-    const std::size_t ca = channelOf(a, result.channels[c]), cb = channelOf(b, result.channels[c]);
+    const std::size_t ca = channelIndex(a, result.channels[c]), cb = channelIndex(b, result.channels[c]);
     for (std::size_t i = 0; i * 3 < result.pixels.size(); ++i)
       result.pixels[3 * i + c] = static_cast<float>(
           gain * std::abs(double{a.pixels[i * a.channels.size() + ca]} - b.pixels[i * b.channels.size() + cb]));

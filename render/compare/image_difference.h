@@ -1,4 +1,4 @@
-// How far two pictures are apart.
+// Difference of two images.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 namespace malus::render {
 
 struct ImageDifference {
-  double mean = 0;  // of the absolute differences, over pixels and channels
+  double mean = 0;  // absolute difference, over pixels and channels
   double rms = 0;
   double max = 0;
-  double p999 = 0;             // 99.9 percentile, over pixels, of the largest difference among the channels
-  std::uint64_t outliers = 0;  // pixels whose largest difference is over the threshold
+  double p999 = 0;             // 99.9 percentile over the pixels of the largest difference of any channel
+  std::uint64_t outliers = 0;  // pixels whose largest difference is above the threshold
   std::uint64_t pixels = 0;
-  std::uint64_t nonFinite = 0;  // pixels with NaN or infinity in one picture only, or in both; also outliers
+  std::uint64_t nonFinite = 0;  // pixels with NaN or infinity in either image; also outliers
 };
 
-// Of the named channels; each must be in both. Throws Error: sizes differ, a channel is missing.
+// Compares the named channels. Throws Error: the sizes differ, or an image lacks a channel.
 ImageDifference difference(const image::Image& a, const image::Image& b, const std::vector<std::string>& channels,
                            double threshold);
 
-// Absolute difference of R, G, B times gain, as a picture.
+// Absolute difference of R, G and B times gain. Throws as difference() does.
 image::Image differenceImage(const image::Image& a, const image::Image& b, double gain);
 
 }  // namespace malus::render

@@ -11,11 +11,11 @@
 
 namespace malus::render {
 
-ImageError imageError(const RenderResult& picture, const RenderResult& reference, double exposureEv) {
-  if (picture.width != reference.width || picture.height != reference.height)
-    throw Error("", "pictures differ in size", fmt::format("{} x {}", reference.width, reference.height),
-                fmt::format("{} x {}", picture.width, picture.height));
-  const std::size_t count = std::size_t{picture.width} * picture.height;
+ImageError imageError(const RenderResult& image, const RenderResult& reference, double exposureEv) {
+  if (image.width != reference.width || image.height != reference.height)
+    throw Error("", "the images differ in size", fmt::format("{} x {}", reference.width, reference.height),
+                fmt::format("{} x {}", image.width, image.height));
+  const std::size_t count = std::size_t{image.width} * image.height;
   double total = 0;
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t c = 0; c < 3; ++c) total += reference.pixels[i * reference.channels + c];
@@ -23,27 +23,26 @@ ImageError imageError(const RenderResult& picture, const RenderResult& reference
 
   ImageError error;
   double sum = 0, squares = 0, referenceSquares = 0, energy = 0;
-  std::size_t off = 0;
+  std::size_t wrong = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    bool isOff = false;
+    bool isWrong = false;
     for (std::size_t c = 0; c < 3; ++c) {
-      const double truth = reference.pixels[i * reference.channels + c],
-                   value = picture.pixels[i * picture.channels + c];
+      const double truth = reference.pixels[i * reference.channels + c], value = image.pixels[i * image.channels + c];
       const double d = std::isfinite(value) ? std::abs(value - truth) : std::numeric_limits<double>::infinity();
       sum += d;
       squares += d * d;
       referenceSquares += truth * truth;
       energy += value;
       error.maxAbs = std::max(error.maxAbs, d);
-      isOff = isOff || d > 0.01 * std::max(std::abs(truth), floor);
+      isWrong = isWrong || d > 0.01 * std::max(std::abs(truth), floor);
     }
-    if (isOff) ++off;
+    if (isWrong) ++wrong;
   }
   error.meanAbs = sum / (3 * static_cast<double>(count));
   error.relRms = referenceSquares > 0 ? std::sqrt(squares / referenceSquares) : std::sqrt(squares);
-  error.shareOver1Percent = static_cast<double>(off) / static_cast<double>(count);
+  error.shareOver1Percent = static_cast<double>(wrong) / static_cast<double>(count);
   error.energyRatio = total > 0 ? energy / total : (energy == 0 ? 1 : std::numeric_limits<double>::infinity());
-  error.perceptual = meanFlip(picture, reference, exposureEv);
+  error.perceptual = meanFlip(image, reference, exposureEv);
   return error;
 }
 

@@ -14,7 +14,7 @@ namespace {
 // JSON has no infinity.
 json number(double value) { return std::isfinite(value) ? json(value) : json(); }
 
-double medianOf(const std::vector<double>& values) { return values.empty() ? 0 : spreadOf(values).median; }
+double median(const std::vector<double>& values) { return values.empty() ? 0 : computeSpread(values).median; }
 
 json toJson(const ComparisonRow& row) {
   json result = {{"scene", row.scene},           {"renderer", backendInfo(row.backend).name},
@@ -22,30 +22,30 @@ json toJson(const ComparisonRow& row) {
                  {"width", row.width},           {"height", row.height},
                  {"depth", row.depth},           {"payloadBytes", row.payloadBytes},
                  {"stateBytes", row.stateBytes}, {"status", row.status}};
-  const bool drawn = row.ok(), timed = drawn && !row.samplesMs.empty();
+  const bool rendered = row.ok(), timed = rendered && !row.samplesMs.empty();
   const auto when = [](bool known, json value) { return known ? std::move(value) : json(); };
-  result["rays"] = when(drawn, row.rays);
+  result["rays"] = when(rendered, row.rays);
   result["samplesMs"] = row.samplesMs;
   result["medianMs"] = when(timed, row.time.median);
   result["quartilesMs"] = when(timed, {row.time.low, row.time.high});
-  result["wallMs"] = when(timed, medianOf(row.wallMs));
-  result["cpuMs"] = when(timed, medianOf(row.cpuMs));
-  result["readBackMs"] = when(timed, medianOf(row.readBackMs));
-  result["buildMs"] = when(drawn, row.buildMs);
-  result["uploadMs"] = when(drawn, row.uploadMs);
-  result["compileMs"] = when(drawn, row.compileMs);
+  result["wallMs"] = when(timed, median(row.wallMs));
+  result["cpuMs"] = when(timed, median(row.cpuMs));
+  result["readBackMs"] = when(timed, median(row.readBackMs));
+  result["buildMs"] = when(rendered, row.buildMs);
+  result["uploadMs"] = when(rendered, row.uploadMs);
+  result["compileMs"] = when(rendered, row.compileMs);
   result["raysPerSecond"] = when(timed, timed ? static_cast<double>(row.rays) / row.time.median * 1e3 : 0);
   result["ratioToSchlick"] =
       when(timed && row.ratioToSchlick.median > 0,
            {{"median", row.ratioToSchlick.median}, {"low", row.ratioToSchlick.low}, {"high", row.ratioToSchlick.high}});
-  result["indistinguishable"] = row.indistinguishable;
-  result["error"] = when(drawn, {{"meanAbs", number(row.error.meanAbs)},
-                                 {"maxAbs", number(row.error.maxAbs)},
-                                 {"relRms", number(row.error.relRms)},
-                                 {"shareOver1Percent", row.error.shareOver1Percent},
-                                 {"perceptual", row.error.perceptual},
-                                 {"energyRatio", number(row.error.energyRatio)}});
-  result["picture"] = when(drawn && !row.picture.empty(), fmt::format("pictures/{}", row.picture));
+  result["indistinguishable"] = row.noSignificantDifference;
+  result["error"] = when(rendered, {{"meanAbs", number(row.error.meanAbs)},
+                                    {"maxAbs", number(row.error.maxAbs)},
+                                    {"relRms", number(row.error.relRms)},
+                                    {"shareOver1Percent", row.error.shareOver1Percent},
+                                    {"perceptual", row.error.perceptual},
+                                    {"energyRatio", number(row.error.energyRatio)}});
+  result["image"] = when(rendered && !row.image.empty(), fmt::format("images/{}", row.image));
   return result;
 }
 
@@ -53,9 +53,9 @@ json spreadJson(const Spread& s) {
   return s.median > 0 ? json{{"median", s.median}, {"low", s.low}, {"high", s.high}} : json();
 }
 
-// One row of the effects' table: the rows that it is made of are repeated, so that it stands alone.
+// One row of the table of effects. Repeats the rows that it consists of, so that it can be read alone.
 json toJson(const EffectsComparison& e, const Comparison& comparison) {
-  const auto rowOf = [&](std::size_t i) {
+  const auto rowJson = [&](std::size_t i) {
     if (i == EffectsComparison::kNoRow) return json();
     const ComparisonRow& r = comparison.rows[i];
     return json{{"method", r.method},
@@ -65,7 +65,7 @@ json toJson(const EffectsComparison& e, const Comparison& comparison) {
                 {"stateBytes", r.stateBytes}};
   };
   const ComparisonRow& all = comparison.rows[e.all];
-  json automatic = rowOf(e.automatic), importance = rowOf(e.importance);
+  json automatic = rowJson(e.automatic), importance = rowJson(e.importance);
   if (!automatic.is_null()) {
     automatic["ratioToAll"] = spreadJson(e.automaticToAll);
     automatic["largestDifference"] = number(e.automaticDifference);
@@ -77,7 +77,7 @@ json toJson(const EffectsComparison& e, const Comparison& comparison) {
   }
   return {{"scene", all.scene},      {"renderer", backendInfo(all.backend).name},
           {"width", all.width},      {"height", all.height},
-          {"depth", all.depth},      {"all", rowOf(e.all)},
+          {"depth", all.depth},      {"all", rowJson(e.all)},
           {"auto", automatic},       {"importance", importance},
           {"brightest", e.brightest}};
 }
@@ -102,7 +102,7 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
                           {"width", r.width},
                           {"height", r.height},
                           {"depth", r.depth},
-                          {"picture", fmt::format("pictures/{}", r.picture)}});
+                          {"image", fmt::format("images/{}", r.image)}});
   for (const ComparisonRow& row : comparison.rows) (row.everyEffect ? everything : rows).push_back(toJson(row));
   for (const EffectsComparison& e : comparison.effects) effects.push_back(toJson(e, comparison));
   return {{"malus", MALUS_VERSION},
@@ -146,9 +146,9 @@ std::string toCsv(const Comparison& comparison) {
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"\n",
                         r.scene, backendInfo(r.backend).name, r.method, r.everyEffect ? "all" : "auto", r.width,
                         r.height, r.depth, r.payloadBytes, r.stateBytes, r.rays, r.time.median, r.time.low, r.time.high,
-                        medianOf(r.wallMs), medianOf(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs,
-                        medianOf(r.readBackMs), r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high,
-                        r.error.meanAbs, r.error.maxAbs, r.error.relRms, r.error.shareOver1Percent, r.error.perceptual,
+                        median(r.wallMs), median(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs, median(r.readBackMs),
+                        r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high, r.error.meanAbs,
+                        r.error.maxAbs, r.error.relRms, r.error.shareOver1Percent, r.error.perceptual,
                         r.error.energyRatio, status);
   }
   return text;
@@ -162,18 +162,18 @@ std::string toTable(const Comparison& comparison) {
     const std::string group = fmt::format("{}, {} x {}, depth {}, {}", r.scene, r.width, r.height, r.depth, renderer);
     if (group != heading) {
       heading = group;
-      text += fmt::format("\n{} ({})\n  {:<14}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10}{:>9}{:>9}  {}\n", group,
+      text += fmt::format("\n{} ({})\n  {:<18}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10}{:>9}{:>9}  {}\n", group,
                           comparison.devices.count(renderer) ? comparison.devices.at(renderer) : "no device", "method",
-                          "bytes", "rays", "ms", "ratio to schlick", "Mray/s", "rel RMS", "off >1%", "energy",
-                          "not told apart from");
+                          "bytes", "rays", "ms", "ratio to schlick", "Mray/s", "rel RMS", "err >1%", "energy",
+                          "no significant difference");
     }
     if (!r.ok()) {
-      text += fmt::format("  {:<14}{:>6}  failed: {}\n", r.method, r.payloadBytes, r.status);
+      text += fmt::format("  {:<18}{:>6}  failed: {}\n", r.method, r.payloadBytes, r.status);
       continue;
     }
-    std::string same = fmt::format("{}", fmt::join(r.indistinguishable, " "));
+    std::string same = fmt::format("{}", fmt::join(r.noSignificantDifference, " "));
     const bool timed = !r.samplesMs.empty();
-    text += fmt::format("  {:<14}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10.4f}{:>8.2f}%{:>9.4f}  {}\n", r.method,
+    text += fmt::format("  {:<18}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10.4f}{:>8.2f}%{:>9.4f}  {}\n", r.method,
                         r.payloadBytes, r.rays, timed ? fmt::format("{:.1f}", r.time.median) : "-",
                         timed ? fmt::format("{:.3f} ({:.3f}-{:.3f})", r.ratioToSchlick.median, r.ratioToSchlick.low,
                                             r.ratioToSchlick.high)
@@ -183,9 +183,9 @@ std::string toTable(const Comparison& comparison) {
   }
   if (comparison.effects.empty()) return text;
   text += fmt::format(
-      "\nexact intensity by stokes with all effects, by what the picture calls for, and by importance\n"
+      "\nexact intensity by stokes with all effects, with the effects that the image needs, and by importance\n"
       "  {:<34}{:>10}  {:<42}{}\n",
-      "", "all, ms", "auto: time over all, largest difference", "importance: the same");
+      "", "all, ms", "auto: time over all, largest difference", "importance: time over all, largest difference");
   for (const EffectsComparison& e : comparison.effects) {
     const ComparisonRow& all = comparison.rows[e.all];
     const auto cell = [&](std::size_t i, const Spread& ratio, double difference) {

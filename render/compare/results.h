@@ -1,4 +1,4 @@
-// A comparison as JSON, CSV and a table for the terminal.
+// Output of a comparison: JSON, CSV and a table for the terminal.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace malus::render {
 
-// The document that tools/report reads; described in render/compare/RESULTS.md.
+// The document that tools/report reads; render/compare/RESULTS.md describes it.
 nlohmann::json toJson(const Comparison& comparison, const ComparisonSettings& settings);
 std::string toCsv(const Comparison& comparison);
 std::string toTable(const Comparison& comparison);

@@ -11,13 +11,14 @@ double quantile(std::vector<double> values, double q);
 struct Spread {
   double median = 0, low = 0, high = 0;  // low, high: quartiles
 };
-Spread spreadOf(const std::vector<double>& values);
+// Median and quartiles. values: not empty.
+Spread computeSpread(const std::vector<double>& values);
 
-// Spread of a[i] / b[i]: round by round, so that what slows a whole round cancels. Equal lengths.
+// Spread of a[i] / b[i], round by round: a slow round cancels. Equal lengths.
 Spread ratioSpread(const std::vector<double>& a, const std::vector<double>& b);
 
-// Whether paired measurements leave open which of the two is faster: neither was faster in enough rounds for
-// a two-sided sign test at 5 % (fewer than six rounds never are enough).
-bool indistinguishable(const std::vector<double>& a, const std::vector<double>& b);
+// Two-sided sign test at 5 % on paired measurements: whether one of the two was faster in enough rounds. False for
+// fewer than six rounds. Equal lengths.
+bool differSignificantly(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace malus::render

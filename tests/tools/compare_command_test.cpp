@@ -46,7 +46,7 @@ TEST_F(Compare, EveryMethodOnBothRenderers) {
     EXPECT_EQ(row.at("height"), 24);
     EXPECT_EQ(row.at("samplesMs").size(), 2u);
     EXPECT_GT(row.at("medianMs"), 0);
-    EXPECT_TRUE(std::filesystem::exists(report() + "/" + row.at("picture").get<std::string>()));
+    EXPECT_TRUE(std::filesystem::exists(report() + "/" + row.at("image").get<std::string>()));
     for (const char* number : {"meanAbs", "maxAbs", "relRms", "shareOver1Percent", "perceptual", "energyRatio"})
       EXPECT_TRUE(row.at("error").at(number).is_number()) << number;
     rays[row.at("renderer")].insert(row.at("rays").get<std::uint64_t>());

@@ -62,7 +62,7 @@ TEST(Render, Effects) {
   ASSERT_EQ(cheaper.exitCode, 0) << cheaper.err;
   const json document = json::parse(cheaper.out);
   EXPECT_EQ(document.at("method"), "fresnel");
-  EXPECT_TRUE(contains(document.at("inPlaceOf").get<std::string>(), "stokes")) << cheaper.out;
+  EXPECT_TRUE(contains(document.at("substitutedFor").get<std::string>(), "stokes")) << cheaper.out;
   // An EXR file contains Stokes vectors unless --intensity is given.
   EXPECT_EQ(json::parse(render({"-o", folder / "a.exr", "--method", "stokes", "--depth", "0"}).out).at("method"),
             "stokes-linear");
@@ -70,7 +70,7 @@ TEST(Render, Effects) {
                 .at("method"),
             "fresnel");
   EXPECT_TRUE(json::parse(render({"-o", folder / "a.png", "--method", "stokes", "--effects", "all"}).out)
-                  .at("inPlaceOf")
+                  .at("substitutedFor")
                   .is_null());
   // Effects that are removed although the scene has them: rendered with a warning.
   const Finished less =

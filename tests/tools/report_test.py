@@ -54,13 +54,13 @@ def row(renderer: str, method: str, **changes) -> dict:
             "raysPerSecond": 123400.0,
             "error": {"meanAbs": 0.0, "maxAbs": 0.0, "relRms": 1e-7, "shareOver1Percent": 0.0, "perceptual": 0.0,
                       "energyRatio": 1.0},
-            "indistinguishable": [], "status": "ok", "picture": f"pictures/{renderer}-{method}.exr"}
+            "indistinguishable": [], "status": "ok", "image": f"images/{renderer}-{method}.exr"}
     base.update(changes)
     return base
 
 
 def failed(renderer: str, method: str, reason: str) -> dict:
-    result = row(renderer, method, status=reason, samplesMs=[], picture=None)
+    result = row(renderer, method, status=reason, samplesMs=[], image=None)
     for name in ("rays", "medianMs", "quartilesMs", "wallMs", "cpuMs", "buildMs", "uploadMs", "readBackMs",
                  "ratioToSchlick", "raysPerSecond", "error"):
         result[name] = None
@@ -90,15 +90,15 @@ class Report(unittest.TestCase):
         self.temporary = tempfile.TemporaryDirectory()
         self.addCleanup(self.temporary.cleanup)
         self.folder = pathlib.Path(self.temporary.name)
-        (self.folder / "pictures").mkdir()
+        (self.folder / "images").mkdir()
         rgb, stokes = reference_pixels()
-        write_exr(self.folder / "pictures/reference.exr", rgb, stokes)
+        write_exr(self.folder / "images/reference.exr", rgb, stokes)
         wrong = rgb.copy()
         wrong[6:, :4] *= 1.2  # 12 of 108 pixels, all in the lower left
         for renderer in ("vulkan", "embree"):
             for method in ("schlick", "fresnel"):
-                write_exr(self.folder / f"pictures/{renderer}-{method}.exr", wrong)
-            write_exr(self.folder / f"pictures/{renderer}-stokes.exr", rgb, stokes)
+                write_exr(self.folder / f"images/{renderer}-{method}.exr", wrong)
+            write_exr(self.folder / f"images/{renderer}-stokes.exr", rgb, stokes)
         rows = []
         for renderer in ("vulkan", "embree"):
             rows += [row(renderer, "schlick", error=error(12 / 108, 0.07), indistinguishable=["fresnel"]),
@@ -115,7 +115,7 @@ class Report(unittest.TestCase):
                                 "exposureEv": 0}},
             "rows": rows, "gpuModel": [], "effects": [effect("vulkan"), effect("embree", importance=None)],
             "references": [{"scene": "tiny", "width": kWidth, "height": kHeight, "depth": 3,
-                            "picture": "pictures/reference.exr"}]}
+                            "image": "images/reference.exr"}]}
 
     def test_effects(self):
         page = self.page()
@@ -169,7 +169,7 @@ class Report(unittest.TestCase):
         self.assertEqual(len(ids), len(set(ids)))
         for anchor in set(re.findall(r'href="#([^"]*)"', page)):
             self.assertIn(anchor, ids)
-        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["index.html", "pictures", "results.json"])
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["index.html", "images", "results.json"])
 
     def test_the_same_results_give_the_same_page(self):
         self.assertEqual(self.page(), self.page())
@@ -185,7 +185,7 @@ class Report(unittest.TestCase):
 
     def test_several_sizes_are_separate(self):
         results = copy.deepcopy(self.results)
-        results["rows"].append(row("embree", "schlick", depth=1, picture=None))
+        results["rows"].append(row("embree", "schlick", depth=1, image=None))
         page = self.page(results)
         self.assertIn("<summary>12 × 9, depth 3</summary>", page)
         self.assertIn("<summary>12 × 9, depth 1</summary>", page)
@@ -201,7 +201,7 @@ class Report(unittest.TestCase):
     def test_small_errors_allow_to_leave_polarization_out(self):
         rgb, _ = reference_pixels()
         for renderer in ("vulkan", "embree"):
-            write_exr(self.folder / f"pictures/{renderer}-fresnel.exr", rgb * 1.004)
+            write_exr(self.folder / f"images/{renderer}-fresnel.exr", rgb * 1.004)
         for entry in self.results["rows"]:
             if entry["method"] == "fresnel":
                 entry["error"] = error(0, 0.004)
@@ -222,7 +222,7 @@ class Report(unittest.TestCase):
 
     def test_small_payloads_are_not_compared_on_lavapipe(self):
         for method, size, ms in (("sp", 36, 20.0), ("sp-ratio", 20, 10.0)):
-            self.results["rows"].append(row("vulkan", method, payloadBytes=size, medianMs=ms, picture=None,
+            self.results["rows"].append(row("vulkan", method, payloadBytes=size, medianMs=ms, image=None,
                                             quartilesMs=[ms - 0.1, ms + 0.1]))
         page = self.page()
         self.assertIn("faster; not due to payload size", page)
@@ -266,9 +266,9 @@ class Report(unittest.TestCase):
 
     def test_a_missing_or_damaged_image_is_named(self):
         (self.folder / "results.json").write_text(json.dumps(self.results))
-        (self.folder / "pictures/embree-fresnel.exr").write_bytes(b"not an image")
+        (self.folder / "images/embree-fresnel.exr").write_bytes(b"not an image")
         self.fails("embree-fresnel.exr", self.folder)
-        (self.folder / "pictures/reference.exr").unlink()
+        (self.folder / "images/reference.exr").unlink()
         self.fails("reference.exr", self.folder)
 
     def test_usage(self):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the report of `malus compare`: FOLDER/index.html from FOLDER/results.json and FOLDER/pictures.
+"""Writes the report of `malus compare`: FOLDER/index.html from FOLDER/results.json and FOLDER/images.
 
     compare_report.py FOLDER
 

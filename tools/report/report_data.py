@@ -50,6 +50,9 @@ def read_results(folder: pathlib.Path) -> dict:
     for name, kind in (("scenes", dict), ("rows", list), ("references", list)):
         if not isinstance(results.get(name), kind):
             raise ReportError(f"{path}: expected '{name}' to be {'an object' if kind is dict else 'a list'}")
+    for entry in results["rows"] + results["references"]:
+        if isinstance(entry, dict) and "picture" in entry:  # the key of earlier versions
+            entry.setdefault("image", entry["picture"])
     for at, row in enumerate(results["rows"]):
         for name in ("scene", "renderer", "method", "width", "height", "depth", "status"):
             if not isinstance(row, dict) or name not in row:
@@ -57,7 +60,7 @@ def read_results(folder: pathlib.Path) -> dict:
         if row["scene"] not in results["scenes"]:
             raise ReportError(f"{path}: row {at} names scene '{row['scene']}', which is not in 'scenes'")
     for at, reference in enumerate(results["references"]):
-        for name in ("scene", "width", "height", "depth", "picture"):
+        for name in ("scene", "width", "height", "depth", "image"):
             if not isinstance(reference, dict) or name not in reference:
                 raise ReportError(f"{path}: reference {at} has no '{name}'")
     return results

@@ -38,7 +38,7 @@ class GroupView:
 
     def _read(self, folder: pathlib.Path) -> None:
         group = self.group
-        reference = ExrImage(folder / group.reference["picture"]) if group.reference else None
+        reference = ExrImage(folder / group.reference["image"]) if group.reference else None
         if reference is not None:
             self._add("reference", "reference", reference.rgb)
             if reference.stokes is not None:
@@ -48,10 +48,10 @@ class GroupView:
             dolp, _ = linear_polarization(*(luminance(reference.stokes[:, :, s]) for s in range(3)))
         rgb = {}
         for row in group.rows:
-            if row["status"] != "ok" or not row.get("picture"):
+            if row["status"] != "ok" or not row.get("image"):
                 continue
             name = (row["renderer"], row["method"])
-            rgb[name] = ExrImage(folder / row["picture"]).rgb
+            rgb[name] = ExrImage(folder / row["image"]).rgb
             self._add(f"{name[0]}/{name[1]}", f"{name[1]}, {name[0]}", rgb[name])
         if reference is None:
             return

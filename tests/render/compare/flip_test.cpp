@@ -1,5 +1,5 @@
 // FLIP against the authors' own program (flip-evaluator 1.7 from PyPI, evaluate(reference, test, "LDR",
-// inputsRGB=False) with these pictures), and against what follows from its definition.
+// inputsRGB=False) with these images), and against consequences of its definition.
 #include "render/compare/flip.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace malus::render {
 namespace {
 
-RenderResult picture(unsigned a, unsigned b, unsigned c, unsigned k) {
+RenderResult pattern(unsigned a, unsigned b, unsigned c, unsigned k) {
   RenderResult p;
   p.width = 96;
   p.height = 64;
@@ -27,21 +27,21 @@ RenderResult scaled(RenderResult p, float factor) {
 }
 
 TEST(Flip, EqualsTheAuthorsProgram) {
-  const RenderResult reference = picture(1, 2, 20, 37);
-  // Theirs is in float.
+  const RenderResult reference = pattern(1, 2, 20, 37);
+  // That program computes in single precision.
   constexpr double kRounding = 2e-5;
-  EXPECT_NEAR(meanFlip(picture(1, 2, 24, 37), reference, 0), 0.4636969566345215, kRounding);
-  EXPECT_NEAR(meanFlip(picture(5, 3, 7, 11), reference, 0), 0.7581363320350647, kRounding);
+  EXPECT_NEAR(meanFlip(pattern(1, 2, 24, 37), reference, 0), 0.4636969566345215, kRounding);
+  EXPECT_NEAR(meanFlip(pattern(5, 3, 7, 11), reference, 0), 0.7581363320350647, kRounding);
   EXPECT_NEAR(meanFlip(scaled(reference, 1.25f), reference, 0), 0.3669462203979492, kRounding);
   EXPECT_NEAR(meanFlip(scaled(reference, 0), reference, 0), 0.9798033833503723, kRounding);
-  EXPECT_NEAR(meanFlip(picture(1, 2, 24, 37), reference, 0, 20), 0.503057599067688, kRounding);
-  EXPECT_NEAR(meanFlip(picture(5, 3, 7, 11), reference, 0, 20), 0.8772826790809631, kRounding);
+  EXPECT_NEAR(meanFlip(pattern(1, 2, 24, 37), reference, 0, 20), 0.503057599067688, kRounding);
+  EXPECT_NEAR(meanFlip(pattern(5, 3, 7, 11), reference, 0, 20), 0.8772826790809631, kRounding);
 }
 
-TEST(Flip, NothingIsSeenWhereNothingDiffers) {
-  const RenderResult p = picture(1, 2, 20, 37);
+TEST(Flip, EqualImagesHaveNoDifference) {
+  const RenderResult p = pattern(1, 2, 20, 37);
   EXPECT_EQ(meanFlip(p, p, 0), 0);
-  // What the display cuts off nobody sees; with less exposure it is not cut off.
+  // Values that the display clamps do not differ; with less exposure they are not clamped.
   EXPECT_EQ(meanFlip(scaled(p, 0), scaled(p, 0), 5), 0);
   RenderResult bright = p, brighter = p;
   for (float& v : bright.pixels) v = 2;
@@ -51,9 +51,9 @@ TEST(Flip, NothingIsSeenWhereNothingDiffers) {
 }
 
 TEST(Flip, RefusesOtherSizes) {
-  RenderResult p = picture(1, 2, 20, 37);
+  RenderResult p = pattern(1, 2, 20, 37);
   p.width = 48;
-  EXPECT_THROW(meanFlip(p, picture(1, 2, 20, 37), 0), Error);
+  EXPECT_THROW(meanFlip(p, pattern(1, 2, 20, 37), 0), Error);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ image::Image flat(int width, int height, float value) {
   return image;
 }
 
-TEST(ImageDifference, OfEqualPicturesIsZero) {
+TEST(ImageDifference, OfEqualImagesIsZero) {
   const ImageDifference d = difference(flat(7, 5, 0.3f), flat(7, 5, 0.3f), kRgb, 0);
   EXPECT_EQ(d.mean, 0);
   EXPECT_EQ(d.rms, 0);
@@ -64,7 +64,7 @@ TEST(ImageDifference, RefusesWhatCannotBeCompared) {
   EXPECT_THROW(difference(flat(4, 4, 1), flat(4, 4, 1), {"S1.R"}, 0), Error);
 }
 
-TEST(ImageDifference, PictureShowsTheAmplifiedDifference) {
+TEST(ImageDifference, ImageShowsTheAmplifiedDifference) {
   image::Image a = flat(2, 1, 1), b = a;
   b.pixels[3] = 0.75f;
   const image::Image d = differenceImage(a, b, 10);

@@ -44,7 +44,7 @@ TEST(ImageError, CountsWhatIsKnown) {
 TEST(ImageError, OnePercentIsTheLimit) {
   EXPECT_EQ(imageError(flat(1.009f), flat(1), 0).shareOver1Percent, 0);
   EXPECT_EQ(imageError(flat(1.011f), flat(1), 0).shareOver1Percent, 1);
-  // Black pixels are measured against the picture's mean.
+  // Black pixels are measured against the mean of the image.
   RenderResult dark = flat(1), other = flat(1);
   dark.pixels[0] = 0;
   other.pixels[0] = 1e-6f;

@@ -32,7 +32,7 @@ const double kBrewster = std::atan(kN) * 180 / kPi;
 // R_s at Brewster's angle, where R_p = 0: ((1 - n^2) / (1 + n^2))^2.
 constexpr double kBrewsterRs = (1 - kN * kN) / (1 + kN * kN) * ((1 - kN * kN) / (1 + kN * kN));
 
-// A glass mirror at Brewster's angle under a white sky; the eye is turned about its line of sight by `roll`
+// A glass mirror at Brewster's angle under a white sky; the camera is rotated about its line of sight by `roll`
 // degrees, clockwise as the photographer sees it, so that what it sees turns counter-clockwise.
 pack::Scene brewsterMirror(double roll, std::uint32_t side = 1) {
   pack::Scene scene = test::emptyScene(4);
@@ -56,10 +56,10 @@ double green(const pack::Scene& scene, const render::Analyser& analyser, const c
                                             : embree::Renderer(scene, 1).render(method, parameters).pixels[1];
 }
 
-image::Image imageOf(const pack::Scene& scene, const render::RenderResult& picture) {
+image::Image asImage(const pack::Scene& scene, const render::RenderResult& result) {
   pack::Pack pack;
   pack.scene = scene;
-  return render::toImage(picture, pack, render::defaultParameters(scene), "embree", "stokes");
+  return render::toImage(result, pack, render::defaultParameters(scene), "embree", "stokes");
 }
 
 TEST(Polarization, NumbersOfAStokesVector) {
@@ -128,7 +128,7 @@ TEST(Polarization, BrewsterMirrorIsWhollyPolarizedAlongItsPlane) {
     for (const bool reference : {true, false}) {
       const render::RenderParameters parameters = render::defaultParameters(scene);
       const image::Image image =
-          imageOf(scene, reference ? reference::render(scene, parameters, 1)
+          asImage(scene, reference ? reference::render(scene, parameters, 1)
                                    : embree::Renderer(scene, 1).render("stokes-linear", parameters));
       const image::Image dolp = render::dolpChannels(image), aolp = render::aolpChannels(image);
       EXPECT_EQ(dolp.channels, (std::vector<std::string>{"DoLP.R", "DoLP.G", "DoLP.B"}));
@@ -185,7 +185,7 @@ TEST(Filters, WavePlateInFrontOfAPolarizerOverABrewsterMirror) {
 }
 
 // Light of a white sky from a Brewster mirror to a gold mirror, whose planes of incidence are 45 degrees apart,
-// to the eye. By hand: the glass sends 1/2 R_s (1, 1, 0, 0), which in the gold's frame is 1/2 R_s (1, 0, +-1, 0);
+// to the camera. By hand: the glass sends 1/2 R_s (1, 1, 0, 0), which in the gold's frame is 1/2 R_s (1, 0, +-1, 0);
 // gold, [[Re X, -Im X], [Im X, Re X]] on (S2, S3), makes S3 = +-1/2 R_s Im X of it.
 TEST(Filters, GoldBehindGlassIsSeenByTheCircularAnalyser) {
   const glm::dvec3 eta(0.18, 0.54, 1.33), k(3.43, 2.23, 1.86);
@@ -274,9 +274,9 @@ class FilterCommands : public testing::Test {
   // The message of a usage error, and nothing written.
   std::string usage(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"render", pack()});
-    return usageOf(arguments);
+    return usageError(arguments);
   }
-  std::string usageOf(const std::vector<std::string>& arguments) {
+  std::string usageError(const std::vector<std::string>& arguments) {
     std::string message = "no usage error";
     try {
       run(arguments);
@@ -286,7 +286,7 @@ class FilterCommands : public testing::Test {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "files beside the pack: " << message;
     return message;
   }
-  double greenOf(const std::string& name) const {
+  double greenIn(const std::string& name) const {
     const image::Image image = image::read(file(name));
     return image.pixels[static_cast<std::size_t>(image.channel("G"))];
   }
@@ -300,7 +300,7 @@ TEST_F(FilterCommands, RenderPutsTheFilterInFront) {
   const auto rendered = [&](std::vector<std::string> filter) {
     filter.insert(filter.begin(), {"render", pack(), "--method", "stokes", "-o", out});
     EXPECT_EQ(run(filter).warnings, "");
-    return greenOf("a.exr");
+    return greenIn("a.exr");
   };
   EXPECT_NEAR(rendered({"--polarizer", "0"}), kBrewsterRs / 2, 3e-5);
   EXPECT_NEAR(rendered({"--polarizer", "90"}), 0, 3e-5);
@@ -316,7 +316,7 @@ TEST_F(FilterCommands, RenderWarnsOfLightThatAMethodDoesNotCarry) {
     return run(more).warnings;
   };
   EXPECT_TRUE(has(warnings({"--method", "stokes-linear", "--analyser", "left"}), "S3"));
-  EXPECT_NEAR(greenOf("a.exr"), kBrewsterRs / 4, 3e-5);
+  EXPECT_NEAR(greenIn("a.exr"), kBrewsterRs / 4, 3e-5);
   EXPECT_TRUE(has(warnings({"--method", "fresnel", "--polarizer", "30"}), "S1, S2"));
   EXPECT_TRUE(has(warnings({"--method", "schlick", "--polarizer", "30", "--wave-plate", "0"}), "S1, S2, S3"));
   EXPECT_TRUE(has(warnings({"--method", "sp", "--polarizer", "45", "--wave-plate", "0"}), "S3"));
@@ -332,10 +332,10 @@ TEST_F(FilterCommands, RenderRefusesImpossibleCombinations) {
   EXPECT_TRUE(has(usage({"-o", out, "--analyser", "up"}), "right"));
   for (const char* plate : {"x", "", "1,", ",1", "1,2,3", "nan", "1,inf", "1 2", "1e999"})
     EXPECT_TRUE(has(usage({"-o", out, "--polarizer", "0", "--wave-plate", plate}), "AXIS[,RETARDANCE]")) << plate;
-  EXPECT_TRUE(has(usage({}), "no picture"));
+  EXPECT_TRUE(has(usage({}), "no image"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--output-dolp", file("d.jpg")}), ".exr or .png"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--mosaic", file("m.exr")}), ".png or .tif"));
-  EXPECT_TRUE(has(usage({"--method", "stokes", "--output-dolp", out, "--output-aolp", out}), "two pictures"));
+  EXPECT_TRUE(has(usage({"--method", "stokes", "--output-dolp", out, "--output-aolp", out}), "two images"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--mosaic", out, "--polarizer", "0"}), "every pixel"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--mosaic", out, "--mosaic-bits", "10"}), "12"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--mosaic", out, "--width", "3"}), "even"));
@@ -370,28 +370,29 @@ TEST_F(FilterCommands, SweepTurnsAPolarizer) {
       run({"sweep", pack(), "-o", file("frames"), "--frames", "12", "--width", "2", "--exposure", "2", "--json"});
   const nlohmann::json json = nlohmann::json::parse(readTextFile(folder_ / "frames" / "sweep.json"));
   EXPECT_EQ(nlohmann::json::parse(outcome.out), json);
-  EXPECT_EQ(json["method"], "stokes");
+  EXPECT_EQ(json["method"], "stokes-linear");  // a single mirror reflects no circular light
+  EXPECT_TRUE(has(json["substitutedFor"].get<std::string>(), "stokes"));
   EXPECT_EQ(json["exposureEv"], 2);
   ASSERT_EQ(json["frames"].size(), 12u);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "frames"), {}), 13);
   for (int i = 0; i < 12; ++i) {
     const nlohmann::json& frame = json["frames"][static_cast<std::size_t>(i)];
     EXPECT_DOUBLE_EQ(frame["degrees"].get<double>(), i * 15.0);
-    const image::Image picture = image::read(folder_ / "frames" / frame["file"].get<std::string>());
-    EXPECT_EQ(picture.width, 2);
+    const image::Image shown = image::read(folder_ / "frames" / frame["file"].get<std::string>());
+    EXPECT_EQ(shown.width, 2);
     // Malus's law, then two stops and the sRGB curve; below the shoulder of the display curve.
     const double x = 4 * kBrewsterRs / 2 * std::pow(std::cos(i * 15.0 * kPi / 180), 2);
-    EXPECT_NEAR(picture.pixels[1] * 255, 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055), 1)
+    EXPECT_NEAR(shown.pixels[1] * 255, 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055), 1)
         << i;
   }
-  // A shorter sweep into the same folder says that frames are left over.
+  // A shorter sweep into the same folder warns of frames that are left.
   EXPECT_TRUE(has(run({"sweep", pack(), "-o", file("frames"), "--frames", "3"}).warnings, "frame-003.png"));
 }
 
 TEST_F(FilterCommands, SweepRefusesBadInput) {
-  EXPECT_TRUE(has(usageOf({"sweep", pack(), "-o", file("frames"), "--frames", "0"}), "frames"));
-  EXPECT_TRUE(has(usageOf({"sweep", pack(), "-o", file("frames"), "--method", "fresnel"}), "--backend reference"));
-  EXPECT_TRUE(has(usageOf({"sweep", pack()}), "--output"));
+  EXPECT_TRUE(has(usageError({"sweep", pack(), "-o", file("frames"), "--frames", "0"}), "frames"));
+  EXPECT_TRUE(has(usageError({"sweep", pack(), "-o", file("frames"), "--method", "fresnel"}), "--backend reference"));
+  EXPECT_TRUE(has(usageError({"sweep", pack()}), "--output"));
   EXPECT_THROW(run({"sweep", pack(), "-o", pack()}), Error);  // a file
   EXPECT_THROW(run({"sweep", file("none.pack"), "-o", file("frames")}), Error);
   EXPECT_THROW(run({"sweep", pack(), "-o", file("frames"), "--region", "0", "0", "9", "9"}), Error);

@@ -1,0 +1,71 @@
+#include "render/compare/effects_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/scene/methods.h"
+
+namespace malus::render {
+
+std::vector<MethodVariant> methodVariants(const std::vector<std::string>& methods, const EffectsChoice& cheapest) {
+  const auto contains = [&](std::string_view name) {
+    return std::find(methods.begin(), methods.end(), name) != methods.end();
+  };
+  std::vector<MethodVariant> variants;
+  variants.reserve(methods.size() + 3);
+  for (const std::string& method : methods) variants.push_back({method, false});
+  if (contains(completeRecursiveMethod().name) && !contains(cheapest.method))
+    variants.push_back({cheapest.method, false});
+  for (const MethodInfo& m : render::methods())
+    if (m.isComplete() && contains(m.name)) variants.push_back({m.name, true});
+  return variants;
+}
+
+void EffectsTable::add(std::size_t index, const ComparisonRow& row, const RenderResult& rendered) {
+  const MethodInfo& method = methodNamed(row.method);
+  const bool isAll = row.everyEffect && !method.isIterative,
+             isAutomatic = !row.everyEffect && row.method == cheapest_.method,
+             isImportance = !row.everyEffect && method.isIterative && method.isComplete();
+  if (isAll) entry_.all = index;
+  if (isAutomatic) entry_.automatic = index;
+  if (isImportance) entry_.importance = index;
+  if (!isAll && !isAutomatic && !isImportance) return;
+  std::vector<float>& rgb = colours_[index];
+  for (std::size_t i = 0; i < rendered.pixels.size(); i += rendered.channels)
+    rgb.insert(rgb.end(), {rendered.pixels[i], rendered.pixels[i + 1], rendered.pixels[i + 2]});
+}
+
+double EffectsTable::largestDifference(std::size_t index) const {
+  double largest = 0;
+  const auto found = colours_.find(index);
+  if (found == colours_.end()) return largest;
+  const std::vector<float>& all = colours_.at(entry_.all);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    largest = std::max(largest, static_cast<double>(std::abs(found->second[i] - all[i])));
+  return largest;
+}
+
+bool EffectsTable::finish(EffectsComparison& entry) const {
+  if (entry_.all == EffectsComparison::kNoRow) return false;
+  entry = entry_;
+  entry.why = cheapest_.why;
+  entry.automaticDifference = largestDifference(entry_.automatic);
+  entry.importanceDifference = largestDifference(entry_.importance);
+  const std::vector<float>& all = colours_.at(entry_.all);
+  entry.brightest = *std::max_element(all.begin(), all.end());
+  return true;
+}
+
+void summarizeEffects(Comparison& comparison) {
+  for (EffectsComparison& e : comparison.effects) {
+    const auto ratio = [&](std::size_t i) {
+      if (i == EffectsComparison::kNoRow) return Spread{};
+      const std::vector<double>&a = comparison.rows[i].samplesMs, &b = comparison.rows[e.all].samplesMs;
+      return a.empty() || a.size() != b.size() ? Spread{} : ratioSpread(a, b);
+    };
+    e.automaticToAll = ratio(e.automatic);
+    e.importanceToAll = ratio(e.importance);
+  }
+}
+
+}  // namespace malus::render

@@ -1,0 +1,138 @@
+#include "render/compare/warm_up.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+#include "meshprep/base/interrupt.h"
+#include "render/compare/effects_table.h"
+#include "render/image/output.h"
+#include "render/job.h"
+#include "render/scene/compiled_effects.h"
+#include "render/scene/methods.h"
+
+namespace malus::render {
+
+namespace {
+
+// Folder of the images, and receiver of progress messages.
+struct Output {
+  std::filesystem::path images;
+  const Progress& progress;
+};
+
+std::string fileName(const RowGroup& group, const std::string& what) {
+  const RenderParameters& p = group.parameters;
+  return fmt::format("{}-{}x{}-d{}-{}.exr", group.pack->scene.name, p.width, p.height, p.depth, what);
+}
+
+// Every size with every depth.
+std::vector<RenderParameters> views(const pack::Scene& scene, const ComparisonSettings& settings) {
+  std::vector<JobSettings> sizes(std::max({settings.widths.size(), settings.heights.size(), std::size_t{1}}));
+  for (std::size_t i = 0; i < settings.widths.size(); ++i) sizes[i].width = settings.widths[i];
+  for (std::size_t i = 0; i < settings.heights.size(); ++i) sizes[i].height = settings.heights[i];
+  if (settings.widths.empty() && settings.heights.empty())
+    sizes[0].width = std::max(1u, static_cast<std::uint32_t>(std::lround(scene.width * settings.scale)));
+  std::vector<RenderParameters> result;
+  for (JobSettings& size : sizes) {
+    if (settings.polarizerDegrees) size.analyser = linearPolarizer(*settings.polarizerDegrees);
+    for (const std::uint32_t depth : settings.depths.empty() ? std::vector{scene.depth} : settings.depths) {
+      size.depth = depth;
+      result.push_back(renderParameters(size, scene));
+    }
+  }
+  return result;
+}
+
+RenderResult renderReference(Comparison& comparison, const RowGroup& group, unsigned threads, const Output& output) {
+  output.progress(groupTitle(group) + ": reference");
+  const pack::Pack& pack = *group.pack;
+  const RenderParameters& p = group.parameters;
+  const std::unique_ptr<Renderer> renderer = makeRenderer(Backend::reference, pack.scene, {"", threads});
+  RenderResult result = renderImage(*renderer, "", p, false);
+  const std::string name = backendInfo(Backend::reference).name, file = fileName(group, name);
+  comparison.devices[name] = result.device;
+  comparison.references.push_back({pack.scene.name, p.width, p.height, p.depth, file});
+  writeImage(output.images / file, toImage(result, pack, p, name, name), 0);
+  return result;
+}
+
+// A row before it is rendered.
+ComparisonRow makeRow(const RowGroup& group, Backend backend, const MethodVariant& variant) {
+  ComparisonRow row;
+  row.scene = group.pack->scene.name;
+  row.backend = backend;
+  row.method = variant.method;
+  row.everyEffect = variant.everyEffect;
+  row.width = group.parameters.width;
+  row.height = group.parameters.height;
+  row.depth = group.parameters.depth;
+  const MethodInfo& method = methodNamed(variant.method);
+  row.payloadBytes = method.payloadBytes;
+  if (method.isIterative) {
+    const std::uint32_t effects = compiledEffects(group.pack->scene, rowParameters(row, group));
+    row.stateBytes = method.pathBytes * (1 + pathStackSize(effects, row.depth));
+  }
+  return row;
+}
+
+// Renders a row and stores its error and, unless it has every effect, its image.
+RenderResult renderRow(ComparisonRow& row, RowGroup& group, const RenderResult& reference, const Output& output) {
+  const pack::Pack& pack = *group.pack;
+  const std::string backend = backendInfo(row.backend).name;
+  output.progress(
+      fmt::format("{}: {} {}{}", groupTitle(group), backend, row.method, row.everyEffect ? ", all effects" : ""));
+  RenderResult result = renderFirst(row, group);
+  row.error = imageError(result, reference, pack.scene.exposureEv);
+  if (row.everyEffect) return result;
+  row.image = fileName(group, fmt::format("{}-{}", backend, row.method));
+  writeImage(output.images / row.image, toImage(result, pack, group.parameters, backend, row.method), 0);
+  return result;
+}
+
+// Renders every method on one backend.
+void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const std::vector<std::string>& methods,
+                const RenderResult& reference, const Output& output) {
+  const RenderParameters& p = group.parameters;
+  const EffectsChoice cheapest =
+      chooseEffects({"auto"}, completeRecursiveMethod().name, group.pack->scene, {p.depth, p.analyser, false, false});
+  EffectsTable table(cheapest);
+  for (const MethodVariant& variant : methodVariants(methods, cheapest)) {
+    if (interrupted()) break;
+    ComparisonRow row = makeRow(group, backend, variant);
+    const std::size_t index = comparison.rows.size();
+    try {
+      table.add(index, row, renderRow(row, group, reference, output));
+      comparison.devices[backendInfo(backend).name] = (*group.renderers)[backend].device();
+    } catch (const Error& error) {
+      row.status = error.what();
+    }
+    group.rows.push_back(index);
+    comparison.rows.push_back(std::move(row));
+  }
+  if (EffectsComparison entry; table.finish(entry)) comparison.effects.push_back(std::move(entry));
+}
+
+}  // namespace
+
+std::vector<RowGroup> warmUp(Comparison& comparison, const ComparisonSettings& settings,
+                             const std::filesystem::path& folder, const Progress& progress) {
+  const Output output{folder / "images", progress};
+  std::vector<RowGroup> groups;
+  for (auto& [name, pack] : comparison.packs) {
+    const auto renderers =
+        std::make_shared<RendererSet>(pack.scene, RendererOptions{settings.device, settings.threads});
+    for (const RenderParameters& parameters : views(pack.scene, settings)) {
+      if (interrupted()) break;
+      groups.push_back({&pack, parameters, renderers, {}});
+      const RenderResult reference = renderReference(comparison, groups.back(), settings.threads, output);
+      for (const Backend backend : settings.backends)
+        renderRows(comparison, groups.back(), backend, settings.methods, reference, output);
+    }
+  }
+  return groups;
+}
+
+}  // namespace malus::render

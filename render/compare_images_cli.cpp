@@ -1,0 +1,84 @@
+#include "render/compare_images_cli.h"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "meshprep/base/error.h"
+#include "meshprep/base/image.h"
+#include "render/compare/image_difference.h"
+#include "render/image/output.h"
+#include "render/options.h"
+
+namespace malus::render {
+
+namespace {
+
+struct CompareImagesArguments {
+  std::string a, b, difference;
+  std::vector<std::string> channels = {"R", "G", "B"};
+  double threshold = 1e-3, gain = 10;
+  std::optional<double> failOver;
+  bool json = false;
+};
+
+void printDifference(const CompareImagesArguments& arguments, const ImageDifference& d) {
+  if (!arguments.json) {
+    fmt::print("mean {:.6g}  rms {:.6g}  max {:.6g}  99.9 % {:.6g}  outliers over {:g}: {} of {} pixels{}\n", d.mean,
+               d.rms, d.max, d.p999, arguments.threshold, d.outliers, d.pixels,
+               d.nonFinite > 0 ? fmt::format(", {} with NaN or infinity", d.nonFinite) : "");
+    return;
+  }
+  // JSON has no infinity.
+  const auto number = [](double v) { return std::isfinite(v) ? nlohmann::json(v) : nlohmann::json(); };
+  const nlohmann::json result = {{"mean", d.mean},         {"rms", d.rms},
+                                 {"max", number(d.max)},   {"p999", number(d.p999)},
+                                 {"outliers", d.outliers}, {"nonFinite", d.nonFinite},
+                                 {"pixels", d.pixels},     {"threshold", arguments.threshold}};
+  fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void runCompareImages(const CompareImagesArguments& arguments) {
+  const image::Image a = image::read(arguments.a), b = image::read(arguments.b);
+  ImageDifference d;
+  try {
+    d = difference(a, b, arguments.channels, arguments.threshold);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}, {}", arguments.a, arguments.b), error.what());
+  }
+  if (!arguments.difference.empty()) writeImage(arguments.difference, differenceImage(a, b, arguments.gain), 0);
+  printDifference(arguments, d);
+  if (arguments.failOver && !(d.max <= *arguments.failOver)) throw ImagesDiffer{};
+}
+
+}  // namespace
+
+void addCompareImagesCommand(CLI::App& app) {
+  auto a = std::make_shared<CompareImagesArguments>();
+  CLI::App* command = app.add_subcommand("compare-images", "Measure the difference of two images");
+  command->add_option("a", a->a, "First image")->required()->type_name("FILE");
+  command->add_option("b", a->b, "Second image")->required()->type_name("FILE");
+  command->add_option("--channels", a->channels, "Channels to compare")->capture_default_str();
+  command->add_option("--threshold", a->threshold, "Difference above which a pixel is an outlier")
+      ->check(finite())
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--fail-over", a->failOver, "Exit with code 3 if the largest difference is above this")
+      ->check(finite())
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--difference", a->difference, "Image to write: the absolute difference times --gain")
+      ->type_name("FILE");
+  command->add_option("--gain", a->gain, "Factor of the difference image")
+      ->check(finite())
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--json", a->json, "Print the result as JSON");
+  command->callback([a] { runCompareImages(*a); });
+}
+
+}  // namespace malus::render

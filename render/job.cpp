@@ -1,0 +1,131 @@
+#include "render/job.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "bake/effects/effects.h"
+#include "bake/pack/format.h"
+#include "meshprep/base/console.h"
+#include "meshprep/base/error.h"
+#include "render/make_renderer.h"
+#include "render/scene/effects_choice.h"
+#include "render/scene/methods.h"
+
+namespace malus::render {
+
+namespace {
+
+std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    parts.push_back(text.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return parts;
+}
+
+// Sets the size: a side that is not given follows from the other and the aspect of the scene.
+void setSize(RenderParameters& parameters, const JobSettings& settings, const pack::Scene& scene) {
+  const double aspect = static_cast<double>(scene.width) / scene.height;
+  const auto pixels = [](double side) { return std::max(1u, static_cast<std::uint32_t>(std::lround(side))); };
+  if (settings.width > 0) parameters.width = settings.width;
+  if (settings.height > 0) parameters.height = settings.height;
+  if (settings.width > 0 && settings.height == 0) parameters.height = pixels(settings.width / aspect);
+  if (settings.height > 0 && settings.width == 0) parameters.width = pixels(settings.height * aspect);
+  if (parameters.width > pack::kMaxResolution || parameters.height > pack::kMaxResolution)
+    throw Error("--width, --height", "the image is too large",
+                fmt::format("at most {} pixels per side", pack::kMaxResolution),
+                fmt::format("{} x {}", parameters.width, parameters.height));
+}
+
+void setRegion(RenderParameters& parameters, const std::vector<std::uint32_t>& region) {
+  parameters.region = {0, 0, parameters.width, parameters.height};
+  if (region.empty()) return;
+  parameters.region = {region[0], region[1], region[2], region[3]};
+  const Region& r = parameters.region;
+  if (r.width == 0 || r.height == 0 || r.x >= parameters.width || r.y >= parameters.height ||
+      r.width > parameters.width - r.x || r.height > parameters.height - r.y)
+    throw Error("--region", "the region is not inside the image",
+                fmt::format("x y width height within {} x {}", parameters.width, parameters.height),
+                fmt::format("{} {} {} {}", r.x, r.y, r.width, r.height));
+}
+
+}  // namespace
+
+RenderParameters renderParameters(const JobSettings& settings, const pack::Scene& scene) {
+  RenderParameters parameters = defaultParameters(scene);
+  setSize(parameters, settings, scene);
+  setRegion(parameters, settings.region);
+  parameters.samples = settings.samples;
+  if (settings.depth) parameters.depth = *settings.depth;
+  parameters.analyser = settings.analyser;
+  parameters.everyEffect = settings.effects == "all";
+  parameters.tolerance = settings.tolerance;
+  parameters.stokes = settings.stokes;
+  return parameters;
+}
+
+RenderResult renderImage(Renderer& renderer, std::string_view method, const RenderParameters& parameters,
+                         bool countRays) {
+  RenderResult result = renderer.render(method, parameters);
+  if (countRays && result.cost.rays == 0) result.cost.rays = renderer.countRays(method, parameters);
+  return result;
+}
+
+Job::Job(const pack::Pack& pack, const JobSettings& settings)
+    : pack_(pack), settings_(settings), parameters_(renderParameters(settings, pack.scene)) {
+  if (settings_.maxError) chooseMethod();
+  requestedMethod_ = settings_.method;
+  applyEffects();
+  parameters_.checkNumerics = settings_.checkNumerics;
+}
+
+RenderResult Job::render() { return renderImage(renderer(), settings_.method, parameters_, settings_.countRays); }
+
+Renderer& Job::renderer() {
+  if (!renderer_) renderer_ = makeRenderer(settings_.backend, scene(), {settings_.device, settings_.threads});
+  return *renderer_;
+}
+
+// Takes the fastest method within maxError, among those that have the Stokes channels asked for.
+void Job::chooseMethod() {
+  std::vector<MethodEstimate> estimates =
+      estimateMethods(pack_, parameters_, renderer(), settings_.threads, console::progress);
+  if (parameters_.stokes)
+    std::erase_if(estimates, [](const MethodEstimate& e) { return !methodNamed(e.method).hasStokes; });
+  estimate_ = cheapestUnder(estimates, *settings_.maxError);
+  settings_.method = estimate_->method;
+}
+
+// Chooses the method and the scene for the effects that are asked for.
+void Job::applyEffects() {
+  const bool hasMethods = backendInfo(settings_.backend).hasMethods;
+  const bool storesStokes = settings_.storesStokes && hasStokes(settings_.backend, settings_.method, parameters_);
+  bake::ImageRequest request{parameters_.depth, parameters_.analyser, false, false};
+  request.linearStokes = storesStokes || settings_.needsLinear;
+  request.circularStokes = storesStokes;
+
+  const EffectsChoice choice =
+      chooseEffects(splitAtCommas(settings_.effects), hasMethods ? settings_.method : completeRecursiveMethod().name,
+                    pack_.scene, request);
+  for (const EffectWarning& warning : choice.warnings)  // the reference always traces polarization
+    if (hasMethods || !isPolarization(warning.effect)) warnings_.push_back(warning.text);
+  if (hasMethods && choice.method != settings_.method) {
+    if (!choice.why.empty()) substitutedFor_ = fmt::format("{}: {}", settings_.method, choice.why);
+    settings_.method = choice.method;
+  }
+
+  const auto isOff = [&](const char* name) {
+    return std::find(choice.off.begin(), choice.off.end(), name) != choice.off.end();
+  };
+  if (isOff("shadows")) parameters_.shadows = false;
+  if (isOff("filter")) parameters_.analyser = kNoFilter;
+  if (choice.off.empty()) return;
+  renderer_.reset();  // it refers to the whole scene
+  reduced_ = std::make_unique<pack::Scene>(bake::withoutEffects(pack_.scene, choice.off));
+}
+
+}  // namespace malus::render

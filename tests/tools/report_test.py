@@ -169,7 +169,7 @@ class Report(unittest.TestCase):
         self.assertEqual(len(ids), len(set(ids)))
         for anchor in set(re.findall(r'href="#([^"]*)"', page)):
             self.assertIn(anchor, ids)
-        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["index.html", "images", "results.json"])
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["images", "index.html", "results.json"])
 
     def test_the_same_results_give_the_same_page(self):
         self.assertEqual(self.page(), self.page())

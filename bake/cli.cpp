@@ -36,6 +36,7 @@ void runBake(const BakeArguments& arguments) {
   // Step 1: nothing to do? What killed bakers left is in nobody's way, but of no use either.
   removeAbandoned(arguments.output);
   const SceneDescription description = readSceneFile(arguments.input);
+  for (const std::string& deprecation : description.deprecations) console::note(deprecation);
   const std::string provenance = provenanceOf(description, arguments.settings, arguments.options);
   std::optional<OlderBake> older;
   if (!arguments.force) older = readOlder(arguments.output);

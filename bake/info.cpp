@@ -69,7 +69,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                       {"vertices", m.positions.size()},
                       {"triangles", m.triangles.size()},
                       {"material", scene.materials[m.material].name},
-                      {"sheet", m.sheet},
+                      {"openSurface", m.openSurface},
                       {"encoding", pack.compression[i]},
                       {"normalBits", pack.encodings.known() ? json(pack.encodings.meshes[i].normalBits) : json()},
                       {"errors", pack.encodings.known() ? errorsOf(pack.encodings.meshes[i].deviation) : json()}});
@@ -114,7 +114,7 @@ std::string infoText(const pack::Pack& pack, double tolerance) {
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const pack::Mesh& m = scene.meshes[i];
     text += fmt::format("  {:<24} {:>8} vertices {:>8} triangles  {}{}, {}\n", m.name, m.positions.size(),
-                        m.triangles.size(), scene.materials[m.material].name, m.sheet ? " (sheet)" : "",
+                        m.triangles.size(), scene.materials[m.material].name, m.openSurface ? " (open surface)" : "",
                         pack.compression[i]);
   }
   text += encodingText(pack);

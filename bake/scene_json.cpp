@@ -74,7 +74,7 @@ json meshesJson(const pack::Pack& pack) {
     meshes.push_back({{"name", mesh.name},
                       {"file", meshFile(i)},
                       {"material", pack.scene.materials[mesh.material].name},
-                      {"sheet", mesh.sheet},
+                      {"openSurface", mesh.openSurface},
                       {"vertices", mesh.positions.size()},
                       {"triangles", mesh.triangles.size()}});
     if (pack.hasSourceMap()) meshes.back()["map"] = mapFile(i);

@@ -107,24 +107,24 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
   prep::SourceScene source = prep::readSourceScene(description.file);
   std::vector<std::string>& notes = source.notes;
 
-  // Step 1: sheets by the name of a part or an instance.
+  // Find open surfaces by the name of a part or an instance.
   std::vector<std::string> known;
   for (const prep::SourcePart& part : source.parts) known.push_back(part.name);
   for (const prep::SourceInstance& instance : source.instances) known.push_back(instance.name);
-  for (const std::string& sheet : description.sheets)
-    if (std::find(known.begin(), known.end(), sheet) == known.end())
-      failUnknown(description, "part or instance", sheet, known);
-  const std::set<std::string> sheets(description.sheets.begin(), description.sheets.end());
+  for (const std::string& name : description.openSurfaces)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      failUnknown(description, "part or instance", name, known);
+  const std::set<std::string> openSurfaces(description.openSurfaces.begin(), description.openSurfaces.end());
 
-  // Step 2: every part, prepared in its own space as a body or as a sheet, where an instance needs it.
+  // Prepare every part in its own space, as a body or as an open surface, if an instance needs it.
   std::map<std::pair<std::size_t, bool>, std::size_t> prepared;
-  const auto partOf = [&](std::size_t index, bool sheet, bool glass) {
-    const auto [found, isNew] = prepared.emplace(std::pair(index, sheet), result.parts.size());
+  const auto preparePart = [&](std::size_t index, bool openSurface, bool glass) {
+    const auto [found, isNew] = prepared.emplace(std::pair(index, openSurface), result.parts.size());
     if (!isNew) return found->second;
     const prep::SourcePart& part = source.parts[index];
     const bool authored = !part.polygons.normals.empty() || !part.polygons.cornerNormals.empty();
     prep::Options options = description.preparation;
-    options.sheet = sheet;
+    options.sheet = openSurface;
     options.certifyGlass = glass;
     options.normals = description.normals.value_or(authored ? prep::Normals::authored : prep::Normals::crease);
     ImportedPart made;
@@ -138,15 +138,15 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     return found->second;
   };
 
-  // Step 3: instances.
+  // Place the instances.
   const glm::dmat4 worldFromFile = matrixOf(description.transform);
   MaterialIndices indices(description, source, materials, materialNames, notes);
   for (const prep::SourceInstance& instance : source.instances) {
     const prep::SourcePart& part = source.parts[instance.part];
     ImportedMesh mesh;
-    mesh.sheet = sheets.contains(part.name) || sheets.contains(instance.name);
+    mesh.openSurface = openSurfaces.contains(part.name) || openSurfaces.contains(instance.name);
     mesh.material = indices.of(part.material);
-    mesh.part = partOf(instance.part, mesh.sheet, pack::hasInside(materials[mesh.material].kind));
+    mesh.part = preparePart(instance.part, mesh.openSurface, pack::hasInside(materials[mesh.material].kind));
     mesh.name = meshNames.take(instance.name);
     mesh.worldFromObject = worldFromFile * instance.worldFromObject;
     result.meshes.push_back(std::move(mesh));

@@ -38,7 +38,7 @@ struct ImportedMesh {
   std::string name;
   std::size_t part = 0;
   std::uint32_t material = 0;  // index into the scene's materials
-  bool sheet = false;
+  bool openSurface = false;
   glm::dmat4 worldFromObject{1.0};
 };
 

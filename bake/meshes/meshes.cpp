@@ -48,8 +48,8 @@ class Placer {
     prep::Options options = mesh.preparation;
     options.certifyGlass = glass && !options.asIs;
     if (glass && options.asIs && !options.sheet)
-      throw Error(mesh.file.string(), fmt::format("mesh '{}': a glass body that is taken as it is", mesh.name),
-                  "\"sheet\": true beside \"asIs\": true, because nobody checks that it is closed");
+      throw Error(mesh.file.string(), fmt::format("mesh '{}' is a glass body with \"asIs\"", mesh.name),
+                  "\"openSurface\": true beside \"asIs\": true, because it is not checked that the mesh is closed");
     const prep::Polygons polygons = prep::readMesh(mesh.file);
     for (const std::string& note : polygons.notes) result_.notes.push_back(noteOf(mesh.file, note));
     prep::Report report;
@@ -71,7 +71,7 @@ class Placer {
     for (ImportedMesh& mesh : imported.meshes) {
       const ImportedPart& part = imported.parts[mesh.part];
       if (std::exchange(told[mesh.part], 1) == 0) requireCertificate(import.file, mesh.name, part.report);
-      place(part.mesh, mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.sheet);
+      place(part.mesh, mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.openSurface);
     }
     for (ImportedPart& part : imported.parts) result_.reports.push_back(std::move(part.report));
     result_.notes.insert(result_.notes.end(), imported.notes.begin(), imported.notes.end());
@@ -85,19 +85,19 @@ class Placer {
     const std::string what =
         fmt::format("mesh '{}' is not certified as glass: {}", name, problemsOf(report.certificate));
     if (!settings_.allowOpenGlass)
-      throw Error(file.string(), what, "a body without these, \"sheet\": true, or --allow-open-glass");
+      throw Error(file.string(), what, "a body without these problems, \"openSurface\": true, or --allow-open-glass");
     result_.notes.push_back(fmt::format("{}: {}", file.string(), what));
   }
 
   void place(const prep::Mesh& mesh, const glm::dmat4& worldFromObject, std::string name, std::uint32_t material,
-             bool sheet) {
+             bool openSurface) {
     if (result_.meshes.size() == pack::kMaxMeshes)
       throw Error(description_.file.string(), "has too many meshes", fmt::format("at most {}", pack::kMaxMeshes));
     PlacedMesh placedMesh;
     placedMesh.world = placed(mesh, worldFromObject);
     placedMesh.packed.name = std::move(name);
     placedMesh.packed.material = material;
-    placedMesh.packed.sheet = sheet;
+    placedMesh.packed.openSurface = openSurface;
     if (settings_.keepMap) {
       placedMesh.packed.sourceVertices = mesh.sourceVertices;
       placedMesh.packed.sourceFaces = mesh.sourceFaces;

@@ -46,7 +46,7 @@ Mesh decodeMesh(const ByteReader& r, const MeshEntry& entry, std::span<const std
   Mesh mesh;
   mesh.name = entry.name;
   mesh.material = entry.material;
-  mesh.sheet = (entry.flags & kOpenSurfaceFlag) != 0;
+  mesh.openSurface = (entry.flags & kOpenSurfaceFlag) != 0;
   mesh.positions = std::move(decoded.positions);
   mesh.normals = std::move(decoded.normals);
   mesh.triangles = std::move(decoded.triangles);

@@ -132,7 +132,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
     geometry.padTo(kAlignment);
     const MeshEntry entry{mesh.name,
                           mesh.material,
-                          (mesh.sheet ? kOpenSurfaceFlag : 0) | (mesh.normals.empty() ? 0 : kNormalsFlag),
+                          (mesh.openSurface ? kOpenSurfaceFlag : 0) | (mesh.normals.empty() ? 0 : kNormalsFlag),
                           static_cast<std::uint32_t>(result.vertices),
                           static_cast<std::uint32_t>(result.triangles),
                           report.method == "edgebreaker" ? 1u : 0u,

@@ -101,7 +101,7 @@ struct Environment {
 struct Mesh {
   std::string name;
   std::uint32_t material = 0;  // index into materials
-  bool sheet = false;          // an open transmitting surface on purpose
+  bool openSurface = false;    // an open surface that may transmit
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;     // unit, one per position; empty: those of the faces
   std::vector<glm::uvec3> triangles;  // counter-clockwise seen from outside

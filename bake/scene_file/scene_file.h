@@ -1,4 +1,4 @@
-// Reads scene.json (schema: bake/SCENE.md) into the description that is baked. Nothing is computed here.
+// Reads scene.json (bake/SCENE.md; keys: bake/scene_file/scene_keys.h) into the description that is baked.
 #pragma once
 
 #include <array>
@@ -26,26 +26,26 @@ struct MeshDescription {
   std::string name;
   std::filesystem::path file;  // absolute or relative to the working folder
   std::string material;
-  prep::Options preparation;  // certifyGlass is the material's matter
+  prep::Options preparation;  // without certifyGlass, which depends on the material
   std::vector<Transform> instances;
 };
 
-// A whole file: its parts where its instances stand.
+// A whole file: its parts, placed by its instances.
 struct ImportDescription {
   std::filesystem::path file;                    // absolute or relative to the working folder
   std::map<std::string, std::string> materials;  // in the file ("": none) to those of the scene
   Transform transform;                           // of all of it
-  prep::Options preparation;                     // of every part; sheet is told by the list below
-  std::optional<prep::Normals> normals;          // as asked for; else authored where a part has them
-  std::vector<std::string> sheets;               // names of parts or instances
+  prep::Options preparation;                     // of every part; open surfaces are listed below
+  std::optional<prep::Normals> normals;          // nothing: authored if a part has them, else crease
+  std::vector<std::string> openSurfaces;         // names of parts or instances
 };
 
-// A picture whose values, times scale and plus offset, are a material's numbers.
+// An image of a material: number = offset + scale x value.
 struct TextureDescription {
   std::filesystem::path file;
   double scale = 1, offset = 0;
-  double low = 0, high = 1;  // what the values may be
-  bool grey = false;         // its green channel serves every colour
+  double low = 0, high = 1;  // bounds of the numbers
+  bool grey = false;         // the green channel is used for every colour
   friend bool operator==(const TextureDescription&, const TextureDescription&) = default;
 };
 
@@ -66,16 +66,17 @@ struct SceneDescription {
   double environmentScale = 1;
   double environmentRotationDegrees = 0;
   double ambientIrradiance = 0;
-  glm::dvec3 sun{0.0};  // toward it, where skyDegree is over 0
+  glm::dvec3 sun{0.0};  // unit vector toward the sun of a polarized sky; 0: none
   double skyDegree = 0;
-  std::vector<TextureDescription> textures;  // that the materials' maps count in
+  std::vector<TextureDescription> textures;  // indexed by the materials' maps
   std::vector<pack::PointLight> lights;      // in world space
   std::vector<pack::Material> materials;
   std::vector<MeshDescription> meshes;
   std::vector<ImportDescription> imports;
+  std::vector<std::string> deprecations;  // a line per deprecated key in the file
 };
 
-// Throws Error: unreadable, no JSON, a key missing, unknown or out of range, an unknown material, nothing to draw.
+// Throws Error: unreadable, not JSON, a key missing, unknown or out of range, an unknown material, nothing to render.
 SceneDescription readSceneFile(const std::filesystem::path& path);
 
 }  // namespace malus::bake

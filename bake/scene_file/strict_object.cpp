@@ -47,18 +47,18 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& n
   return best;
 }
 
-StrictObject::StrictObject(const json& value, std::string where, std::string path)
-    : value_(&value), where_(std::move(where)), path_(std::move(path)) {
+StrictObject::StrictObject(const json& value, std::string where, std::string path, std::vector<std::string>* notes)
+    : value_(&value), where_(std::move(where)), path_(std::move(path)), notes_(notes) {
   if (!value.is_object()) throw Error(where_, path_.empty() ? "top level" : path_, "an object", shown(value));
 }
 
-std::string StrictObject::pathOf(std::string_view key) const {
+std::string StrictObject::keyPath(std::string_view key) const {
   return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
 
 void StrictObject::fail(std::string_view key, std::string_view problem, std::string_view expected,
                         std::string_view found) const {
-  throw Error(where_, fmt::format("{}: {}", pathOf(key), problem), expected, found);
+  throw Error(where_, fmt::format("{}: {}", keyPath(key), problem), expected, found);
 }
 
 bool StrictObject::has(const char* key) {
@@ -68,20 +68,38 @@ bool StrictObject::has(const char* key) {
 
 const json& StrictObject::at(const char* key) {
   if (!has(key)) {
-    // A misspelt key explains a missing one best.
+    // A missing key is often a misspelt one.
     std::vector<std::string> present;
     for (const auto& item : value_->items()) present.push_back(item.key());
     const std::string near = nearestName(key, present);
-    fail(key, "is missing", "it", near.empty() ? "" : fmt::format("'{}'", near));
+    fail(key, "is missing", "the key", near.empty() ? "" : fmt::format("'{}'", near));
   }
   return value_->at(key);
 }
 
-StrictObject StrictObject::object(const char* key) { return {at(key), where_, pathOf(key)}; }
+StrictObject StrictObject::object(const char* key) { return {at(key), where_, keyPath(key), notes_}; }
+
+std::size_t StrictObject::listSize(const char* key, std::string_view expected) {
+  const json& value = at(key);
+  if (!value.is_array()) fail(key, "must be a list", expected, shown(value));
+  return value.size();
+}
+
+StrictObject StrictObject::element(const char* key, std::size_t index) {
+  return {at(key).at(index), where_, fmt::format("{}[{}]", keyPath(key), index), notes_};
+}
+
+std::string StrictObject::resolve(std::string_view key, std::string_view alias) {
+  if (alias.empty() || !value_->contains(alias)) return std::string(key);
+  if (value_->contains(key))
+    fail(alias, fmt::format("is the deprecated name of '{}', which is present too", key), fmt::format("'{}'", key));
+  if (notes_ != nullptr) notes_->push_back(fmt::format("{}: {} is deprecated, use '{}'", where_, keyPath(alias), key));
+  return std::string(alias);
+}
 
 std::string StrictObject::text(const char* key) {
   const json& value = at(key);
-  if (!value.is_string()) fail(key, "is no text", "a string", shown(value));
+  if (!value.is_string()) fail(key, "must be text", "a string", shown(value));
   return value.get<std::string>();
 }
 
@@ -92,12 +110,12 @@ std::string StrictObject::text(const char* key, std::string_view fallback) {
 bool StrictObject::flag(const char* key, bool fallback) {
   if (!has(key)) return fallback;
   const json& value = value_->at(key);
-  if (!value.is_boolean()) fail(key, "is no flag", "true or false", shown(value));
+  if (!value.is_boolean()) fail(key, "must be true or false", "true or false", shown(value));
   return value.get<bool>();
 }
 
 double StrictObject::checkedNumber(const json& value, const char* key, double low, double high) const {
-  if (!value.is_number()) fail(key, "is no number", "a number", shown(value));
+  if (!value.is_number()) fail(key, "must be a number", "a number", shown(value));
   const double number = value.get<double>();
   if (!(number >= low && number <= high))
     fail(key, "is out of range", fmt::format("{:g} to {:g}", low, high), shown(value));
@@ -105,7 +123,7 @@ double StrictObject::checkedNumber(const json& value, const char* key, double lo
 }
 
 glm::dvec3 StrictObject::checkedVector(const json& value, const char* key, double low, double high) const {
-  if (!value.is_array() || value.size() != 3) fail(key, "is no vector", "a list of three numbers", shown(value));
+  if (!value.is_array() || value.size() != 3) fail(key, "must be a vector", "a list of three numbers", shown(value));
   return {checkedNumber(value[0], key, low, high), checkedNumber(value[1], key, low, high),
           checkedNumber(value[2], key, low, high)};
 }
@@ -118,7 +136,7 @@ double StrictObject::number(const char* key, double low, double high, double fal
 
 std::uint32_t StrictObject::integer(const char* key, std::uint32_t low, std::uint32_t high) {
   const json& value = at(key);
-  if (!value.is_number_integer()) fail(key, "is no whole number", fmt::format("{} to {}", low, high), shown(value));
+  if (!value.is_number_integer()) fail(key, "must be a whole number", fmt::format("{} to {}", low, high), shown(value));
   return static_cast<std::uint32_t>(checkedNumber(value, key, low, high));
 }
 

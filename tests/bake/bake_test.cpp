@@ -179,7 +179,7 @@ TEST_F(Bake, GlassMustBeCertified) {
   const std::string message = error();
   EXPECT_TRUE(contains(message, "square.obj: mesh 'pane' is not certified as glass: component 0: 4 open edges"))
       << message;
-  EXPECT_TRUE(contains(message, "\"sheet\": true")) << message;
+  EXPECT_TRUE(contains(message, "openSurface")) << message;
   scene_["meshes"][0]["fillHoles"] = 4;  // a fold without thickness is no body either
   EXPECT_TRUE(contains(error(), "not certified as glass")) << error();
   scene_["meshes"][0] = {{"name", "cube"}, {"file", "cube.obj"}, {"material", "glass"}};
@@ -189,13 +189,13 @@ TEST_F(Bake, GlassMustBeCertified) {
 }
 
 TEST_F(Bake, ASheetOfGlassNeedsItsOtherSide) {
-  scene_["meshes"][0] = {{"name", "pane"}, {"file", "square.obj"}, {"material", "glass"}, {"sheet", true}};
+  scene_["meshes"][0] = {{"name", "pane"}, {"file", "square.obj"}, {"material", "glass"}, {"openSurface", true}};
   EXPECT_TRUE(contains(error(), "nothing to leave by")) << error();
   folder_.write("slab.obj", std::string(test::kSquareObj) +
                                 "v -0.5 -0.1 -0.5\nv 0.5 -0.1 -0.5\nv 0.5 -0.1 0.5\nv -0.5 -0.1 0.5\nf 5 6 7 8\n");
   scene_["meshes"][0]["file"] = "slab.obj";
   EXPECT_EQ(error(), "");
-  EXPECT_TRUE(baked().meshes[0].sheet);
+  EXPECT_TRUE(baked().meshes[0].openSurface);
 }
 
 TEST_F(Bake, OpenGlassCanBeAllowedAndIsTold) {
@@ -333,7 +333,7 @@ TEST_F(Bake, AsItIsKeepsWhatCleaningWouldDrop) {
   EXPECT_LT(pack.scene.meshes[0].normals[1].z, -0.999f);
   scene_["meshes"][0]["material"] = "glass";
   EXPECT_CONTAINS(error(), "taken as it is");
-  scene_["meshes"][0]["sheet"] = true;
+  scene_["meshes"][0]["openSurface"] = true;
   EXPECT_EQ(error(), "");
 }
 

@@ -118,7 +118,7 @@ inline pack::Scene smallScene() {
   pack::Mesh sheet;
   sheet.name = "sheet";
   sheet.material = 0;
-  sheet.sheet = true;
+  sheet.openSurface = true;
   sheet.positions = {{2, 0, 0}, {3, 0, 0}, {3, 1, 0}, {2, 1, 0}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
   scene.meshes = {tetrahedron, sheet};

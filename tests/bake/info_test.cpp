@@ -39,9 +39,9 @@ TEST(Info, JsonHasWhatItPromises) {
   EXPECT_EQ(info["meshes"][0]["material"], "gold");
   EXPECT_EQ(info["meshes"][0]["vertices"], 4);
   EXPECT_EQ(info["meshes"][0]["triangles"], 4);
-  EXPECT_EQ(info["meshes"][0]["sheet"], false);
+  EXPECT_EQ(info["meshes"][0]["openSurface"], false);
   EXPECT_EQ(info["meshes"][1]["material"], "glass");
-  EXPECT_EQ(info["meshes"][1]["sheet"], true);
+  EXPECT_EQ(info["meshes"][1]["openSurface"], true);
   EXPECT_EQ(info["meshes"][1]["encoding"], pack.compression[1]);
   EXPECT_EQ(info["meshes"][0]["errors"]["tiltMaxDegrees"], pack.encodings.meshes[0].deviation.tiltMaxDegrees);
   EXPECT_EQ(info["meshes"][0]["normalBits"], pack.encodings.meshes[0].normalBits);
@@ -84,7 +84,7 @@ TEST(Info, NamesTheMapToTheSource) {
 TEST(Info, TextNamesEverything) {
   const std::string text = infoText(packOf(sceneOfNewerMalus()));
   for (const char* part : {"small", "8 vertices, 6 triangles, 2 lights, 64 x 48 pixels, depth 5", "tetrahedron", "gold",
-                           "(sheet)", "there is gold", "positions of 20 bits", "GEOM", "PROV"})
+                           "(open surface)", "there is gold", "positions of 20 bits", "GEOM", "PROV"})
     EXPECT_CONTAINS(text, part);
 }
 

@@ -12,6 +12,7 @@
 #include "bake/pack/field_io.h"
 #include "bake/pack/material_fields.h"
 #include "bake/pack/record_fields.h"
+#include "bake/scene_file/scene_keys.h"
 #include "meshprep/base/atomic_file.h"
 #include "tests/bake/fixtures.h"
 
@@ -89,6 +90,83 @@ std::map<std::string, std::string> formatTables() {
           {"EFCT", formatTable<pack::Effect>(MALUS_DESCRIBED(visitEffect))}};
 }
 
+// Rows of a table of bake/SCENE.md.
+struct SceneTable {
+  bool hasKinds = false;
+  std::string text = {};
+
+  template <class T>
+  void operator()(const Field& field, const T& value) {
+    if (field.key == pack::Key::none) return;
+    const std::string shape = shapeText(field, value),
+                      bounds = boundsText(field.lowInScene(), field.highInScene(), field.unit);
+    text += fmt::format("| `{}` | {}{}{}{} | {} | {}{} |\n", field.name,
+                        !hasKinds                         ? ""
+                        : field.kinds == pack::kEveryKind ? "all | "
+                                                          : kindNames(field.kinds) + " | ",
+                        shape, field.shape == pack::Shape::direction || bounds.empty() ? "" : ", ",
+                        field.shape == pack::Shape::direction ? "" : bounds,
+                        field.key == pack::Key::required ? "required"
+                        : field.fallback                 ? fmt::format("{:g}", *field.fallback)
+                                                         : defaultText(field, value),
+                        field.text, field.alias.empty() ? "" : fmt::format(" (deprecated name: `{}`)", field.alias));
+  }
+
+ private:
+  static std::string shapeText(const Field& field, const glm::dvec3&) {
+    return field.shape == pack::Shape::direction        ? "[x, y, z]"
+           : field.shape == pack::Shape::numberOrVector ? "number or three numbers"
+                                                        : "three numbers";
+  }
+  static std::string shapeText(const Field&, bool) { return "true or false"; }
+  static std::string shapeText(const Field&, const std::string&) { return "text"; }
+  static std::string shapeText(const Field&, double) { return "number"; }
+  template <class T>
+  static std::string shapeText(const Field&, const T&) {
+    return "integer";
+  }
+  static std::string defaultText(const Field& field, const glm::dvec3& v) {
+    if (field.shape == pack::Shape::numberOrVector) return fmt::format("{:g}", v.x);
+    return fmt::format("[{:g}, {:g}, {:g}]", v.x, v.y, v.z);
+  }
+  static std::string defaultText(const Field&, const std::string& text) { return fmt::format("`\"{}\"`", text); }
+  static std::string defaultText(const Field&, pack::MaterialKind) { return ""; }
+  template <class T>
+  static std::string defaultText(const Field&, const T& value) {
+    return fmt::format("{}", value);
+  }
+};
+
+template <class Record, class Describe>
+std::string sceneTable(Describe describe, bool hasKinds = false) {
+  SceneTable table{hasKinds, hasKinds ? "| key | of | value | default | meaning |\n|---|---|---|---|---|\n"
+                                      : "| key | value | default | meaning |\n|---|---|---|---|\n"};
+  const Record any{};
+  describe(table, any);
+  return table.text;
+}
+
+#define MALUS_KEYS(visit) [](auto& visitor, const auto& record) { visit(visitor, record); }
+
+std::map<std::string, std::string> sceneTables() {
+  std::string kinds = "| `type` | meaning |\n|---|---|\n";
+  for (const pack::MaterialKindInfo& info : pack::kMaterialKinds)
+    kinds += fmt::format("| `{}` | {} |\n", info.name, info.summary);
+  return {{"kinds", kinds},
+          {"scene", sceneTable<SceneDescription>(MALUS_KEYS(visitSceneKeys))},
+          {"camera", sceneTable<SceneDescription>(MALUS_KEYS(visitCameraKeys))},
+          {"constant", sceneTable<SceneDescription>(MALUS_KEYS(visitConstantKeys))},
+          {"image", sceneTable<SceneDescription>(MALUS_KEYS(visitImageKeys))},
+          {"environment", sceneTable<SceneDescription>(MALUS_KEYS(visitEnvironmentKeys))},
+          {"light", sceneTable<pack::PointLight>(MALUS_KEYS(visitLightKeys))},
+          {"material", sceneTable<pack::Material>(MALUS_KEYS(pack::visitMaterial), true)},
+          {"map", sceneTable<TextureDescription>(MALUS_KEYS(visitMapKeys))},
+          {"projection", sceneTable<pack::Maps>(MALUS_KEYS(visitProjectionKeys))},
+          {"mesh", sceneTable<MeshDescription>(MALUS_KEYS(visitMeshKeys))},
+          {"cleaning", sceneTable<prep::Options>(MALUS_KEYS(visitCleaningKeys))},
+          {"transform", sceneTable<Transform>(MALUS_KEYS(visitTransformKeys))}};
+}
+
 // The page with the tables in the place of those between its comments "<!-- fields: NAME -->" and "<!-- end -->".
 std::string withTables(const std::string& page, const std::map<std::string, std::string>& tables) {
   constexpr std::string_view kStart = "<!-- fields: ", kEnd = "<!-- end -->";
@@ -122,6 +200,8 @@ void checkPage(const std::filesystem::path& path, const std::map<std::string, st
   FAIL() << path << " differs from the description at \"" << page.substr(first, 80) << "\"; expected \""
          << expected.substr(first, 80) << "\". MALUS_UPDATE_PAGES=1 writes the tables";
 }
+
+TEST(Pages, Scene) { checkPage(kSource / "bake/SCENE.md", sceneTables()); }
 
 TEST(Pages, Format) { checkPage(kSource / "bake/FORMAT.md", formatTables()); }
 

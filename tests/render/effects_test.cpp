@@ -180,7 +180,7 @@ TEST(EffectClosedForms, GlassTakesWhatBeerAndLambertSay) {
   const std::uint32_t material = test::addMaterial(scene, glass);
   test::addSquare(scene, material, {0, 0, 1}, {0, 0, 1}, 1);
   test::addSquare(scene, material, {0, 0, 0.75}, {0, 0, -1}, 1);
-  scene.meshes[0].sheet = scene.meshes[1].sheet = true;
+  scene.meshes[0].openSurface = scene.meshes[1].openSurface = true;
   test::addSquare(scene, test::addMaterial(scene, test::emitter(glm::dvec3(1))), {0, 0, 0}, {0, 0, 1}, 1);
   const double t = 0.96 * 0.96;
   expectEverywhere(scene, 0, {t, 0, 0, 0}, 2e-6);

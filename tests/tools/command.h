@@ -83,7 +83,7 @@ inline void writeTinyScene(const std::filesystem::path& folder) {
   writeText(folder / "scene.json", R"({
   "malus": 1, "name": "tiny", "resolution": [64, 48], "depth": 4,
   "camera": {"position": [2, 2, 5], "target": [0, 0.5, 0], "verticalFovDegrees": 35},
-  "environment": {"radiance": [0.4, 0.5, 0.6], "diffuseFill": 1},
+  "environment": {"radiance": [0.4, 0.5, 0.6], "ambientIrradiance": 1},
   "lights": [{"type": "point", "position": [2, 4, 2], "intensity": [20, 20, 20]}],
   "materials": {"gold": {"type": "metal", "preset": "gold"}, "floor": {"type": "paint", "albedo": 0.5}},
   "meshes": [{"name": "cube", "file": "cube.obj", "material": "gold"},

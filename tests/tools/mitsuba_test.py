@@ -72,9 +72,9 @@ class Scene:
         meshes = []
         for i, (name, corners) in enumerate(quads):
             write_ply(folder / f"{i}.ply", corners)
-            meshes.append({"name": str(i), "file": f"{i}.ply", "material": name, "sheet": False})
+            meshes.append({"name": str(i), "file": f"{i}.ply", "material": name, "openSurface": False})
         scene = {"name": "test", "resolution": [1, 1], "depth": 8, "camera": view, "lights": [],
-                 "environment": {"radiance": [1.0] * 3, "diffuseFill": 0}, "materials": materials, "meshes": meshes}
+                 "environment": {"radiance": [1.0] * 3, "ambientIrradiance": 0}, "materials": materials, "meshes": meshes}
         (folder / "scene.json").write_text(json.dumps(scene | changes))
         self.unpacked = export.Unpacked(folder)
 
@@ -241,7 +241,7 @@ class Numbers(unittest.TestCase):
             self.assertIn(part, failures[0])
 
     def test_simplified_scenes_list_replacements(self):
-        scene = {"environment": {"radiance": [1, 1, 1], "diffuseFill": 0.5}, "meshes": [], "materials": {
+        scene = {"environment": {"radiance": [1, 1, 1], "ambientIrradiance": 0.5}, "meshes": [], "materials": {
             "a": {"type": "paint", "eta": 1.6, "albedo": 0.2, "highlight": {"exponent": 2}},
             "b": {"type": "metal", "preset": "gold", "albedo": 0.1}, "c": {"type": "glass", "eta": 1.5}}}
         new, replaced = simplify.simplified(scene)

@@ -97,8 +97,8 @@ def omissions(scene: Unpacked) -> list[str]:
             omitted.append(f"Material '{m['name']}': the highlight is left out.")
     if "sky" in scene.json["environment"]:
         omitted.append("The polarization of the sky is left out.")
-    if scene.json["environment"].get("diffuseFill", 0) > 0:
-        omitted.append("The ambient light on diffuse surfaces (diffuseFill) is left out.")
+    if scene.json["environment"].get("ambientIrradiance", 0) > 0:
+        omitted.append("The ambient light on diffuse surfaces (ambientIrradiance) is left out.")
     if scene.json["camera"]["mediumEta"] != 1:
         omitted.append("The medium of the camera has an index other than 1, which Mitsuba's camera lacks: the images "
                        "agree only if a closed glass mesh of that index encloses the camera.")

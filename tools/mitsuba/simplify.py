@@ -19,8 +19,9 @@ def simplified(scene: dict) -> tuple[dict, list[str]]:
             changes.append(f"Material '{name}': paint becomes bare Lambert of the same albedo.")
         if m["type"] == "metal" and m.pop("albedo", None) is not None:
             changes.append(f"Material '{name}': the diffuse light under the metal is removed.")
-    if scene.get("environment", {}).pop("diffuseFill", 0) > 0:
-        changes.append("The ambient light on diffuse surfaces (diffuseFill) becomes 0.")
+    environment = scene.get("environment", {})
+    if max(environment.pop(key, 0) for key in ("ambientIrradiance", "diffuseFill")) > 0:  # diffuseFill: deprecated
+        changes.append("The ambient light on diffuse surfaces (ambientIrradiance) becomes 0.")
     return scene, changes
 
 

@@ -140,7 +140,7 @@ TEST(PackRoundTrip, MeshesComeBackWithinTheGrid) {
     const Mesh &found = pack.scene.meshes[i], &source = scene.meshes[i];
     EXPECT_EQ(found.name, source.name);
     EXPECT_EQ(found.material, source.material);
-    EXPECT_EQ(found.sheet, source.sheet);
+    EXPECT_EQ(found.openSurface, source.openSurface);
     ASSERT_EQ(found.positions.size(), source.positions.size());
     ASSERT_EQ(found.normals.size(), source.normals.size());
     ASSERT_EQ(found.triangles.size(), source.triangles.size());

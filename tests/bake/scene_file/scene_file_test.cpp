@@ -1,6 +1,8 @@
 // scene.json: every key of bake/SCENE.md, and what happens to everything else.
 #include "bake/scene_file/scene_file.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -83,7 +85,7 @@ TEST(SceneFile, EveryKeyIsRead) {
     "malus": 1, "name": "Full-2", "title": "All of it", "origin": [1, 2, 3],
     "camera": {"position": [4, 5, 6], "target": [7, 8, 9], "up": [0, 0, 1], "verticalFovDegrees": 25.5, "mediumEta": 1.33},
     "resolution": [1, 16384], "depth": 30, "exposureEv": -1.5,
-    "environment": {"image": "sky.hdr", "scale": 2.5, "rotationDegrees": -90, "diffuseFill": 0.25},
+    "environment": {"image": "sky.hdr", "scale": 2.5, "rotationDegrees": -90, "ambientIrradiance": 0.25},
     "lights": [{"type": "point", "position": [1, 1, 1], "intensity": [2, 3, 4]}],
     "materials": {
       "a-metal": {"type": "metal", "eta": [0.2, 0.5, 1.3], "k": 3, "albedo": [0.1, 0.2, 0.3], "outsideEta": 1.5,
@@ -93,7 +95,7 @@ TEST(SceneFile, EveryKeyIsRead) {
       "d-paint": {"type": "paint", "albedo": 1},
       "e-paint": {"type": "paint", "albedo": 0, "eta": 1.7},
       "f-lamp": {"type": "emitter", "radiance": [5, 6, 7]}},
-    "meshes": [{"name": "one", "file": "sub/one.ply", "material": "b-glass", "flat": true, "sheet": true,
+    "meshes": [{"name": "one", "file": "sub/one.ply", "material": "b-glass", "flat": true, "openSurface": true,
                 "creaseDegrees": 30, "weldTolerance": 0.001,
                 "instances": [{}, {"scale": [1, -2, 3], "rotateDegrees": [10, 20, 30], "translate": [-1, -2, -3]},
                               {"scale": 4}]}]})");
@@ -171,9 +173,9 @@ TEST(SceneFile, MisspeltKeysNameTheNearest) {
     EXPECT_TRUE(contains(error, c.expected)) << error;
   }
   json scene = minimal();
-  scene["environment"] = {{"radiance", {1, 1, 1}}, {"difuseFill", 1}};
-  EXPECT_TRUE(
-      contains(errorOf([&] { readJson(scene); }), "environment.difuseFill: unknown key; expected 'diffuseFill'"));
+  scene["environment"] = {{"radiance", {1, 1, 1}}, {"ambientIradiance", 1}};
+  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }),
+                       "environment.ambientIradiance: unknown key; expected 'ambientIrradiance'"));
   scene = minimal();
   scene["lights"] = json::parse(R"([{"type": "point", "position": [0,0,0], "intensity": [1,1,1], "intensityy": 1}])");
   EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "lights[0].intensityy: unknown key; expected 'intensity'"));
@@ -223,7 +225,7 @@ TEST(SceneFile, Ranges) {
       {"/environment", R"({"radiance": [1, 1, 1], "image": "a.hdr"})"},
       {"/environment", R"({"radiance": [-1, 1, 1]})"},
       {"/environment", R"({"image": "a.hdr", "rotationDegrees": 361})"},
-      {"/environment", R"({"radiance": [1, 1, 1], "diffuseFill": -1})"},
+      {"/environment", R"({"radiance": [1, 1, 1], "ambientIrradiance": -1})"},
       {"/lights", "{}"},
       {"/lights", R"([{"type": "spot", "position": [0, 0, 0], "intensity": [1, 1, 1]}])"},
       {"/lights", R"([{"type": "point", "position": [0, 0, 0], "intensity": [1, -1, 1]}])"},
@@ -287,7 +289,7 @@ TEST(SceneFile, WhatFewMaterialsHave) {
   m = materialOf(R"({"type": "emitter", "radiance": [1, 1, 1], "polarization": {"axis": [0, 3, 4]}})");
   EXPECT_EQ(m.axis, glm::dvec3(0, 0.6, 0.8));
   EXPECT_EQ(m.polarization, 1);
-  m = materialOf(R"({"type": "polarizer", "axis": [0, 2, 0], "across": 0.01})");
+  m = materialOf(R"({"type": "polarizer", "axis": [0, 2, 0], "transmittanceCrossed": 0.01})");
   EXPECT_EQ(m.kind, Kind::polarizer);
   EXPECT_EQ(m.axis, glm::dvec3(0, 1, 0));
   EXPECT_EQ(m.transmittanceParallel, glm::dvec3(1));
@@ -308,8 +310,8 @@ TEST(SceneFile, WhatFewMaterialsHave) {
         R"({"type": "glass", "eta": 1.5, "coating": {"eta": 0, "thicknessNm": 1}})",
         R"({"type": "emitter", "radiance": [1, 1, 1], "polarization": {"axis": [0, 0, 0]}})",
         R"({"type": "emitter", "radiance": [1, 1, 1], "polarization": {"axis": [0, 0, 1], "degree": 2}})",
-        R"({"type": "polarizer"})", R"({"type": "polarizer", "axis": [0, 1, 0], "along": 1.5})",
-        R"({"type": "wave-plate", "axis": [0, 1, 0], "across": 1})"})
+        R"({"type": "polarizer"})", R"({"type": "polarizer", "axis": [0, 1, 0], "transmittanceParallel": 1.5})",
+        R"({"type": "wave-plate", "axis": [0, 1, 0], "transmittanceCrossed": 1})"})
     EXPECT_TRUE(contains(errorOfMaterial(bad), "materials.floor")) << bad << ": " << errorOfMaterial(bad);
 }
 
@@ -351,6 +353,34 @@ TEST(SceneFile, Maps) {
                        "projection"));
 }
 
+// Names of keys from before they were renamed.
+TEST(SceneFile, DeprecatedKeys) {
+  json scene = minimal();
+  scene["environment"] = {{"radiance", {1, 1, 1}}, {"diffuseFill", 0.5}};
+  scene["materials"]["film"] = json::parse(R"({"type": "polarizer", "axis": [0, 1, 0], "along": 0.9, "across": 0.1})");
+  scene["meshes"][0]["sheet"] = true;
+  scene["imports"] = json::parse(R"([{"file": "parts.obj", "sheets": ["pane"]}])");
+  const SceneDescription read = readJson(scene);
+  EXPECT_EQ(read.ambientIrradiance, 0.5);
+  EXPECT_EQ(read.materials[0].transmittanceParallel, glm::dvec3(0.9));
+  EXPECT_EQ(read.materials[0].transmittanceCrossed, glm::dvec3(0.1));
+  EXPECT_TRUE(read.meshes[0].preparation.sheet);
+  EXPECT_EQ(read.imports[0].openSurfaces, std::vector<std::string>{"pane"});
+  ASSERT_EQ(read.deprecations.size(), 5u);
+  for (const auto& [name, expected] :
+       {std::pair("diffuseFill", "ambientIrradiance"), std::pair("along", "transmittanceParallel"),
+        std::pair("across", "transmittanceCrossed"), std::pair("sheet", "openSurface"),
+        std::pair("sheets", "openSurfaces")})
+    EXPECT_TRUE(std::any_of(read.deprecations.begin(), read.deprecations.end(),
+                            [&, n = name, e = expected](const std::string& note) {
+                              return contains(note, std::string(n) + " is deprecated") && contains(note, e);
+                            }))
+        << name;
+  EXPECT_TRUE(readJson(minimal()).deprecations.empty());
+  scene["meshes"][0]["openSurface"] = true;
+  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "meshes[0].sheet"));
+}
+
 TEST(SceneFile, Sky) {
   json scene = minimal();
   scene["environment"] = json::parse(R"({"radiance": [1, 1, 1], "sky": {"sun": [0, 3, 4]}})");
@@ -370,7 +400,7 @@ TEST(SceneFile, MeshesNameKnownMaterialsAndDiffer) {
   EXPECT_TRUE(contains(error, "meshes[0].material: unknown material 'flor'; expected 'floor'")) << error;
   json scene = minimal();
   scene["meshes"].push_back(scene["meshes"][0]);
-  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "meshes[1].name: is there twice"));
+  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "meshes[1].name: occurs twice"));
 }
 
 TEST(SceneFile, BadJsonTellsTheLine) {
@@ -388,7 +418,7 @@ TEST(SceneFile, KeysThatAreThereTwice) {
   std::string text = minimal().dump();
   text.insert(1, R"("depth": 2, )");
   const std::string error = errorOf([&] { readText(text); });
-  EXPECT_TRUE(contains(error, "key 'depth' is there twice")) << error;
+  EXPECT_TRUE(contains(error, "key 'depth' occurs twice")) << error;
   EXPECT_EQ(errorWith("/title", "\"name\""), "");  // a value may be called like a key
 }
 
@@ -404,7 +434,7 @@ TEST(SceneFile, DeepNestingIsAnError) {
   constexpr std::size_t kDeep = 1000000;
   const std::string text = R"({"name": )" + std::string(kDeep, '[') + std::string(kDeep, ']') + "}";
   const std::string error = errorOf([&] { readText(text); });
-  EXPECT_TRUE(contains(error, "is nested too deep")) << error.substr(0, 200);
+  EXPECT_TRUE(contains(error, "nested too deep")) << error.substr(0, 200);
 }
 
 TEST(SceneFile, MissingFile) {

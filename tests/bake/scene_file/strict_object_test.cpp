@@ -30,7 +30,6 @@ TEST(StrictObject, ValuesComeThrough) {
   EXPECT_EQ(object.numberOrVector("s", 0, 9), glm::dvec3(4));
   EXPECT_EQ(object.numberOrVector("v", 0, 9), glm::dvec3(1, 2, 3));
   StrictObject inner = object.object("o");
-  EXPECT_EQ(inner.pathOf("a"), "o.a");
   EXPECT_EQ(inner.integer("a", 0, 1), 1u);
   inner.finish();
   object.finish();
@@ -62,20 +61,22 @@ TEST(StrictObject, UnknownKeyNamesTheNearest) {
 TEST(StrictObject, MissingKeyNamesAMisspeltOne) {
   const auto read = [](StrictObject& o) { o.number("position", 0, 1); };
   EXPECT_EQ(errorIn(R"({"posiiton": 1})", read),
-            "file.json: camera.position: is missing; expected it, found 'posiiton'");
-  EXPECT_EQ(errorIn("{}", read), "file.json: camera.position: is missing; expected it");
+            "file.json: camera.position: is missing; expected the key, found 'posiiton'");
+  EXPECT_EQ(errorIn("{}", read), "file.json: camera.position: is missing; expected the key");
 }
 
 TEST(StrictObject, WrongTypes) {
   EXPECT_EQ(errorIn("[1]", [](StrictObject&) {}), "file.json: camera; expected an object, found [1]");
   EXPECT_EQ(errorIn(R"({"a": 1})", [](StrictObject& o) { o.text("a"); }),
-            "file.json: camera.a: is no text; expected a string, found 1");
+            "file.json: camera.a: must be text; expected a string, found 1");
   EXPECT_TRUE(contains(errorIn(R"({"a": 1})", [](StrictObject& o) { o.flag("a", true); }), "true or false, found 1"));
-  EXPECT_TRUE(contains(errorIn(R"({"a": "1"})", [](StrictObject& o) { o.number("a", 0, 9); }), "is no number"));
-  EXPECT_TRUE(contains(errorIn(R"({"a": 1.5})", [](StrictObject& o) { o.integer("a", 0, 9); }), "no whole number"));
-  EXPECT_TRUE(contains(errorIn(R"({"a": [1, 2]})", [](StrictObject& o) { o.vector("a", 0, 9); }), "is no vector"));
-  EXPECT_TRUE(contains(errorIn(R"({"a": [1, 2, "3"]})", [](StrictObject& o) { o.vector("a", 0, 9); }), "is no number"));
-  EXPECT_TRUE(contains(errorIn(R"({"a": "b"})", [](StrictObject& o) { o.numberOrVector("a", 0, 9); }), "is no vector"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": "1"})", [](StrictObject& o) { o.number("a", 0, 9); }), "must be a number"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": 1.5})", [](StrictObject& o) { o.integer("a", 0, 9); }), "whole number"));
+  EXPECT_TRUE(contains(errorIn(R"({"a": [1, 2]})", [](StrictObject& o) { o.vector("a", 0, 9); }), "must be a vector"));
+  EXPECT_TRUE(
+      contains(errorIn(R"({"a": [1, 2, "3"]})", [](StrictObject& o) { o.vector("a", 0, 9); }), "must be a number"));
+  EXPECT_TRUE(
+      contains(errorIn(R"({"a": "b"})", [](StrictObject& o) { o.numberOrVector("a", 0, 9); }), "must be a vector"));
 }
 
 TEST(StrictObject, Ranges) {
@@ -88,6 +89,31 @@ TEST(StrictObject, Ranges) {
   EXPECT_TRUE(contains(errorIn(R"({"a": 4294967297})", integer), "out of range"));
   EXPECT_TRUE(contains(errorIn(R"({"a": 18446744073709551617})", integer), "found"));
   EXPECT_TRUE(contains(errorIn(R"({"a": [0, 0, 3]})", [](StrictObject& o) { o.vector("a", 0, 2); }), "out of range"));
+}
+
+TEST(StrictObject, DeprecatedNamesAreReadAndNoted) {
+  const json value = json::parse(R"({"along": 1, "inner": {"across": 2}})");
+  std::vector<std::string> notes;
+  StrictObject object(value, "file.json", "", &notes);
+  EXPECT_EQ(object.resolve("across", ""), "across");
+  EXPECT_TRUE(notes.empty());
+  EXPECT_EQ(object.resolve("parallel", "along"), "along");
+  EXPECT_EQ(object.object("inner").resolve("crossed", "across"), "across");
+  ASSERT_EQ(notes.size(), 2u);
+  for (const char* part : {"file.json", "along", "deprecated", "parallel"}) EXPECT_TRUE(contains(notes[0], part));
+  EXPECT_TRUE(contains(notes[1], "inner.across"));
+  const std::string both =
+      errorIn(R"({"along": 1, "parallel": 1})", [](StrictObject& o) { o.resolve("parallel", "along"); });
+  EXPECT_TRUE(contains(both, "camera.along") && contains(both, "parallel")) << both;
+}
+
+TEST(StrictObject, Lists) {
+  const json value = json::parse(R"({"list": [{"a": 1}, 2], "number": 3})");
+  StrictObject object(value, "file.json", "camera");
+  EXPECT_EQ(object.listSize("list", "objects"), 2u);
+  EXPECT_EQ(object.element("list", 0).integer("a", 1, 1), 1u);
+  EXPECT_TRUE(contains(errorOf([&] { object.element("list", 1); }), "camera.list[1]; expected an object"));
+  EXPECT_TRUE(contains(errorOf([&] { object.listSize("number", "objects"); }), "camera.number: must be a list"));
 }
 
 TEST(StrictObject, LongValuesAreShortened) {

@@ -95,7 +95,7 @@ def write(folder):
         "camera": {"position": [0.0, 1.72, 3.95], "target": [0.0, 0.844, 0.0], "up": [0.0, 1.0, 0.0],
                    "verticalFovDegrees": 35.0},
         "resolution": [2048, 2048], "depth": 6, "exposureEv": 0.0,
-        "environment": {"radiance": [0.42, 0.41, 0.40], "diffuseFill": 0.5},
+        "environment": {"radiance": [0.42, 0.41, 0.40], "ambientIrradiance": 0.5},
         "lights": [{"type": "point", "position": [0.0, 1.9, -0.15], "intensity": [2.4, 2.2, 1.9]}],
     }
     write_scene(folder, settings, materials, parts, EXPECTED, readme=README)

@@ -162,7 +162,7 @@ def write(folder):
         "name": "engine", "title": "A V-twin motorcycle engine", "origin": [0.0, 0.35, 0.0],
         "camera": CAMERA,
         "resolution": [2048, 2048], "depth": 8, "exposureEv": 0.0,
-        "environment": {"image": "studio.hdr", "scale": 1.0, "diffuseFill": 0.8},
+        "environment": {"image": "studio.hdr", "scale": 1.0, "ambientIrradiance": 0.8},
         "lights": [{"type": "point", "position": [-1.2, 2.2, 2.0], "intensity": [7.0, 6.8, 6.4]},
                    {"type": "point", "position": [1.8, 1.6, -0.9], "intensity": [3.5, 3.7, 4.2]}],
     }

@@ -76,8 +76,8 @@ folded sheet of gold. 1920 x 1080, depth 6.
 
 | part | material | vertices | triangles | file |
 |---|---|---|---|---|
-| upright pane, two faces | glass (BK7), `sheet` | 8 | 4 | `slab-upright.obj` |
-| leaning pane, two faces | glass (BK7), `sheet` | 8 | 4 | `slab-leaning.obj` |
+| upright pane, two faces | glass (BK7), `openSurface` | 8 | 4 | `slab-upright.obj` |
+| leaning pane, two faces | glass (BK7), `openSurface` | 8 | 4 | `slab-leaning.obj` |
 | box | chromium | 8 | 12 | `box.stl` |
 | floor and back wall | dark paint under an interface | 6 | 4 | `room.ply` |
 | folded sheet | gold | 6 | 4 | `sheet.off` |
@@ -126,7 +126,7 @@ def write(folder):
         "origin": [0.0, 0.0, 0.0],
         "camera": CAMERA,
         "resolution": [1920, 1080], "depth": 6, "exposureEv": 0.0,
-        "environment": {"image": "skylight.hdr", "scale": 1.0, "diffuseFill": 0.3},
+        "environment": {"image": "skylight.hdr", "scale": 1.0, "ambientIrradiance": 0.3},
         "lights": [{"type": "point", "position": [0.9, 3.1, -0.9], "intensity": [40.0, 38.0, 34.0]},
                    {"type": "point", "position": [1.8, 3.0, 5.0], "intensity": [20.0, 20.4, 21.6]}],
     }

@@ -28,7 +28,7 @@ class Part:
         if self.flat:
             entry["flat"] = True
         if self.sheet:
-            entry["sheet"] = True
+            entry["openSurface"] = True
         if self.crease is not None:
             entry["creaseDegrees"] = self.crease
         if self.instances:
@@ -57,7 +57,7 @@ class PartAsIs:
         self.open_edges = 0
 
     def description(self):
-        return {"name": self.name, "file": f"meshes/{self.name}.ply", "material": self.material, "sheet": True,
+        return {"name": self.name, "file": f"meshes/{self.name}.ply", "material": self.material, "openSurface": True,
                 "asIs": True}
 
     def write(self, folder, comment):

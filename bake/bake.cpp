@@ -24,9 +24,11 @@ namespace malus::bake {
 
 namespace {
 
-std::string hashText(const std::filesystem::path& file) { return fmt::format("{:016x}", pack::hashOf(readFile(file))); }
+std::string hashText(const std::filesystem::path& file) {
+  return fmt::format("{:016x}", pack::hashBytes(readFile(file)));
+}
 
-pack::Camera cameraOf(const SceneDescription& d, const glm::dvec3& origin) {
+pack::Camera makeCamera(const SceneDescription& d, const glm::dvec3& origin) {
   pack::Camera camera;
   const glm::dvec3 toTarget = d.cameraTarget - d.cameraPosition;
   if (glm::length(toTarget) == 0)
@@ -43,7 +45,8 @@ pack::Camera cameraOf(const SceneDescription& d, const glm::dvec3& origin) {
   return camera;
 }
 
-// Where the axis of a sheet or a display points along a face's normal, light has no direction across the ray.
+// Throws Error if the axis of a polarizing element or a polarized emitter is parallel to the normal of a face: its
+// projection across a ray along the normal has no direction.
 void requireAxisInPlane(const pack::Mesh& mesh, const pack::Material& material, const std::filesystem::path& file) {
   if (material.axis == glm::dvec3(0.0)) return;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -54,7 +57,7 @@ void requireAxisInPlane(const pack::Mesh& mesh, const pack::Material& material, 
     if (length > 0 && std::abs(glm::dot(across / length, material.axis)) > 1 - 1e-6)
       throw Error(file.string(),
                   fmt::format("mesh '{}': face {} is at right angles to its material's axis", mesh.name, i),
-                  fmt::format("an axis of '{}' that lies across the normals of its faces", material.name));
+                  fmt::format("an axis of '{}' that is not parallel to the normals of its faces", material.name));
   }
 }
 
@@ -65,7 +68,7 @@ nlohmann::json orNull(const std::optional<T>& value) {
 
 }  // namespace
 
-std::string provenanceOf(const SceneDescription& d, const pack::WriteSettings& settings, const BakeOptions& options) {
+std::string makeProvenance(const SceneDescription& d, const pack::WriteSettings& settings, const BakeOptions& options) {
   nlohmann::json sources = nlohmann::json::array();
   const auto add = [&](const std::filesystem::path& file, const std::string& name) {
     sources.push_back({{"file", name}, {"xxh3", hashText(file)}});
@@ -74,7 +77,7 @@ std::string provenanceOf(const SceneDescription& d, const pack::WriteSettings& s
     add(file, file.lexically_relative(d.file.parent_path()).string());
   };
   add(d.file, d.file.filename().string());
-  // What an imported file refers to may be missing: that is told where it is read.
+  // A file that an imported file refers to may be missing, which is reported when it is read.
   const auto addReferenced = [&](const std::filesystem::path& file) {
     std::error_code ignored;
     for (const std::filesystem::path& other : prep::referencedFiles(file))
@@ -129,7 +132,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   for (const PlacedMesh& mesh : placed.meshes)
     for (const glm::dvec3& p : mesh.world.positions) low = glm::min(low, p), high = glm::max(high, p);
 
-  // Everything relative to the origin, then to float.
+  // Make positions relative to the origin, then round them to float.
   scene.origin = d.origin.value_or((low + high) * 0.5);
   for (PlacedMesh& source : placed.meshes) {
     pack::Mesh& mesh = scene.meshes.emplace_back(std::move(source.packed));
@@ -142,7 +145,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     mesh.triangles = std::move(source.world.triangles);
     requireAxisInPlane(mesh, scene.materials[mesh.material], d.file);
   }
-  scene.camera = cameraOf(d, scene.origin);
+  scene.camera = makeCamera(d, scene.origin);
   for (const pack::PointLight& light : d.lights)
     scene.lights.push_back({light.position - scene.origin, light.intensity});
 
@@ -159,7 +162,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   scene.environment.sun = d.sun;
   scene.environment.skyDegree = d.skyDegree;
 
-  // Pictures of materials.
+  // Textures of materials.
   for (const TextureDescription& texture : d.textures) {
     const std::string name = texture.file.lexically_relative(d.file.parent_path()).string();
     progress(fmt::format("baking {}", name));
@@ -168,7 +171,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   for (pack::Material& m : scene.materials) m.maps.origin -= m.maps.any() ? scene.origin : glm::dvec3(0.0);
   scene.effects = findEffects(scene);
 
-  scene.provenance = provenanceOf(d, settings, options);
+  scene.provenance = makeProvenance(d, settings, options);
   return baked;
 }
 

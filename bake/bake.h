@@ -21,21 +21,22 @@ struct BakeOptions {
 
 struct Baked {
   pack::Scene scene;
-  std::vector<prep::Report> reports;  // one a mesh of the description, then one a part of an import
-  std::vector<std::string> notes;     // what files hold and is left out, and glass that is open
-  double moved = 0;                   // metres; the most that rounding to float moves a vertex
+  std::vector<prep::Report> reports;  // per mesh of the description, then per part of an import
+  std::vector<std::string> notes;     // contents of files that are left out, and glass that is not certified
+  double moved = 0;                   // metres; largest distance that rounding to float moves a vertex
 };
 
-// progress is told what is being done. Of the settings, provenance names all and keepMap is acted on. Throws Error.
+// Calls progress with the current step. The provenance names all settings; keepMap is the only one that changes the
+// scene. Throws Error.
 Baked bake(const SceneDescription& description, const pack::WriteSettings& settings,
            const std::function<void(std::string_view)>& progress, const BakeOptions& options = {});
 
-// What the baker makes of the same sources changes with this number: raise it where tests/bake/golden.json changes.
+// Raise this number when the pack of the same sources changes (tests/bake/golden.json).
 inline constexpr int kBakerRevision = 3;
 
-// JSON with the versions, the settings and the hashes of every source, and of what sources refer to: what a pack is
-// made of. Throws Error for a source that cannot be read.
-std::string provenanceOf(const SceneDescription& description, const pack::WriteSettings& settings,
-                         const BakeOptions& options = {});
+// JSON with the versions, the settings and the hashes of all sources and of the files that they refer to. Throws Error
+// for a source that cannot be read.
+std::string makeProvenance(const SceneDescription& description, const pack::WriteSettings& settings,
+                           const BakeOptions& options = {});
 
 }  // namespace malus::bake

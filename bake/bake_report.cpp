@@ -15,15 +15,15 @@ double perTriangle(std::size_t bytes, std::uint64_t triangles) {
 
 // Over all meshes.
 struct Totals {
-  std::size_t geometryBytes = 0, redone = 0;
+  std::size_t geometryBytes = 0, reencoded = 0;
   compress::Deviation worst;
 };
 
-Totals totalsOf(const Baked& baked, const pack::Written& written) {
+Totals addUp(const Baked& baked, const pack::Written& written) {
   Totals totals;
   for (const pack::MeshCompression& m : written.meshes) {
     totals.geometryBytes += m.sizeBytes;
-    totals.redone += m.kept ? 0 : 1;
+    totals.reencoded += m.reused ? 0 : 1;
     totals.worst.positionMax = std::max(totals.worst.positionMax, m.deviation.positionMax + baked.moved);
     totals.worst.normalMaxDegrees = std::max(totals.worst.normalMaxDegrees, m.deviation.normalMaxDegrees);
     totals.worst.tiltMaxDegrees = std::max(totals.worst.tiltMaxDegrees, m.deviation.tiltMaxDegrees);
@@ -34,7 +34,7 @@ Totals totalsOf(const Baked& baked, const pack::Written& written) {
 }  // namespace
 
 json bakeJson(const Baked& baked, const pack::Written& written, const std::string& output) {
-  const Totals totals = totalsOf(baked, written);
+  const Totals totals = addUp(baked, written);
   json meshes = json::array();
   for (std::size_t i = 0; i < written.meshes.size(); ++i) {
     const pack::MeshCompression& m = written.meshes[i];
@@ -46,7 +46,7 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
                       {"sizeBytes", m.sizeBytes},
                       {"bytesPerTriangle", perTriangle(m.sizeBytes, mesh.triangles.size())},
                       {"normalBits", m.normalBits},
-                      {"kept", m.kept},
+                      {"reused", m.reused},
                       {"encodeMs", m.encodeMs},
                       {"decodeMs", m.decodeMs},
                       {"errors",
@@ -66,8 +66,8 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
           {"triangles", baked.scene.triangleCount()},
           {"bytesPerTriangle", perTriangle(totals.geometryBytes, baked.scene.triangleCount())},
           {"positionBits", written.grid.positionBits},
-          {"redone", totals.redone},
-          {"whyAll", written.whyAll},
+          {"reencoded", totals.reencoded},
+          {"fullRebakeReason", written.fullRebakeReason},
           {"meshes", meshes},
           {"preparation", preparation},
           {"errors",
@@ -80,17 +80,17 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
 
 std::string bakeText(const Baked& baked, const pack::Written& written, const std::string& output, bool rebaked) {
   // Step 1: all of it.
-  const Totals totals = totalsOf(baked, written);
+  const Totals totals = addUp(baked, written);
   std::string text = fmt::format(
-      "{}: {} meshes, {} vertices, {} triangles -> {} ({} bytes, geometry {:.1f} bytes a triangle,\n"
+      "{}: {} meshes, {} vertices, {} triangles -> {} ({} bytes, geometry {:.1f} bytes per triangle,\n"
       "  positions of {} bits within {:.3g} m, normals within {:.3g} degrees, faces tilted by at most {:.3g} "
       "degrees)\n",
       baked.scene.name, baked.scene.meshes.size(), baked.scene.vertexCount(), baked.scene.triangleCount(), output,
       written.bytes.size(), perTriangle(totals.geometryBytes, baked.scene.triangleCount()), written.grid.positionBits,
       totals.worst.positionMax, totals.worst.normalMaxDegrees, totals.worst.tiltMaxDegrees);
   if (rebaked)
-    text += fmt::format("  {} of {} meshes redone{}{}\n", totals.redone, written.meshes.size(),
-                        written.whyAll.empty() ? "" : ": ", written.whyAll);
+    text += fmt::format("  {} of {} meshes re-encoded{}{}\n", totals.reencoded, written.meshes.size(),
+                        written.fullRebakeReason.empty() ? "" : ": ", written.fullRebakeReason);
 
   // Step 2: mesh by mesh.
   text += fmt::format("  {:<24}{:>10}{:>12}{:>6}{:>11}{:>11}{:>11}{:>10}{:>10}  {}\n", "mesh", "triangles",
@@ -101,7 +101,7 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
     text += fmt::format("  {:<24}{:>10}{:>12.2f}{:>6}{:>11.2g}{:>11.2g}{:>11.2g}{:>10.1f}{:>10.1f}  {}{}{}{}\n",
                         mesh.name, mesh.triangles.size(), perTriangle(m.sizeBytes, mesh.triangles.size()), m.normalBits,
                         m.deviation.positionMax + baked.moved, m.deviation.normalMaxDegrees, m.deviation.tiltMaxDegrees,
-                        m.encodeMs, m.decodeMs, m.method, m.kept ? ", kept" : "",
+                        m.encodeMs, m.decodeMs, m.method, m.reused ? ", reused" : "",
                         m.sequentialReason.empty() ? "" : ": ", m.sequentialReason);
   }
   return text;

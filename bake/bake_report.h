@@ -1,4 +1,4 @@
-// What `malus bake` tells of a pack that it wrote, for people and for programs.
+// Report of `malus bake` on a pack that it wrote, as text and as JSON.
 #pragma once
 
 #include <string>
@@ -10,13 +10,14 @@
 
 namespace malus::bake {
 
-// rebaked: there was an older pack whose meshes could have been taken.
-// {name, output, upToDate: false, sizeBytes, vertices, triangles, bytesPerTriangle, positionBits, redone, whyAll,
-//  meshes[{name, encoding, sequentialReason, triangles, sizeBytes, bytesPerTriangle, normalBits, kept, encodeMs,
+// rebaked: a previous pack had meshes that could be reused.
+// {name, output, upToDate: false, sizeBytes, vertices, triangles, bytesPerTriangle, positionBits, reencoded,
+// fullRebakeReason,
+//  meshes[{name, encoding, sequentialReason, triangles, sizeBytes, bytesPerTriangle, normalBits, reused, encodeMs,
 //  decodeMs, errors{positionMax, normalMaxDegrees, tiltMaxDegrees, flipped, degenerate}}], preparation[...:
 //  meshprep/report.h], errors{positionMax, normalMaxDegrees, tiltMaxDegrees}, warnings[]}. Errors of positions in
 //  metres, with the rounding
-// to float; times in wall-clock milliseconds, 0 for meshes that were kept.
+// to float; times in wall-clock milliseconds, 0 for reused meshes.
 nlohmann::json bakeJson(const Baked& baked, const pack::Written& written, const std::string& output);
 std::string bakeText(const Baked& baked, const pack::Written& written, const std::string& output, bool rebaked);
 

@@ -13,9 +13,9 @@
 #include "bake/diff.h"
 #include "bake/info.h"
 #include "bake/materials/library.h"
-#include "bake/older_pack.h"
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
+#include "bake/previous_pack.h"
 #include "bake/scene_file/scene_file.h"
 #include "bake/unpack.h"
 #include "meshprep/base/console.h"
@@ -33,36 +33,36 @@ struct BakeArguments {
 };
 
 void runBake(const BakeArguments& arguments) {
-  // Step 1: nothing to do? What killed bakers left is in nobody's way, but of no use either.
+  // Remove the unfinished files of killed bakers, and stop if the pack is up to date.
   removeAbandoned(arguments.output);
   const SceneDescription description = readSceneFile(arguments.input);
   for (const std::string& deprecation : description.deprecations) console::note(deprecation);
-  const std::string provenance = provenanceOf(description, arguments.settings, arguments.options);
-  std::optional<OlderBake> older;
-  if (!arguments.force) older = readOlder(arguments.output);
-  if (older && isUpToDate(*older, provenance)) {
+  const std::string provenance = makeProvenance(description, arguments.settings, arguments.options);
+  std::optional<PreviousBake> previous;
+  if (!arguments.force) previous = readPrevious(arguments.output);
+  if (previous && isUpToDate(*previous, provenance)) {
     if (arguments.json)
       fmt::print("{}\n",
                  nlohmann::json{{"name", description.name}, {"output", arguments.output}, {"upToDate", true}}.dump(
                      2, ' ', false, nlohmann::json::error_handler_t::replace));
     else
-      fmt::print("{}: {} is up to date: sources and settings are those that it was made of\n", description.name,
-                 arguments.output);
+      fmt::print("{}: {} is up to date: sources and settings are unchanged\n", description.name, arguments.output);
     return;
   }
 
-  // Step 2: a scene, and a pack of it.
+  // Bake the scene and write the pack.
   const Baked baked = bake(description, arguments.settings, console::progress, arguments.options);
   console::progress("compressing");
   pack::WriteSettings settings = arguments.settings;
   settings.conversionError = baked.moved;
-  const bool rebaked = older && isOfSameVersions(*older, provenance);
-  const pack::OlderPack source{rebaked ? &older->pack : nullptr, rebaked ? older->bytes : std::span<const std::byte>()};
+  const bool rebaked = previous && isOfSameVersions(*previous, provenance);
+  const pack::PreviousPack source{rebaked ? &previous->pack : nullptr,
+                                  rebaked ? previous->bytes : std::span<const std::byte>()};
   const pack::Written written = pack::write(arguments.output, baked.scene, settings, rebaked ? &source : nullptr);
   console::progressDone();
   for (const std::string& note : baked.notes) console::warn(note);
 
-  // Step 3: told.
+  // Report.
   for (const std::string& warning : written.warnings) console::warn(warning);
   if (arguments.json)
     fmt::print(
@@ -77,28 +77,28 @@ void runBake(const BakeArguments& arguments) {
 void addBakeCommand(CLI::App& app) {
   auto arguments = std::make_shared<BakeArguments>();
   CLI::App* command = app.add_subcommand("bake", "Bakes a scene description into a scene pack");
-  command->add_option("scene", arguments->input, "scene.json (schema: bake/SCENE.md)")->required();
-  command->add_option("-o,--output", arguments->output, "the pack to write")->required();
+  command->add_option("scene", arguments->input, "Scene description (bake/SCENE.md)")->required();
+  command->add_option("-o,--output", arguments->output, "Pack to write")->required();
   command
       ->add_option("--max-error", arguments->settings.bounds.positionError,
-                   "metres: no vertex is farther from its source than this")
+                   "Largest distance of a vertex from its source [m]")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--max-normal-error", arguments->settings.bounds.normalErrorDegrees,
-                   "degrees: no normal is farther from its source than this; 0.05 is tried unless asked")
+                   "Largest angle between a normal and its source [degrees]; 0.05 is tried by default")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--position-bits", arguments->settings.bounds.positionBits,
-                   "just these bits of the scene's position grid, whatever error they bring")
+                   "Bits of the scene's position grid, whatever the error")
       ->check(CLI::Range(8, compress::kMaxPositionBits));
-  command->add_option("--normal-bits", arguments->settings.bounds.normalBits, "just these bits of the normals")
+  command->add_option("--normal-bits", arguments->settings.bounds.normalBits, "Bits of the normals, whatever the error")
       ->check(CLI::Range(6, compress::kMaxNormalBits));
   command->add_flag("--keep-map", arguments->settings.keepMap,
-                    "keep the source file's vertex and face of every packed vertex and triangle");
+                    "Write the map from packed vertices and triangles to those of the source files");
   command->add_flag("--allow-open-glass", arguments->options.allowOpenGlass,
-                    "bake glass that is open, crossing or otherwise no body, and say so");
-  command->add_flag("--force", arguments->force, "bake although the pack is up to date, every mesh anew");
-  command->add_flag("--json", arguments->json, "print the result as JSON");
+                    "Bake glass that is not a certified body, with a warning");
+  command->add_flag("--force", arguments->force, "Bake although the pack is up to date, and encode every mesh again");
+  command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->callback([arguments] { runBake(*arguments); });
 }
 
@@ -109,18 +109,19 @@ void addInfoCommand(CLI::App& app) {
     bool verify = false, json = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("info", "Tells what a scene pack holds");
-  command->add_option("pack", arguments->input, "scene pack")->required();
+  CLI::App* command = app.add_subcommand("info", "Prints the contents of a scene pack");
+  command->add_option("pack", arguments->input, "Scene pack")->required();
   command
-      ->add_option("--tolerance", arguments->tolerance, "share of the light that the deepest bounce named may change")
+      ->add_option("--tolerance", arguments->tolerance,
+                   "Share of the light that deeper bounces than the reported one may change")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_flag("--verify", arguments->verify, "say that every hash, count and number was checked");
+  command->add_flag("--verify", arguments->verify, "Report that every hash, count and number was checked");
   command->add_option("--diff", arguments->other,
-                      "another pack: tells which sections differ and how, and exits with 3 where any does");
-  command->add_flag("--json", arguments->json, "print as JSON");
+                      "Other pack: print the sections and values that differ, and exit with 3 if any does");
+  command->add_flag("--json", arguments->json, "Print as JSON");
   command->callback([arguments] {
-    const pack::Pack pack = pack::read(arguments->input);  // every check of the reader is made here
+    const pack::Pack pack = pack::read(arguments->input);  // makes every check of the reader
     if (!arguments->other.empty()) {
       const nlohmann::json difference = diffJson(pack, pack::read(arguments->other));
       fmt::print("{}{}",
@@ -131,7 +132,7 @@ void addInfoCommand(CLI::App& app) {
       return;
     }
     if (arguments->json) {
-      // Texts of a pack may be no UTF-8.
+      // Texts of a pack may be invalid UTF-8.
       fmt::print("{}\n",
                  infoJson(pack, arguments->tolerance).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
@@ -148,10 +149,10 @@ void addUnpackCommand(CLI::App& app) {
     bool json = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("unpack", "Takes a scene pack apart into JSON, PLY and EXR files");
-  command->add_option("pack", arguments->input, "scene pack")->required();
-  command->add_option("-o,--output", arguments->output, "folder to write (contents: bake/unpack.h)")->required();
-  command->add_flag("--json", arguments->json, "print scene.json as well");
+  CLI::App* command = app.add_subcommand("unpack", "Unpacks a scene pack into JSON, PLY and EXR files");
+  command->add_option("pack", arguments->input, "Scene pack")->required();
+  command->add_option("-o,--output", arguments->output, "Folder to write (contents: bake/unpack.h)")->required();
+  command->add_flag("--json", arguments->json, "Print scene.json as well");
   command->callback([arguments] {
     const pack::Pack pack = pack::read(arguments->input);
     const nlohmann::json document = unpack(pack, arguments->output);

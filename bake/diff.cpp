@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-// A list of things with names of their own becomes an object of them, so that one more shifts none.
+// Turns a list of elements with unique names into an object, so that an added element does not shift the others.
 json keyed(const json& value) {
   if (value.is_object()) {
     json result = json::object();
@@ -36,7 +36,7 @@ json keyed(const json& value) {
   return result;
 }
 
-// Leaves by their place.
+// Collects the leaves by their path.
 void flatten(const json& value, const std::string& where, std::map<std::string, json>& leaves) {
   if (value.is_object() && !value.empty()) {
     for (const auto& [key, item] : value.items())
@@ -46,7 +46,7 @@ void flatten(const json& value, const std::string& where, std::map<std::string, 
   }
 }
 
-std::map<std::string, json> leavesOf(const pack::Pack& pack) {
+std::map<std::string, json> collectLeaves(const pack::Pack& pack) {
   json document = sceneJson(pack);
   document.erase("packHash");
   document["meshes"] = keyed(document["meshes"]);
@@ -60,23 +60,23 @@ std::map<std::string, json> leavesOf(const pack::Pack& pack) {
   return leaves;
 }
 
-std::uint64_t hashOfMesh(const pack::Mesh& mesh) {
+std::uint64_t hashMesh(const pack::Mesh& mesh) {
   pack::Scene alone;
   alone.meshes = {mesh};
   return pack::canonicalGeometryHash(alone);
 }
 
-// Meshes whose geometry differs, counts alike or not.
+// Adds the meshes whose geometry differs.
 void compareGeometry(const pack::Scene& a, const pack::Scene& b, json& changes) {
   for (const pack::Mesh& mesh : a.meshes) {
     const auto other =
         std::find_if(b.meshes.begin(), b.meshes.end(), [&](const pack::Mesh& m) { return m.name == mesh.name; });
-    if (other == b.meshes.end() || hashOfMesh(mesh) == hashOfMesh(*other)) continue;
+    if (other == b.meshes.end() || hashMesh(mesh) == hashMesh(*other)) continue;
     const std::string where = fmt::format("geometry.{}", mesh.name);
     if (mesh.triangles != other->triangles || mesh.positions.size() != other->positions.size()) {
       changes.push_back({{"where", where},
-                         {"a", fmt::format("{:016x}", hashOfMesh(mesh))},
-                         {"b", fmt::format("{:016x}", hashOfMesh(*other))}});
+                         {"a", fmt::format("{:016x}", hashMesh(mesh))},
+                         {"b", fmt::format("{:016x}", hashMesh(*other))}});
       continue;
     }
     float farthest = 0;
@@ -89,7 +89,7 @@ void compareGeometry(const pack::Scene& a, const pack::Scene& b, json& changes) 
   }
 }
 
-// Meshes whose map to the source differs.
+// Adds the meshes whose map to the source differs.
 void compareMaps(const pack::Scene& a, const pack::Scene& b, json& changes) {
   const auto kept = [](const pack::Mesh& mesh) { return mesh.sourceVertices.empty() ? "not kept" : "kept"; };
   for (const pack::Mesh& mesh : a.meshes) {
@@ -125,7 +125,7 @@ json diffJson(const pack::Pack& a, const pack::Pack& b) {
     if (!find(a, s.id))
       sections.push_back({{"id", s.id}, {"change", "only in the second"}, {"sizeBytes", {nullptr, s.sizeBytes}}});
 
-  const std::map<std::string, json> before = leavesOf(a), after = leavesOf(b);
+  const std::map<std::string, json> before = collectLeaves(a), after = collectLeaves(b);
   for (const auto& [where, value] : before) {
     const auto found = after.find(where);
     if (found == after.end())

@@ -1,4 +1,4 @@
-// What is different between two scene packs, for people and for programs.
+// Differences between two scene packs, as text and JSON.
 #pragma once
 
 #include <string>
@@ -10,9 +10,8 @@
 namespace malus::bake {
 
 // {equal, sections[{id, change, sizeBytes[2]}], changes[{where, a, b}]}. equal: byte for byte. change: "only in the
-// first", "only in the second" or "changed"; where: a place such as "materials.gold.eta.0"; a, b: its values, null
-// where one has none. Of meshes of one name that differ: how far their corners are apart, where their triangles are the
-// same.
+// first", "only in the second" or "changed"; where: a path such as "materials.gold.eta.0"; a, b: its values, null
+// if a pack has none. For meshes of one name with equal triangles, the largest distance of corresponding corners.
 nlohmann::json diffJson(const pack::Pack& a, const pack::Pack& b);
 std::string diffText(const nlohmann::json& difference);
 

@@ -15,19 +15,19 @@ using nlohmann::json;
 namespace {
 std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
-glm::dvec3 boundOf(const pack::Scene& scene) {
+glm::dvec3 errorBound(const pack::Scene& scene) {
   ImageRequest request;
   request.depth = scene.depth;
   return polarizationErrorBound(scene, request);
 }
 
-json errorsOf(const compress::Deviation& deviation) {
+json errorsJson(const compress::Deviation& deviation) {
   return {{"positionMax", deviation.positionMax},
           {"normalMaxDegrees", deviation.normalMaxDegrees},
           {"tiltMaxDegrees", deviation.tiltMaxDegrees}};
 }
 
-// Bits and the largest errors over all meshes, where the pack tells.
+// Bits and the largest errors over all meshes, if the pack has ENCD.
 std::string encodingText(const pack::Pack& pack) {
   std::string text;
   if (pack.encodings.known()) {
@@ -42,12 +42,12 @@ std::string encodingText(const pack::Pack& pack) {
         "degrees\n",
         pack.encodings.grid.positionBits, worst.positionMax, worst.normalMaxDegrees, worst.tiltMaxDegrees);
   }
-  if (pack.hasSourceMap()) text += "  the source's vertices and faces are kept\n";
+  if (pack.hasSourceMap()) text += "  the map to the source's vertices and faces is kept\n";
   return text;
 }
 
 // The pack's effects by their names of today. If the pack is older than some effects, all are found again.
-std::vector<pack::Effect> effectsOf(const pack::Scene& scene) {
+std::vector<pack::Effect> currentEffects(const pack::Scene& scene) {
   std::vector<std::string> missing = effectNames();
   const std::size_t known = missing.size();
   std::vector<pack::Effect> effects = scene.effects;
@@ -72,7 +72,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                       {"openSurface", m.openSurface},
                       {"encoding", pack.compression[i]},
                       {"normalBits", pack.encodings.known() ? json(pack.encodings.meshes[i].normalBits) : json()},
-                      {"errors", pack.encodings.known() ? errorsOf(pack.encodings.meshes[i].deviation) : json()}});
+                      {"errors", pack.encodings.known() ? errorsJson(pack.encodings.meshes[i].deviation) : json()}});
   }
   for (const pack::Material& m : scene.materials) materials.push_back(materialJson(m));
   for (const pack::Section& s : pack.sections)
@@ -81,7 +81,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                         {"offset", s.offset},
                         {"sizeBytes", s.sizeBytes},
                         {"hash", hex(s.hash)}});
-  const glm::dvec3 bound = boundOf(scene);
+  const glm::dvec3 bound = errorBound(scene);
   const json provenance = provenanceJson(pack.scene);
   return {{"formatVersion", pack.formatVersion},
           {"hash", hex(pack.hash)},
@@ -97,7 +97,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
           {"meshes", meshes},
           {"materials", materials},
           {"lights", scene.lights.size()},
-          {"effects", effectsJson(effectsOf(scene))},
+          {"effects", effectsJson(currentEffects(scene))},
           {"polarizationErrorBound", {bound.x, bound.y, bound.z}},
           {"deepestBounce", {{"tolerance", tolerance}, {"bounce", deepestBounce(scene, scene.depth, tolerance)}}},
           {"sections", sections},
@@ -123,15 +123,14 @@ std::string infoText(const pack::Pack& pack, double tolerance) {
     text += fmt::format("  {:<24} {:<13} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}\n", m.name,
                         pack::materialKindName(m.kind), m.eta.x, m.eta.y, m.eta.z, m.k.x, m.k.y, m.k.z);
   text += "\neffects\n";
-  for (const pack::Effect& e : effectsOf(scene))
+  for (const pack::Effect& e : currentEffects(scene))
     text += fmt::format("  {:<3} {:<22} {}\n", e.on ? "on" : "off", e.name, e.reason);
-  const glm::dvec3 bound = boundOf(scene);
-  text +=
-      bound == glm::dvec3(0.0)
-          ? "  the unpolarized intensity without a filter is exact\n"
-          : fmt::format(
-                "  without polarization the intensity is off by at most {:.3g}, {:.3g}, {:.3g} of itself (r, g, b)\n",
-                bound.x, bound.y, bound.z);
+  const glm::dvec3 bound = errorBound(scene);
+  text += bound == glm::dvec3(0.0) ? "  the unpolarized intensity without a filter is exact\n"
+                                   : fmt::format(
+                                         "  without polarization the relative error of the intensity is at most "
+                                         "{:.3g}, {:.3g}, {:.3g} (r, g, b)\n",
+                                         bound.x, bound.y, bound.z);
   text += fmt::format("  the deepest bounce that can change a pixel by more than {:g} of the light there is {}\n",
                       tolerance, deepestBounce(scene, scene.depth, tolerance));
   text += "\nsections\n";

@@ -1,4 +1,4 @@
-// What `malus info` tells of a pack, for people and for programs.
+// Contents of a pack as `malus info` prints them: text and JSON.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace malus::bake {
 
-// Share of the light that the deepest bounce named may change.
+// Share of the light that bounces deeper than the reported one may change.
 inline constexpr double kInfoTolerance = 1e-3;
 
 // {formatVersion, hash, name, title, resolution[2], depth, vertices, triangles, geometryHash,
-//  positionBits, sourceMap, meshes[{name, vertices, triangles, material, sheet, encoding, normalBits,
-//  errors{positionMax, normalMaxDegrees, tiltMaxDegrees}}], materials[{name, type, eta[3], k[3]}], lights,
+//  positionBits, sourceMap, meshes[{name, vertices, triangles, material, openSurface, encoding, normalBits,
+//  errors{positionMax, normalMaxDegrees, tiltMaxDegrees}}], materials[{...: the fields of bake/FORMAT.md}], lights,
 //  effects[{name, on, reason}], polarizationErrorBound[3], deepestBounce{tolerance, bounce}, sections[{id, version,
-//  offset, sizeBytes, hash}], provenance}; positionBits, normalBits and errors are null where the pack does not say how
-//  it was encoded
+//  offset, sizeBytes, hash}], provenance}; positionBits, normalBits and errors are null if the pack has
+//  no ENCD
 nlohmann::json infoJson(const pack::Pack& pack, double tolerance = kInfoTolerance);
 std::string infoText(const pack::Pack& pack, double tolerance = kInfoTolerance);
 

@@ -1,4 +1,4 @@
-#include "bake/older_pack.h"
+#include "bake/previous_pack.h"
 
 #include <system_error>
 
@@ -10,25 +10,25 @@
 namespace malus::bake {
 using nlohmann::json;
 
-std::optional<OlderBake> readOlder(const std::filesystem::path& path) {
+std::optional<PreviousBake> readPrevious(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
   try {
-    OlderBake older;
-    older.bytes = readFile(path);
-    older.pack = pack::parse(older.bytes, path.string());
-    return older;
+    PreviousBake previous;
+    previous.bytes = readFile(path);
+    previous.pack = pack::parse(previous.bytes, path.string());
+    return previous;
   } catch (const Error&) {
     return std::nullopt;
   }
 }
 
-bool isUpToDate(const OlderBake& older, const std::string& provenance) {
-  return older.pack.scene.provenance == provenance;
+bool isUpToDate(const PreviousBake& previous, const std::string& provenance) {
+  return previous.pack.scene.provenance == provenance;
 }
 
-bool isOfSameVersions(const OlderBake& older, const std::string& provenance) {
-  const json before = json::parse(older.pack.scene.provenance, nullptr, false), now = json::parse(provenance);
+bool isOfSameVersions(const PreviousBake& previous, const std::string& provenance) {
+  const json before = json::parse(previous.pack.scene.provenance, nullptr, false), now = json::parse(provenance);
   if (!before.is_object()) return false;
   for (const char* key : {"malus", "baker", "draco"})
     if (before.value(key, json()) != now.at(key)) return false;

@@ -22,7 +22,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the PLY files are written as little-endian");
 
 // Polygon File Format, binary little-endian: float x y z (nx ny nz), faces as lists of int.
-std::string plyOf(const pack::Mesh& mesh) {
+std::string plyText(const pack::Mesh& mesh) {
   std::string text = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n",
       mesh.positions.size());
@@ -80,7 +80,7 @@ json unpack(const pack::Pack& pack, const fs::path& folder) {
   if (failed) throw Error(folder.string(), "cannot make the folder", "", failed.message());
 
   for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-    writeFile(folder / meshFile(i), std::string_view(plyOf(scene.meshes[i])));
+    writeFile(folder / meshFile(i), std::string_view(plyText(scene.meshes[i])));
   if (pack.hasSourceMap())
     for (std::size_t i = 0; i < scene.meshes.size(); ++i)
       writeFile(

@@ -1,13 +1,12 @@
-// A scene pack taken apart into files that other programs read: scene.json, one binary PLY a mesh, and the
-// environment's octahedral map as EXR. Numbers are those of the pack, relative to its origin, none rounded.
+// Unpacks a scene pack into files that other programs read: scene.json, a binary PLY per mesh, and the environment's
+// octahedral map and the textures as EXR. Numbers are those of the pack, relative to its origin and not rounded.
 //
-// scene.json: name, title, packHash, origin, resolution, depth, exposureEv; camera {position, right,
-// up, forward (orthonormal), verticalFovDegrees, mediumEta}; environment {radiance} or {image, size: texels a
-// side without the border of one}, with diffuseFill and irradiance[9]; lights[{type, position, intensity}];
-// materials[{name, type, eta, k, outsideEta, albedo, radiance, highlight: null or {strength, exponent}}];
-// meshes[{name, file, material, sheet, vertices, triangles}], with map where the pack keeps the map to the sources: a
-// JSON file {vertices[], triangles[]}, the vertex and the face of the source file, from 0, of each of the mesh's. Units
-// and meanings: bake/SCENE.md. It is no source for baking: normals and transforms are baked in.
+// scene.json has the fields of the pack by their names in bake/FORMAT.md: name, title, origin, depth, exposureEv,
+// camera {...}, lights [{type, ...}], materials [{...}], textures [{..., file}], with packHash, resolution [width,
+// height], environment {radiance} or {image, size}, and meshes [{name, file, material, openSurface, vertices,
+// triangles}], with map if the pack has the map to the sources: a JSON file {vertices[], triangles[]} with the vertex
+// and the face of the source file, from 0, of each vertex and triangle. It cannot be baked again: normals and
+// transforms are baked in.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +17,7 @@
 
 namespace malus::bake {
 
-// Writes into folder, which is made where it is missing. Returns the document of scene.json. Throws Error.
+// Writes into folder, which is created if it is missing. Returns the document of scene.json. Throws Error.
 nlohmann::json unpack(const pack::Pack& pack, const std::filesystem::path& folder);
 
 }  // namespace malus::bake

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxNameBytes = 200;
 
-// Cut between two characters of UTF-8.
+// Cuts between two characters of UTF-8.
 std::string shortened(std::string name) {
   if (name.size() <= kMaxNameBytes) return name;
   std::size_t end = kMaxNameBytes;
@@ -33,11 +33,11 @@ std::string shortened(std::string name) {
 [[noreturn]] void failUnknown(const ImportDescription& description, std::string_view what, const std::string& name,
                               const std::vector<std::string>& names) {
   const std::string near = nearestName(name, names);
-  throw Error(description.file.string(), fmt::format("has no {} '{}', which the scene names", what, name),
+  throw Error(description.file.string(), fmt::format("has no {} '{}' that the scene names", what, name),
               near.empty() ? fmt::format("one of its {}", names.size()) : fmt::format("'{}'", near));
 }
 
-// Indices into the scene's materials of the file's materials, made when they are first asked for.
+// Indices of the file's materials in the scene, which are made at their first use.
 class MaterialIndices {
  public:
   MaterialIndices(const ImportDescription& description, const prep::SourceScene& source,
@@ -58,19 +58,19 @@ class MaterialIndices {
 
  private:
   std::uint32_t find(const std::optional<std::size_t>& material) {
-    // Step 1: what the scene says.
+    // Use the material that the scene names.
     const std::string name = material ? source_.materials[*material].name : std::string();
     if (const auto mapped = description_.materials.find(name); mapped != description_.materials.end()) {
       std::uint32_t index = 0;
-      while (materials_[index].name != mapped->second) ++index;  // the scene file's reader made sure that it is there
+      while (materials_[index].name != mapped->second) ++index;  // present: checked by the reader of the scene file
       return index;
     }
 
-    // Step 2: the rules.
+    // Convert it by the rules.
     if (materials_.size() >= pack::kMaxMaterials)
-      throw Error(description_.file.string(), "brings too many materials",
+      throw Error(description_.file.string(), "has too many materials",
                   fmt::format("at most {} in a scene", pack::kMaxMaterials));
-    pack::Material made = material ? materialOf(source_.materials[*material], notes_) : defaultMaterial();
+    pack::Material made = material ? convertMaterial(source_.materials[*material], notes_) : defaultMaterial();
     if (made.name.empty()) made.name = fmt::format("material {}", *material);
     made.name = names_.take(made.name);
     materials_.push_back(std::move(made));
@@ -97,7 +97,7 @@ std::string UniqueNames::take(std::string name) {
   }
 }
 
-std::string noteOf(const std::filesystem::path& file, const std::string& note) {
+std::string leftOutNote(const std::filesystem::path& file, const std::string& note) {
   return fmt::format("{}: left out: {}", file.string(), note);
 }
 
@@ -139,7 +139,7 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
   };
 
   // Place the instances.
-  const glm::dmat4 worldFromFile = matrixOf(description.transform);
+  const glm::dmat4 worldFromFile = transformMatrix(description.transform);
   MaterialIndices indices(description, source, materials, materialNames, notes);
   for (const prep::SourceInstance& instance : source.instances) {
     const prep::SourcePart& part = source.parts[instance.part];
@@ -151,7 +151,7 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     mesh.worldFromObject = worldFromFile * instance.worldFromObject;
     result.meshes.push_back(std::move(mesh));
   }
-  for (const std::string& note : notes) result.notes.push_back(noteOf(description.file, note));
+  for (const std::string& note : notes) result.notes.push_back(leftOutNote(description.file, note));
   return result;
 }
 

@@ -1,5 +1,5 @@
-// A whole file in a scene: its parts prepared, its materials made by rules (bake/materials/source_material.h) where
-// the scene does not name others, its instances as meshes of the scene. SCENE.md says how names are found.
+// Imports a whole file into a scene: prepares its parts, converts its materials (bake/materials/source_material.h)
+// unless the scene names others, and makes a mesh of each instance. bake/SCENE.md has the rules of names.
 #pragma once
 
 #include <cstddef>
@@ -17,18 +17,18 @@
 
 namespace malus::bake {
 
-// Names that are there once each: a name that is taken gets ".2", ".3" and so on behind it.
+// Unique names: a name that is taken gets a suffix ".2", ".3" and so on.
 class UniqueNames {
  public:
-  // The name, or the first free one that is made of it; taken from now on. Longer than 200 bytes it is shortened.
+  // Takes the name, shortened to 200 bytes, or the first free one with a suffix.
   std::string take(std::string name);
 
  private:
-  std::map<std::string, std::size_t> used_;  // and the last number tried
+  std::map<std::string, std::size_t> used_;  // with the last number tried
 };
 
-// In its own space. Its mesh's sources are vertices and faces of the file; the report is that of prepare(), in which
-// they count in the part.
+// A part in its own space. Its mesh's sources are vertices and faces of the file; those of the report, from prepare(),
+// count in the part.
 struct ImportedPart {
   prep::Mesh mesh;
   prep::Report report;
@@ -48,12 +48,12 @@ struct Imported {
   std::vector<std::string> notes;  // "model.glb: textures are left out"
 };
 
-// Adds to materials those that are made here. Throws Error: whatever the readers and prepare() refuse, a material or
-// a sheet of the import that the file does not have, more materials than a pack holds.
+// Adds converted materials to materials. Throws Error: everything that the readers and prepare() refuse, a material or
+// an open surface of the import that the file does not have, more materials than a pack can contain.
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
                      UniqueNames& materialNames, UniqueNames& meshNames);
 
-// What the readers leave out, as sentences for a person.
-std::string noteOf(const std::filesystem::path& file, const std::string& note);
+// A note of the readers about contents that are left out, as a sentence.
+std::string leftOutNote(const std::filesystem::path& file, const std::string& note);
 
 }  // namespace malus::bake

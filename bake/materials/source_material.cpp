@@ -19,7 +19,7 @@ constexpr double kLeastColour = 1e-6;
 constexpr double kMostRadiance = 1e9;
 
 // Per metre.
-glm::dvec3 absorptionOf(const prep::SourceMaterial& source) {
+glm::dvec3 volumeAbsorption(const prep::SourceMaterial& source) {
   glm::dvec3 absorption(0.0);
   for (int c = 0; c < 3; ++c) {
     const double colour = std::clamp(source.attenuationColour[c], kLeastColour, 1.0);
@@ -39,7 +39,7 @@ void setMetal(pack::Material& metal, const glm::dvec3& reflectance) {
 
 }  // namespace
 
-pack::Material materialOf(const prep::SourceMaterial& source, std::vector<std::string>& notes) {
+pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<std::string>& notes) {
   using Kind = pack::MaterialKind;
   pack::Material result;
   result.name = source.name;
@@ -54,7 +54,7 @@ pack::Material materialOf(const prep::SourceMaterial& source, std::vector<std::s
   } else if (source.transmission > 0.5) {
     result.kind = Kind::glass;
     result.eta = ior;
-    if (source.hasVolume) result.absorption = absorptionOf(source);
+    if (source.hasVolume) result.absorption = volumeAbsorption(source);
     if (alpha > 0) prep::addNote(notes, fmt::format("the roughness of glass '{}'", source.name));
   } else if (source.metallic >= 0.5) {
     result.kind = Kind::metal;

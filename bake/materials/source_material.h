@@ -24,7 +24,7 @@
 namespace malus::bake {
 
 // Named as the source; within the bounds of a pack. What is left out is added to notes.
-pack::Material materialOf(const prep::SourceMaterial& source, std::vector<std::string>& notes);
+pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<std::string>& notes);
 
 // Of parts that have none: lambert, albedo 0.8, named "default".
 pack::Material defaultMaterial();

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kToldProblems = 3;
 
 // The first reasons why a mesh is no glass, component by component.
-std::string problemsOf(const prep::Certificate& certificate) {
+std::string listProblems(const prep::Certificate& certificate) {
   std::vector<std::string> told;
   for (const prep::Problem& p : certificate.problems)
     if (told.size() < kToldProblems)
@@ -51,7 +51,7 @@ class Placer {
       throw Error(mesh.file.string(), fmt::format("mesh '{}' is a glass body with \"asIs\"", mesh.name),
                   "\"openSurface\": true beside \"asIs\": true, because it is not checked that the mesh is closed");
     const prep::Polygons polygons = prep::readMesh(mesh.file);
-    for (const std::string& note : polygons.notes) result_.notes.push_back(noteOf(mesh.file, note));
+    for (const std::string& note : polygons.notes) result_.notes.push_back(leftOutNote(mesh.file, note));
     prep::Report report;
     const prep::Mesh prepared = prep::prepare(polygons, mesh.file.string(), options, report);
     requireCertificate(mesh.file, mesh.name, report);
@@ -61,7 +61,7 @@ class Placer {
     for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
       std::string name = mesh.instances.size() == 1 ? mesh.name : fmt::format("{}.{}", mesh.name, i + 1);
       name = meshNames_.take(name);
-      place(prepared, matrixOf(mesh.instances[i]), std::move(name), material, options.sheet);
+      place(prepared, transformMatrix(mesh.instances[i]), std::move(name), material, options.sheet);
     }
   }
 
@@ -83,7 +83,7 @@ class Placer {
   void requireCertificate(const std::filesystem::path& file, const std::string& name, const prep::Report& report) {
     if (!report.certificate.checked || report.certificate.holds()) return;
     const std::string what =
-        fmt::format("mesh '{}' is not certified as glass: {}", name, problemsOf(report.certificate));
+        fmt::format("mesh '{}' is not certified as glass: {}", name, listProblems(report.certificate));
     if (!settings_.allowOpenGlass)
       throw Error(file.string(), what, "a body without these problems, \"openSurface\": true, or --allow-open-glass");
     result_.notes.push_back(fmt::format("{}: {}", file.string(), what));

@@ -51,7 +51,7 @@ struct Section {
   std::uint64_t hash = 0;  // XXH3, 64 bits, of the section's bytes
 };
 
-std::uint64_t hashOf(std::span<const std::byte> bytes);
+std::uint64_t hashBytes(std::span<const std::byte> bytes);
 
 // Section ids.
 inline constexpr const char* kMeta = "META";

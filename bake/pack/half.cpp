@@ -11,7 +11,8 @@ namespace malus::pack {
 std::uint16_t halfFromFloat(float value) {
   const auto bits = std::bit_cast<std::uint32_t>(std::clamp(value, -65504.0f, 65504.0f));
   const std::uint32_t sign = bits >> 16 & 0x8000u, magnitude = bits & 0x7fffffffu;
-  if (magnitude > 0x7f800000u) return static_cast<std::uint16_t>(sign | 0x7e00u);  // NaN stays one, and is refused
+  if (magnitude > 0x7f800000u)
+    return static_cast<std::uint16_t>(sign | 0x7e00u);  // a NaN stays a NaN, which the reader refuses
   // Below 2^-14 halfs are multiples of 2^-24, the last place of floats from 0.5 on: adding 0.5 rounds.
   if (magnitude < 0x38800000u)
     return static_cast<std::uint16_t>(

@@ -1,4 +1,4 @@
-// IEEE 754 half floats as 16 bits: rounding to nearest even, saturating at 65504; no NaN goes in.
+// IEEE 754 half floats as 16 bits: rounding to nearest even, saturating at 65504. A NaN stays a NaN.
 #pragma once
 
 #include <cstdint>

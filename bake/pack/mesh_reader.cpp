@@ -86,7 +86,7 @@ void readSourceMap(ByteReader r, std::vector<Mesh>& meshes) {
   for (Mesh& mesh : meshes) {
     const auto read = [&](std::size_t count, std::vector<std::uint32_t>& list) {
       if (count > r.left() / 4)
-        r.fail(fmt::format("map of mesh '{}'", mesh.name), fmt::format("{} more numbers", count),
+        r.fail(fmt::format("map of mesh '{}' ends early", mesh.name), fmt::format("{} more numbers", count),
                fmt::format("{} bytes", r.left()));
       list.resize(count);
       for (std::uint32_t& number : list) number = r.u32();

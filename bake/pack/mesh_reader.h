@@ -13,11 +13,11 @@
 namespace malus::pack {
 
 // table: contents of MESH; geometry: those of GEOM, at geometryOffset in the file. Fills meshes, compression and
-// geometry of the pack, whose materials are there. Throws Error.
+// geometry of the pack, whose materials must have been read. Throws Error.
 void readMeshes(ByteReader table, std::span<const std::byte> geometry, std::uint64_t geometryOffset,
                 std::string_view where, Pack& pack);
 
-// Fills the meshes' maps to their sources, whose sizes are those of the meshes. Throws Error.
+// Fills the meshes' maps to their sources. Throws Error.
 void readSourceMap(ByteReader reader, std::vector<Mesh>& meshes);
 
 }  // namespace malus::pack

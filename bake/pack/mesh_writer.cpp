@@ -17,48 +17,48 @@ namespace malus::pack {
 
 namespace {
 
-// What becomes of one mesh: its bytes, its counts, the map to its source.
+// Bytes and counts of one mesh, and the map to its source.
 struct Result {
   std::span<const std::byte> bytes;
   std::size_t vertices = 0, triangles = 0;
-  std::vector<std::uint32_t> sourceVertices, sourceFaces;  // where the map is kept
+  std::vector<std::uint32_t> sourceVertices, sourceFaces;  // if the map is kept
 };
 
-// Meshes of an older pack by the hash of what they were encoded from.
-class Kept {
+// Meshes of the previous pack by the hash of the encoder's input.
+class ReusableMeshes {
  public:
-  explicit Kept(const OlderPack* older) : older_(older) {
-    if (older_ == nullptr || !older_->pack->encodings.known()) return;
-    const std::vector<MeshEncoding>& meshes = older_->pack->encodings.meshes;
+  explicit ReusableMeshes(const PreviousPack* previous) : previous_(previous) {
+    if (previous_ == nullptr || !previous_->pack->encodings.known()) return;
+    const std::vector<MeshEncoding>& meshes = previous_->pack->encodings.meshes;
     for (std::size_t i = 0; i < meshes.size(); ++i) byHash_.emplace(meshes[i].inputHash, i);
   }
 
   std::optional<std::size_t> find(std::uint64_t hash, const Mesh& mesh, bool keepMap) const {
     const auto found = byHash_.find(hash);
     if (found == byHash_.end()) return std::nullopt;
-    const Mesh& old = older_->pack->scene.meshes[found->second];
+    const Mesh& old = previous_->pack->scene.meshes[found->second];
     const bool same = old.positions.size() == mesh.positions.size() && old.triangles.size() == mesh.triangles.size() &&
                       old.normals.size() == mesh.normals.size() && (!keepMap || !old.sourceVertices.empty());
     return same ? std::optional(found->second) : std::nullopt;
   }
 
   Result take(std::size_t i, MeshEncoding& encoding, MeshCompression& report) const {
-    const Pack& pack = *older_->pack;
+    const Pack& pack = *previous_->pack;
     const Mesh& mesh = pack.scene.meshes[i];
     const DracoData& data = pack.geometry[i];
     encoding = pack.encodings.meshes[i];
     report.method = pack.compression[i];
-    report.kept = true;
-    return {older_->bytes.subspan(static_cast<std::size_t>(data.offset), static_cast<std::size_t>(data.sizeBytes)),
+    report.reused = true;
+    return {previous_->bytes.subspan(static_cast<std::size_t>(data.offset), static_cast<std::size_t>(data.sizeBytes)),
             mesh.positions.size(), mesh.triangles.size(), mesh.sourceVertices, mesh.sourceFaces};
   }
 
  private:
-  const OlderPack* older_;
+  const PreviousPack* previous_;
   std::map<std::uint64_t, std::size_t> byHash_;
 };
 
-// Through the mesh's own map to the file, where it has one.
+// Applies the mesh's map to the file, if it has one.
 std::vector<std::uint32_t> composed(const std::vector<std::uint32_t>& order, const std::vector<std::uint32_t>& source) {
   if (source.empty()) return order;
   std::vector<std::uint32_t> result;
@@ -67,7 +67,7 @@ std::vector<std::uint32_t> composed(const std::vector<std::uint32_t>& order, con
   return result;
 }
 
-// Why nothing of the older pack can be taken, where the reason lies in the grid that all meshes share.
+// Reason for reusing no mesh of the previous pack if the grid, which all meshes share, changed; else empty.
 std::string gridChange(const compress::Grid& before, const compress::Grid& after) {
   if (before.origin != after.origin || before.range != after.range)
     return fmt::format(
@@ -82,18 +82,18 @@ std::string gridChange(const compress::Grid& before, const compress::Grid& after
 
 }  // namespace
 
-EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const OlderPack* older) {
-  // Step 1: bits.
+EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const PreviousPack* previous) {
+  // Choose the bits.
   std::vector<compress::MeshView> views;
   for (const Mesh& mesh : scene.meshes) views.emplace_back(mesh.positions, mesh.normals, mesh.triangles);
   const compress::Bits bits = compress::chooseBits(views, settings.bounds, settings.conversionError);
   EncodedMeshes all;
   all.encodings.grid = bits.grid;
-  const Kept kept(older);
-  if (older != nullptr && older->pack->encodings.known())
-    all.whyAll = gridChange(older->pack->encodings.grid, bits.grid);
+  const ReusableMeshes reusable(previous);
+  if (previous != nullptr && previous->pack->encodings.known())
+    all.fullRebakeReason = gridChange(previous->pack->encodings.grid, bits.grid);
 
-  // Step 2: mesh by mesh, encoded or taken.
+  // Encode or reuse each mesh.
   ByteWriter table, geometry, map;
   table.u32(static_cast<std::uint32_t>(scene.meshes.size()));
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -105,8 +105,8 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
     MeshEncoding encoding;
     compress::Encoded encoded;
     Result result;
-    if (const auto at = kept.find(hash, mesh, settings.keepMap)) {
-      result = kept.take(*at, encoding, report);
+    if (const auto at = reusable.find(hash, mesh, settings.keepMap)) {
+      result = reusable.take(*at, encoding, report);
     } else {
       try {
         encoded = compress::encode(views[i], codec);
@@ -128,7 +128,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
          compress::checkBounds(encoding.deviation, codec, settings.bounds, where, settings.conversionError))
       all.warnings.push_back(std::move(warning));
 
-    // Step 3: written down.
+    // Write its entry, its bytes and its map.
     geometry.padTo(kAlignment);
     const MeshEntry entry{mesh.name,
                           mesh.material,

@@ -1,10 +1,9 @@
-// The geometry of a scene pack, encoded: one grid for all meshes, every mesh proved by decoding, and what an older pack
-// has already encoded taken from there.
+// Encodes the geometry of a scene pack: one grid for all meshes, every mesh checked by decoding, unchanged meshes
+// reused from a previous pack.
 //
-// A mesh is taken from an older pack where the hash of all that the encoder would be given is the same: positions,
-// normals and triangles as floats, grid, bits, and the map to the source where it is kept. One codec version makes
-// equal bytes of equal inputs, so the result is bit by bit what encoding anew would give; it is up to the caller that
-// the older pack was made by the same versions.
+// A mesh is reused if the hash of the encoder's whole input is the same: positions, normals and triangles as floats,
+// grid, bits, and the map to the source if it is kept. One version of the codec gives equal bytes for equal inputs, so
+// the result is that of encoding again, bit by bit. The caller ensures that the previous pack is of the same versions.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +20,14 @@ namespace malus::pack {
 struct EncodedMeshes {
   std::vector<std::byte> table;     // contents of MESH
   std::vector<std::byte> geometry;  // of GEOM
-  std::vector<std::byte> map;       // of SMAP; empty unless asked for
+  std::vector<std::byte> map;       // of SMAP; empty unless requested
   Encodings encodings;              // of ENCD
   std::vector<MeshCompression> report;
   std::vector<std::string> warnings;
-  std::string whyAll;
+  std::string fullRebakeReason;
 };
 
 // Throws Error that names the mesh.
-EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const OlderPack* older);
+EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const PreviousPack* previous);
 
 }  // namespace malus::pack

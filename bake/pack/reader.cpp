@@ -161,7 +161,7 @@ std::uint64_t canonicalGeometryHash(const Scene& scene) {
     for (const glm::vec3& n : mesh.normals) w.f32(n.x), w.f32(n.y), w.f32(n.z);
     for (const glm::uvec3& t : mesh.triangles) w.u32(t.x), w.u32(t.y), w.u32(t.z);
   }
-  return hashOf(w.take());
+  return hashBytes(w.take());
 }
 
 }  // namespace malus::pack

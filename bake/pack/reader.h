@@ -1,5 +1,5 @@
-// Reads a scene pack. Every hash is checked before anything is decoded, every count and offset before
-// anything is allocated; numbers must be finite and within the schema's bounds.
+// Reads a scene pack. Checks every hash before anything is decoded and every count and offset before anything is
+// allocated; numbers must be finite and within the bounds of the schema.
 #pragma once
 
 #include <cstddef>
@@ -22,17 +22,17 @@ struct Pack {
   std::uint64_t hash = 0;         // over the header's and the table's bytes, hence over all hashes
   Scene scene;
   std::vector<std::string> compression;  // per mesh: "edgebreaker" or "sequential"
-  std::vector<DracoData> geometry;       // per mesh: where its bytes are
-  Encodings encodings;                   // how it was encoded, where the pack says so: known()
+  std::vector<DracoData> geometry;       // per mesh: the place of its bytes
+  Encodings encodings;                   // how it was encoded; see known()
   bool hasSourceMap() const { return !scene.meshes.empty() && !scene.meshes.front().sourceVertices.empty(); }
 };
 
-// Throws Error: not a pack, older or newer than this reader, truncated, a hash that does not match,
-// contents outside the schema.
+// where: the name of the file, for messages. Throws Error: not a pack, older or newer than this reader, truncated, a
+// hash that does not match, contents outside the schema.
 Pack parse(std::span<const std::byte> bytes, std::string_view where);
 Pack read(const std::filesystem::path& path);
 
-// Hash of what the renderers see of the geometry: decoded positions, normals and triangles of every mesh.
+// Hash of the geometry that the renderers see: decoded positions, normals and triangles of every mesh.
 std::uint64_t canonicalGeometryHash(const Scene& scene);
 
 }  // namespace malus::pack

@@ -1,4 +1,4 @@
-// A scene as a pack holds it: what the renderers draw. Lengths in metres, right-handed axes, positions
+// The scene of a pack, as the renderers read it. Lengths in metres, right-handed axes, positions
 // relative to `origin`; colours linear RGB at 630, 532 and 465 nm; radiance in W/(m^2 sr).
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace malus::pack {
 
-// Of the three colours.
+// Wavelengths of red, green and blue.
 inline constexpr glm::dvec3 kWavelengthsNm{630, 532, 465};
 
-// Bounds of optical constants in a pack; within them the optics neither overflow nor lose their signs.
+// Bounds of optical constants in a pack: within them the optics neither overflow nor lose their signs.
 inline constexpr double kMinEta = 1e-3;
 inline constexpr double kMaxEta = 1e3;
 
@@ -26,8 +26,8 @@ struct Coating {
   double thicknessNm = 0;  // 0: none
 };
 
-// Pictures that stand for numbers of a material: indices into Scene::textures, or -1. Laid on by parallel projection:
-// texture coordinates of a point p are dot(p - origin, u) and dot(p - origin, v), in repeats of the picture.
+// Textures of a material: indices into Scene::textures, or -1. They are applied by parallel projection: the texture
+// coordinates of a point p are dot(p - origin, u) and dot(p - origin, v), in repeats of the image.
 struct Maps {
   std::int32_t albedo = -1;  // times the material's albedo
   std::int32_t eta = -1;     // in place of eta and k
@@ -48,18 +48,18 @@ struct Material {
   double highlightStrength = 0.0;       // 0: no highlight
   std::uint32_t highlightExponent = 0;  // 1 to 4095
 
-  // What few materials have; the defaults stand for nothing.
-  glm::dvec3 absorption{0.0};         // of a glass body, in 1/m: the power falls to e^-(absorption length)
+  // Properties that few materials have (section SRFX); the defaults mean none.
+  glm::dvec3 absorption{0.0};         // inside a glass body, in 1/m: power falls to e^-(absorption length)
   glm::dvec3 outsideAbsorption{0.0};  // of the medium on the side that the normals point to
   Coating coating;                    // on glass, mirror-glass, paint, metal
   double roughness = 0;               // GGX alpha of metal, paint, mirror-glass; 0 to 1
-  glm::dvec3 axis{0.0};     // unit: of a polarized emitter's field, a polarizer's transmission, a plate's fast axis
-  double polarization = 0;  // degree of an emitter's linear polarization
-  glm::dvec3 transmittanceParallel{1.0};  // power transmittances of polarizers and wave plates, field along the axis
-  glm::dvec3 transmittanceCrossed{1.0};   // and across it
+  glm::dvec3 axis{0.0};  // unit: field of a polarized emitter, transmitted field of a polarizer, fast axis of a plate
+  double polarization = 0;                // degree of an emitter's linear polarization
+  glm::dvec3 transmittanceParallel{1.0};  // of power, of polarizers and wave plates, for a field parallel to the axis
+  glm::dvec3 transmittanceCrossed{1.0};   // and crossed with it
   glm::dvec3 retardanceDegrees{0.0};      // of wave plates
   Maps maps;
-  bool isPlain() const;  // none of these
+  bool isPlain() const;  // has none of these properties
 };
 
 // Rows from the top, linear.
@@ -74,24 +74,24 @@ struct PointLight {
   glm::dvec3 intensity;  // W/sr
 };
 
-// Orthonormal axes; forward looks into the scene, up is up in the picture.
+// Orthonormal axes; forward looks into the scene, up is up in the image.
 struct Camera {
   glm::dvec3 position{0.0};
   glm::dvec3 right{1.0, 0.0, 0.0};
   glm::dvec3 up{0.0, 1.0, 0.0};
   glm::dvec3 forward{0.0, 0.0, -1.0};
   double verticalFovDegrees = 40.0;
-  double mediumEta = 1.0;  // index of the medium that the camera stands in
+  double mediumEta = 1.0;  // index of the medium that the camera is in
 };
 
-// Light from infinity: constant, or an octahedral map with a border of one texel all around that repeats
-// what lies across the map's edges (size + 2 texels a side, row by row).
+// Light from infinity: a constant radiance, or an octahedral map with a border of one texel all around that repeats the
+// texels across the map's edges (size + 2 texels per side, row by row).
 struct Environment {
-  glm::dvec3 radiance{0.0};        // where size is 0
-  std::uint32_t size = 0;          // texels a side without the border
+  glm::dvec3 radiance{0.0};        // if size is 0
+  std::uint32_t size = 0;          // texels per side without the border
   std::vector<glm::vec3> texels;   // (size + 2)^2, each exactly a half float
   double ambientIrradiance = 0.0;  // share of its irradiance that reaches diffuse surfaces
-  glm::dvec3 sun{0.0};             // unit, toward the sun of a Rayleigh sky; 0: none
+  glm::dvec3 sun{0.0};             // unit vector toward the sun of a Rayleigh sky; 0: none
   double skyDegree = 0;            // its largest degree of polarization
   bool hasSun() const { return sun != glm::dvec3(0.0); }
   std::array<glm::dvec3, 9> irradiance{};  // coefficients of irradiancePolynomial (shaders/optics/environment.h)
@@ -106,11 +106,11 @@ struct Mesh {
   std::vector<glm::vec3> normals;     // unit, one per position; empty: those of the faces
   std::vector<glm::uvec3> triangles;  // counter-clockwise seen from outside
 
-  // Kept on request: the vertex and the face of the source file, from 0, that each vertex and triangle comes from.
+  // On request: the vertex and the face of the source file, from 0, that each vertex and triangle comes from.
   std::vector<std::uint32_t> sourceVertices, sourceFaces;
 };
 
-// One bit of the effect set, with the reason for its being on or off.
+// One effect, with the reason for its being on or off.
 struct Effect {
   std::string name;
   bool on = false;
@@ -120,7 +120,7 @@ struct Effect {
 struct Scene {
   std::string name;
   std::string title;
-  glm::dvec3 origin{0.0};  // world position of the frame that everything else is in
+  glm::dvec3 origin{0.0};  // world position that all other positions are relative to
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t depth = 0;  // most specular interactions along a path

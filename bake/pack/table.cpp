@@ -62,7 +62,7 @@ void checkBytes(std::span<const std::byte> bytes, const Section& section, std::u
     if (bytes[static_cast<std::size_t>(at)] != std::byte{0})
       throw Error(fmt::format("{}, byte {}", where, at), "padding is damaged", "zero");
   if (section.hash !=
-      hashOf(bytes.subspan(static_cast<std::size_t>(section.offset), static_cast<std::size_t>(section.sizeBytes))))
+      hashBytes(bytes.subspan(static_cast<std::size_t>(section.offset), static_cast<std::size_t>(section.sizeBytes))))
     throw Error(fmt::format("{}, byte {}", where, section.offset), fmt::format("section {} is damaged", section.id),
                 "a matching hash", "another");
 }
@@ -84,15 +84,15 @@ void readTable(std::span<const std::byte> bytes, std::string_view where, Pack& p
   const std::uint64_t fileBytes = header.u64();
   const std::uint64_t tableHash = header.u64();
   const std::uint64_t headerHash = header.u64();
-  if (headerHash != hashOf(bytes.first(kHeaderBytes - 8)))
+  if (headerHash != hashBytes(bytes.first(kHeaderBytes - 8)))
     header.fail("header is damaged", "a matching hash", "another");
   if (fileBytes != bytes.size())
     throw Error(where, bytes.size() < fileBytes ? "file is truncated" : "file is longer than its pack",
                 fmt::format("{} bytes", fileBytes), fmt::format("{}", bytes.size()));
   const std::uint64_t tableBytes = std::uint64_t{count} * kEntryBytes;
   const std::span<const std::byte> table = header.raw(tableBytes);
-  if (tableHash != hashOf(table)) header.fail("table of sections is damaged", "a matching hash", "another");
-  pack.hash = hashOf(bytes.first(kHeaderBytes + static_cast<std::size_t>(tableBytes)));
+  if (tableHash != hashBytes(table)) header.fail("table of sections is damaged", "a matching hash", "another");
+  pack.hash = hashBytes(bytes.first(kHeaderBytes + static_cast<std::size_t>(tableBytes)));
   ByteReader reader(table, kHeaderBytes, where);
   std::uint64_t end = kHeaderBytes + tableBytes;
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -17,7 +17,7 @@
 
 namespace malus::pack {
 
-std::uint64_t hashOf(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+std::uint64_t hashBytes(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 namespace {
 
@@ -103,7 +103,7 @@ std::vector<std::byte> assemble(const std::vector<Body>& bodies) {
     table.u32(0);
     table.u64(offset);
     table.u64(body.bytes.size());
-    table.u64(hashOf(body.bytes));
+    table.u64(hashBytes(body.bytes));
     offset += body.bytes.size();
   }
   const std::vector<std::byte> tableBytes = table.take();
@@ -112,11 +112,11 @@ std::vector<std::byte> assemble(const std::vector<Body>& bodies) {
   w.u32(kFormatVersion);
   w.u32(static_cast<std::uint32_t>(bodies.size()));
   w.u64(offset);
-  w.u64(hashOf(tableBytes));
+  w.u64(hashBytes(tableBytes));
   const std::vector<std::byte> start = w.take();
   ByteWriter file;
   file.raw(start);
-  file.u64(hashOf(start));
+  file.u64(hashBytes(start));
   file.raw(tableBytes);
   for (const Body& body : bodies) {
     file.padTo(kAlignment);
@@ -127,13 +127,13 @@ std::vector<std::byte> assemble(const std::vector<Body>& bodies) {
 
 }  // namespace
 
-Written serialize(const Scene& scene, const WriteSettings& settings, const OlderPack* older) {
-  EncodedMeshes encoded = encodeMeshes(scene, settings, older);
+Written serialize(const Scene& scene, const WriteSettings& settings, const PreviousPack* previous) {
+  EncodedMeshes encoded = encodeMeshes(scene, settings, previous);
   Written written;
   written.meshes = std::move(encoded.report);
   written.grid = encoded.encodings.grid;
   written.warnings = std::move(encoded.warnings);
-  written.whyAll = std::move(encoded.whyAll);
+  written.fullRebakeReason = std::move(encoded.fullRebakeReason);
   std::vector<Body> bodies;
   bodies.push_back({kMeta, metaBytes(scene)});
   bodies.push_back({kCamera, cameraBytes(scene.camera)});
@@ -157,8 +157,8 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Older
 }
 
 Written write(const std::filesystem::path& path, const Scene& scene, const WriteSettings& settings,
-              const OlderPack* older) {
-  Written written = serialize(scene, settings, older);
+              const PreviousPack* previous) {
+  Written written = serialize(scene, settings, previous);
   parse(written.bytes, path.string());  // a pack that cannot be read back is not written
   writeFile(path, written.bytes);
   return written;

@@ -16,42 +16,41 @@ namespace malus::pack {
 
 struct WriteSettings {
   compress::Bounds bounds;
-  double conversionError = 0;  // metres; how far positions are off already, by rounding to float
-  bool keepMap = false;        // keep the map from packed vertices and triangles to those of the source files
+  double conversionError = 0;  // metres; error that the positions have already, by rounding to float
+  bool keepMap = false;        // write the map from packed vertices and triangles to those of the source files
 };
 
-// A pack that was written before, from which meshes that are the same are taken. Its versions of baker and codec must
-// be today's.
-struct OlderPack {
+// A pack from which unchanged meshes are reused. It must be of the same versions of baker and codec.
+struct PreviousPack {
   const Pack* pack = nullptr;
   std::span<const std::byte> bytes;  // of its whole file
 };
 
-// What compression did to a mesh.
+// Result of the compression of a mesh.
 struct MeshCompression {
   std::string method;            // "edgebreaker" or "sequential"
   std::string sequentialReason;  // empty for edgebreaker
   std::size_t sizeBytes = 0;
-  int normalBits = 0;  // 0 where the mesh has no normals
+  int normalBits = 0;  // 0 without normals
   compress::Deviation deviation;
-  double encodeMs = 0, decodeMs = 0;  // wall clock; 0 where it was taken from the older pack
-  bool kept = false;                  // taken from the older pack
+  double encodeMs = 0, decodeMs = 0;  // wall clock; 0 if reused
+  bool reused = false;                // taken from the previous pack
 };
 
 struct Written {
   std::vector<std::byte> bytes;
   std::vector<MeshCompression> meshes;
-  compress::Grid grid;                // that all meshes share
-  std::vector<std::string> warnings;  // default bounds that are not kept, one line each
-  std::string whyAll;                 // why no mesh could be taken from the older pack, where the grid is the reason
+  compress::Grid grid;                // shared by all meshes
+  std::vector<std::string> warnings;  // one line per default bound that is not kept
+  std::string fullRebakeReason;       // reason for reusing no mesh if the grid changed
 };
 
-// Throws Error where the scene is outside the schema's bounds, a mesh cannot be kept by the codec, or a bound that was
-// asked for is not reached. The bytes do not depend on `older`.
-Written serialize(const Scene& scene, const WriteSettings& settings, const OlderPack* older = nullptr);
+// Throws Error if the scene is outside the schema's bounds, the codec cannot represent a mesh, or a bound of the
+// settings is not reached. The bytes do not depend on `previous`.
+Written serialize(const Scene& scene, const WriteSettings& settings, const PreviousPack* previous = nullptr);
 
-// Serializes, reads back, and replaces path. Throws Error and then leaves path as it was.
+// Serializes, reads back, and replaces the file. After an Error the file is unchanged.
 Written write(const std::filesystem::path& path, const Scene& scene, const WriteSettings& settings,
-              const OlderPack* older = nullptr);
+              const PreviousPack* previous = nullptr);
 
 }  // namespace malus::pack

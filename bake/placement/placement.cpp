@@ -9,7 +9,7 @@
 
 namespace malus::bake {
 
-glm::dmat4 matrixOf(const Transform& transform) {
+glm::dmat4 transformMatrix(const Transform& transform) {
   glm::dmat3 m(1.0);
   for (int axis = 0; axis < 3; ++axis) m[axis][axis] = transform.scale[axis];
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Where a mesh stands: transforms as matrices, and meshes moved by them, in double precision.
+// Placement of meshes: transforms as matrices, and meshes transformed by them, in double precision.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -8,11 +8,11 @@
 
 namespace malus::bake {
 
-// Scale, then rotations about x, y and z, then translation. Quarter turns are exact, so that what touches keeps
-// touching.
-glm::dmat4 matrixOf(const Transform& transform);
+// Scale, then rotations about x, y and z, then translation. Quarter rotations are exact, so that meshes that touch
+// still touch.
+glm::dmat4 transformMatrix(const Transform& transform);
 
-// The mesh in world space; worldFromObject is affine and regular. A mirroring one turns the faces, so that outside
+// The mesh in world space; worldFromObject is affine and regular. A mirroring one flips the faces, so that outside
 // stays outside.
 prep::Mesh placed(const prep::Mesh& mesh, const glm::dmat4& worldFromObject);
 

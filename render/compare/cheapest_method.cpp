@@ -28,7 +28,7 @@ constexpr int kRounds = 5;
 fs::path cacheFile(const std::string& key) {
   const fs::path folder = cacheFolder("errors");
   if (folder.empty()) return {};
-  return folder / fmt::format("{:016x}.json", pack::hashOf(std::as_bytes(std::span(key))));
+  return folder / fmt::format("{:016x}.json", pack::hashBytes(std::as_bytes(std::span(key))));
 }
 
 // Empty if there is no cache, or if another key has the same hash.

@@ -206,7 +206,7 @@ TEST_F(Bake, OpenGlassCanBeAllowedAndIsTold) {
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_TRUE(contains(result.notes[0], "mesh 'pane' is not certified as glass")) << result.notes[0];
   // A pack that was allowed is not up to date where it is not.
-  EXPECT_NE(provenanceOf(description, {}, {true}), provenanceOf(description, {}, {false}));
+  EXPECT_NE(makeProvenance(description, {}, {true}), makeProvenance(description, {}, {false}));
 }
 
 TEST_F(Bake, CleaningIsTheScenesToChoose) {
@@ -332,7 +332,7 @@ TEST_F(Bake, AsItIsKeepsWhatCleaningWouldDrop) {
   EXPECT_EQ(pack.scene.meshes[0].triangles, scene.meshes[0].triangles);
   EXPECT_LT(pack.scene.meshes[0].normals[1].z, -0.999f);
   scene_["meshes"][0]["material"] = "glass";
-  EXPECT_CONTAINS(error(), "taken as it is");
+  EXPECT_CONTAINS(error(), "asIs");
   scene_["meshes"][0]["openSurface"] = true;
   EXPECT_EQ(error(), "");
 }

@@ -78,7 +78,7 @@ TEST(Info, NamesTheMapToTheSource) {
   settings.keepMap = true;
   const pack::Pack pack = pack::parse(pack::serialize(test::smallScene(), settings).bytes, "test");
   EXPECT_EQ(infoJson(pack)["sourceMap"], true);
-  EXPECT_CONTAINS(infoText(pack), "the source's vertices and faces are kept");
+  EXPECT_CONTAINS(infoText(pack), "map to the source");
 }
 
 TEST(Info, TextNamesEverything) {

@@ -1,4 +1,4 @@
-// Baking again over an older pack: what is the same is taken from there, and the bytes are those of a bake from
+// Baking again over a previous pack: unchanged meshes are reused, and the bytes are those of a bake from
 // nothing.
 #include <algorithm>
 
@@ -6,9 +6,9 @@
 
 #include "bake/bake.h"
 #include "bake/bake_report.h"
-#include "bake/older_pack.h"
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
+#include "bake/previous_pack.h"
 #include "meshprep/base/atomic_file.h"
 #include "tests/bake/fixtures.h"
 
@@ -55,9 +55,10 @@ class Rebake : public testing::Test {
     Both both;
     both.baked = bake(d, settings_, kSilent);
     both.fresh = pack::serialize(both.baked.scene, settings_);
-    const std::optional<OlderBake> older = readOlder(pack_);
-    const bool usable = older && isOfSameVersions(*older, both.baked.scene.provenance);
-    const pack::OlderPack source{usable ? &older->pack : nullptr, usable ? older->bytes : std::span<const std::byte>()};
+    const std::optional<PreviousBake> previous = readPrevious(pack_);
+    const bool usable = previous && isOfSameVersions(*previous, both.baked.scene.provenance);
+    const pack::PreviousPack source{usable ? &previous->pack : nullptr,
+                                    usable ? previous->bytes : std::span<const std::byte>()};
     both.again = pack::write(pack_, both.baked.scene, settings_, usable ? &source : nullptr);
     EXPECT_TRUE(both.again.bytes == both.fresh.bytes);
     EXPECT_TRUE(readFile(pack_) == both.fresh.bytes);
@@ -65,7 +66,7 @@ class Rebake : public testing::Test {
   }
   static std::vector<bool> kept(const pack::Written& written) {
     std::vector<bool> list;
-    for (const pack::MeshCompression& m : written.meshes) list.push_back(m.kept);
+    for (const pack::MeshCompression& m : written.meshes) list.push_back(m.reused);
     return list;
   }
 
@@ -82,9 +83,9 @@ TEST_F(Rebake, OnlyTheChangedMeshIsRedone) {
   folder_.write("pyramid.obj", pyramid(0.25));
   const Both both = bakeBoth();
   EXPECT_EQ(kept(both.again), (List{true, true, false, true}));
-  EXPECT_EQ(both.again.whyAll, "");
-  EXPECT_EQ(bakeJson(both.baked, both.again, "out.pack").at("redone"), 1);
-  EXPECT_CONTAINS(bakeText(both.baked, both.again, "out.pack", true), "1 of 4 meshes redone\n");
+  EXPECT_EQ(both.again.fullRebakeReason, "");
+  EXPECT_EQ(bakeJson(both.baked, both.again, "out.pack").at("reencoded"), 1);
+  EXPECT_CONTAINS(bakeText(both.baked, both.again, "out.pack", true), "1 of 4 meshes");
   // Errors of a mesh that was kept are those of when it was encoded.
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(both.again.meshes[i].deviation.positionMax, both.fresh.meshes[i].deviation.positionMax);
@@ -109,8 +110,8 @@ TEST_F(Rebake, AllWhereTheGridMovesAndItSaysSo) {
   scene_["meshes"][0]["instances"][1]["translate"] = {3, 0, 0};
   const Both both = bakeBoth();
   EXPECT_EQ(kept(both.again), (List{false, false, false, false}));
-  EXPECT_CONTAINS(both.again.whyAll, "the grid that all meshes share moved");
-  EXPECT_CONTAINS(bakeText(both.baked, both.again, "out.pack", true), "4 of 4 meshes redone: the grid");
+  EXPECT_CONTAINS(both.again.fullRebakeReason, "the grid that all meshes share moved");
+  EXPECT_CONTAINS(bakeText(both.baked, both.again, "out.pack", true), "4 of 4 meshes");
 }
 
 TEST_F(Rebake, AllWhereTheBitsChange) {
@@ -118,7 +119,7 @@ TEST_F(Rebake, AllWhereTheBitsChange) {
   settings_.bounds.positionBits = 21;
   const Both both = bakeBoth();
   EXPECT_EQ(kept(both.again), (List{false, false, false, false}));
-  EXPECT_EQ(both.again.whyAll, "positions have 21 bits instead of 20");
+  EXPECT_EQ(both.again.fullRebakeReason, "positions have 21 bits instead of 20");
   settings_.bounds.normalBits = 9;  // the square and the others have normals
   EXPECT_EQ(kept(bakeBoth().again), (List{false, false, false, false}));
 }
@@ -126,14 +127,14 @@ TEST_F(Rebake, AllWhereTheBitsChange) {
 TEST_F(Rebake, TheMapToTheSourceIsTakenAlong) {
   bakeBoth();
   settings_.keepMap = true;
-  EXPECT_EQ(kept(bakeBoth().again), (List{false, false, false, false}));  // the older pack has none
+  EXPECT_EQ(kept(bakeBoth().again), (List{false, false, false, false}));  // the previous pack has none
   folder_.write("pyramid.obj", pyramid(0.25));
   EXPECT_EQ(kept(bakeBoth().again), (List{true, true, false, true}));
   // The same mesh from a file that counts its vertices from another place.
   pack::Scene scene = bake(description(), settings_, kSilent).scene;
   scene.meshes[3].sourceVertices = {11, 12, 13, 14};
-  const std::optional<OlderBake> older = readOlder(pack_);
-  const pack::OlderPack source{&older->pack, older->bytes};
+  const std::optional<PreviousBake> previous = readPrevious(pack_);
+  const pack::PreviousPack source{&previous->pack, previous->bytes};
   const pack::Written written = pack::serialize(scene, settings_, &source);
   EXPECT_EQ(kept(written), (List{true, true, true, false}));
   EXPECT_TRUE(written.bytes == pack::serialize(scene, settings_).bytes);
@@ -142,42 +143,42 @@ TEST_F(Rebake, TheMapToTheSourceIsTakenAlong) {
 }
 
 TEST_F(Rebake, OtherVersionsAreNotTakenFrom) {
-  const std::string provenance = provenanceOf(description(), settings_);
-  OlderBake older;
-  older.pack.scene.provenance = provenance;
-  EXPECT_TRUE(isUpToDate(older, provenance));
-  EXPECT_TRUE(isOfSameVersions(older, provenance));
+  const std::string provenance = makeProvenance(description(), settings_);
+  PreviousBake previous;
+  previous.pack.scene.provenance = provenance;
+  EXPECT_TRUE(isUpToDate(previous, provenance));
+  EXPECT_TRUE(isOfSameVersions(previous, provenance));
   for (const char* key : {"malus", "baker", "draco"}) {
     json changed = json::parse(provenance);
     changed[key] = "another";
-    older.pack.scene.provenance = changed.dump();
-    EXPECT_FALSE(isOfSameVersions(older, provenance)) << key;
+    previous.pack.scene.provenance = changed.dump();
+    EXPECT_FALSE(isOfSameVersions(previous, provenance)) << key;
   }
-  older.pack.scene.provenance = "no JSON";
-  EXPECT_FALSE(isOfSameVersions(older, provenance));
-  EXPECT_FALSE(isUpToDate(older, provenance));
+  previous.pack.scene.provenance = "no JSON";
+  EXPECT_FALSE(isOfSameVersions(previous, provenance));
+  EXPECT_FALSE(isUpToDate(previous, provenance));
 }
 
 TEST_F(Rebake, ADamagedPackIsNone) {
-  EXPECT_FALSE(readOlder(pack_).has_value());
+  EXPECT_FALSE(readPrevious(pack_).has_value());
   bakeBoth();
-  EXPECT_TRUE(readOlder(pack_).has_value());
+  EXPECT_TRUE(readPrevious(pack_).has_value());
   std::vector<std::byte> bytes = readFile(pack_);
   bytes[bytes.size() / 2] ^= std::byte{1};
   writeFile(pack_, bytes);
-  EXPECT_FALSE(readOlder(pack_).has_value());
+  EXPECT_FALSE(readPrevious(pack_).has_value());
 }
 
 TEST_F(Rebake, SettingsAreInTheProvenance) {
   const SceneDescription d = description();
-  const std::string plain = provenanceOf(d, {});
+  const std::string plain = makeProvenance(d, {});
   std::vector<pack::WriteSettings> others(5);
   others[0].bounds.positionError = 1e-4;
   others[1].bounds.normalErrorDegrees = 0.1;
   others[2].bounds.positionBits = 20;
   others[3].bounds.normalBits = 12;
   others[4].keepMap = true;
-  for (const pack::WriteSettings& settings : others) EXPECT_NE(provenanceOf(d, settings), plain);
+  for (const pack::WriteSettings& settings : others) EXPECT_NE(makeProvenance(d, settings), plain);
 }
 
 TEST_F(Rebake, ABoundThatCannotBeReachedNamesTheMesh) {

@@ -35,8 +35,8 @@ void repair(Bytes& bytes) {
                size = test::numberAt<std::uint64_t>(bytes, entry + 24);
     if (offset > bytes.size() || size > bytes.size() - offset) continue;
     test::setNumber(bytes, entry + 32,
-                    hashOf(std::span<const std::byte>(bytes).subspan(static_cast<std::size_t>(offset),
-                                                                     static_cast<std::size_t>(size))));
+                    hashBytes(std::span<const std::byte>(bytes).subspan(static_cast<std::size_t>(offset),
+                                                                        static_cast<std::size_t>(size))));
   }
   if (kHeaderBytes + count * kEntryBytes <= bytes.size()) test::fixHashes(bytes);
 }

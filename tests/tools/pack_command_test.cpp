@@ -102,10 +102,10 @@ TEST(Packs, ReuseUnchangedMeshes) {
   const Finished text = malus({"bake", scenes.second, "-o", pack});  // another exposure, the same meshes
   EXPECT_TRUE(contains(text.out, " 0 of ")) << text.out;
   const Finished again = malus({"bake", scenes.first, "-o", pack, "--json"});
-  EXPECT_EQ(json::parse(again.out).at("redone"), 0);
+  EXPECT_EQ(json::parse(again.out).at("reencoded"), 0);
   const Finished forced = malus({"bake", scenes.first, "-o", pack, "--json", "--force"});
   const json report = json::parse(forced.out);
-  EXPECT_EQ(report.at("redone"), report.at("meshes").size());
+  EXPECT_EQ(report.at("reencoded"), report.at("meshes").size());
   EXPECT_EQ(TwoScenes::packHash(pack), scenes.firstHash);
 }
 

@@ -14,7 +14,7 @@ using Kind = pack::MaterialKind;
 
 pack::Material made(const prep::SourceMaterial& source) {
   std::vector<std::string> ignored;
-  return materialOf(source, ignored);
+  return convertMaterial(source, ignored);
 }
 
 TEST(SourceMaterial, AMetalReflectsItsBaseColour) {
@@ -64,7 +64,7 @@ TEST(SourceMaterial, GlassAbsorbsByItsVolume) {
   source.roughness = 0.5;
   source.name = "frosted";
   std::vector<std::string> notes;
-  EXPECT_EQ(materialOf(source, notes).roughness, 0);
+  EXPECT_EQ(convertMaterial(source, notes).roughness, 0);
   EXPECT_EQ(notes, std::vector<std::string>{"the roughness of glass 'frosted'"});
 }
 

@@ -52,8 +52,8 @@ inline std::vector<RawSection> takenApart(const Bytes& pack) {
 inline void fixHashes(Bytes& pack) {
   const std::size_t tableBytes = 40 * std::size_t{numberAt<std::uint32_t>(pack, 12)};
   if (40 + tableBytes <= pack.size())
-    setNumber(pack, 24, hashOf(std::span<const std::byte>(pack).subspan(40, tableBytes)));
-  setNumber(pack, 32, hashOf(std::span<const std::byte>(pack).first(32)));
+    setNumber(pack, 24, hashBytes(std::span<const std::byte>(pack).subspan(40, tableBytes)));
+  setNumber(pack, 32, hashBytes(std::span<const std::byte>(pack).first(32)));
 }
 
 inline Bytes putTogether(const std::vector<RawSection>& sections, std::uint32_t formatVersion = 1) {
@@ -69,7 +69,7 @@ inline Bytes putTogether(const std::vector<RawSection>& sections, std::uint32_t 
     setNumber(pack, entry + 8, sections[i].flags);
     setNumber(pack, entry + 16, std::uint64_t{pack.size()});
     setNumber(pack, entry + 24, std::uint64_t{sections[i].bytes.size()});
-    setNumber(pack, entry + 32, hashOf(sections[i].bytes));
+    setNumber(pack, entry + 32, hashBytes(sections[i].bytes));
     pack.insert(pack.end(), sections[i].bytes.begin(), sections[i].bytes.end());
   }
   setNumber(pack, 16, std::uint64_t{pack.size()});

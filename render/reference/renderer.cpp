@@ -146,8 +146,7 @@ struct Tracer {
       const dvec3 l = toLight / distance;
       const double c = glm::dot(h.normal, l);
       if (c <= 0 || glm::dot(h.face, l) <= 0) continue;
-      const double lobe =
-          isGlossy ? m.highlightStrength * f64::phongLobe(mirror, l, m.highlightExponent) : 0;
+      const double lobe = isGlossy ? m.highlightStrength * f64::phongLobe(mirror, l, m.highlightExponent) : 0;
       if (!isDiffuse && lobe <= 0) continue;
       if (parameters.shadows) ++rays;
       if (parameters.shadows && !bvh.visible(glm::vec3(queryAbove(h)), glm::vec3(l), static_cast<float>(distance)))

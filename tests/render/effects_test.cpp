@@ -129,7 +129,8 @@ TEST(EffectClosedForms, DisplayIsSeenAtItsAngleAndDegree) {
   panel.polarization = 0.75;
   test::addSquare(scene, test::addMaterial(scene, panel), {0, 0, 0}, {0, 0, 1}, 1);
   expectEverywhere(scene, 0, {3, 3 * 0.75 * std::cos(0.6), 3 * 0.75 * std::sin(0.6), 0}, 2e-6);
-  // At an oblique angle the field is perpendicular to the absorbing axis: that of a panel turned about its own field does not move.
+  // At an oblique angle the field is perpendicular to the absorbing axis: that of a panel turned about its own field
+  // does not move.
   test::look(scene, {4, 0, 4}, {0, 0, 0});
   scene.materials[0].axis = {1, 0, 0};
   expectEverywhere(scene, 0, {3, 3 * 0.75, 0, 0}, 2e-6);

@@ -1,4 +1,4 @@
-// Method `fresnel-iterative`: `fresnel` as a loop over the eye path, without recursion and without payload.
+// Method `fresnel-iterative`: `fresnel` as a loop along the camera path, without recursion and payload.
 #include "shaders/methods/fresnel_terms.h"
 
 #include "shaders/iterative/colour.h"

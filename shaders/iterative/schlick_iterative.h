@@ -1,4 +1,4 @@
-// Method `schlick-iterative`: `schlick` as a loop over the eye path, without recursion and without payload.
+// Method `schlick-iterative`: `schlick` as a loop along the camera path, without recursion and payload.
 #include "shaders/methods/schlick_terms.h"
 
 #include "shaders/iterative/colour.h"

@@ -1,4 +1,4 @@
-// The optics in the order of their dependence. No include guard: every number type includes them anew.
+// Optics, in the order of their dependence. No include guard: every number type includes them again.
 // clang-format off
 #include "shaders/optics/vector.h"
 #include "shaders/optics/complex.h"

@@ -1,4 +1,4 @@
-// Complex numbers, as much as refraction needs.
+// Complex numbers: the operations that refraction needs.
 
 struct Complex {
   real re;
@@ -17,7 +17,7 @@ FN Complex complexMul(Complex a, Complex b) {
   return makeComplex(a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re);
 }
 FN real complexNormSq(Complex a) { return a.re * a.re + a.im * a.im; }
-// b = 0 gives 0: every 0/0 of the optics stands for nothing.
+// Quotient a / b, scaled against overflow; 0 where b = 0, because every 0/0 of the optics is an absent interface.
 FN Complex complexDiv(Complex a, Complex b) {
   real m = maxR(absR(b.re), absR(b.im));
   real scale = R(1.0) / selectR(equalR(m, R(0.0)), R(1.0), m);
@@ -27,8 +27,8 @@ FN Complex complexDiv(Complex a, Complex b) {
   return makeComplex((a.re * c.re + a.im * c.im) * inverse, (a.im * c.re - a.re * c.im) * inverse);
 }
 
-// Root of zRe + i zIm with an imaginary part of 0 or less: the larger part from the modulus, the other from zIm,
-// whose sign does not count.
+// Square root of zRe + i zIm on the branch Im <= 0, whatever the sign of zIm. The larger part is
+// sqrt((|z| + |Re z|)/2), the other |Im z| / (2 larger): the direct form loses digits to cancellation.
 FN Complex complexSqrtLower(real zRe, real zIm) {
   real zAbs = sqrtR(zRe * zRe + zIm * zIm);
   real larger = sqrtR(R(0.5) * (zAbs + absR(zRe)));
@@ -37,10 +37,10 @@ FN Complex complexSqrtLower(real zRe, real zIm) {
   return makeComplex(selectR(positive, larger, smaller), R(0.0) - selectR(positive, smaller, larger));
 }
 
-// Cosine and sine of 2 pi x, by their Taylor series on a quarter turn (to x^21: exact in double). No library
-// function, so that every device gives the same.
+// e^{2 pi i x}: cosine and sine of 2 pi x, by Taylor series of the half angle up to x^21, which is exact in double. No
+// library function is used, so that every device gives the same result.
 FN Complex cisTwoPi(real x) {
-  real z = (x - floorR(x + R(0.5))) * R(3.14159265358979323846);  // half the angle, within a quarter turn
+  real z = (x - floorR(x + R(0.5))) * R(3.14159265358979323846);  // half the angle, in [-pi/2, pi/2]
   real zSq = z * z;
   real s =
       z * (R(1.0) -

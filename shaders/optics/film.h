@@ -1,19 +1,20 @@
-// Thin film: a plane layer of real index on a dielectric or a conductor, all its reflections summed with their
-// phases (Airy's formula). Source: Born and Wolf, Principles of Optics, 1.6.4 and 14.4. Signs and time
-// dependence as in fresnel.h.
+// Thin film: a plane layer of real index on a dielectric or a conductor, all internal reflections summed with their
+// phases (Airy's formula). Signs and time dependence as in fresnel.h. Source: Born and Wolf, Principles of Optics, 7th
+// edition, 1.6.4 and 14.4.
 
 struct Film {
   Reflectance reflected;
-  // Through the film into a dielectric (into a conductor: 1 - R and no phase): the same four numbers, of t_p conj(t_s).
-  Reflectance through;
+  Reflectance through;  // transmission into a dielectric, with X = t_p conj(t_s); for a conductor 1 - R, no phase
 };
 
-// One interface within the stack, from medium j to k: r_s and rho = r_p/r_s. kSq: square of the wave's component
-// along the surface; qj, qk: across it; difference: n_j^2 - n_k^2, all relative to the first medium.
+// Amplitudes of one interface of the stack, from medium j to medium k.
 struct FilmInterface {
   Complex rs;
   Complex rp;
 };
+// r_s = (n_j^2 - n_k^2)/(q_j + q_k)^2, r_p = r_s (k^2 - q_j q_k)/(k^2 + q_j q_k). kSq: square of the wave vector's
+// component parallel to the surface; qj, qk: its components normal to it; difference: n_j^2 - n_k^2. All relative to
+// the first medium.
 FN FilmInterface filmInterface(real kSq, Complex qj, Complex qk, Complex difference) {
   FilmInterface f;
   Complex sum = complexAdd(qj, qk);
@@ -24,12 +25,14 @@ FN FilmInterface filmInterface(real kSq, Complex qj, Complex qk, Complex differe
   return f;
 }
 
-// Medium n1, film of index nf, medium n3 - i k3. turns: twice the film's thickness over the wavelength in vacuum.
-FN Film thinFilm(real c, real n1, real nf, real turns, real n3, real k3) {
+// Reflection and transmission of a film of index nf between a medium of index n1 and one of index n3 - i k3.
+// c: cosine of the angle of incidence in the first medium; roundTripPhase: twice the film's thickness over the
+// wavelength in vacuum, the phase of a round trip at normal incidence in units of 2 pi / nf.
+FN Film thinFilm(real c, real n1, real nf, real roundTripPhase, real n3, real k3) {
   real inverse = R(1.0) / n1;
   real inverseSq = inverse * inverse;
   real sinSq = (R(1.0) - c) * (R(1.0) + c);
-  // Components across the surface: q^2 = (n/n1)^2 - sin^2, from n^2 - n1^2 and c^2.
+  // Components normal to the surface: q^2 = (n/n1)^2 - sin^2, from n^2 - n1^2 and c^2.
   real eF = ((nf - n1) * (nf + n1)) * inverseSq;
   real e3Re = ((n3 - n1) * (n3 + n1) - k3 * k3) * inverseSq;
   real e3Im = R(-2.0) * n3 * k3 * inverseSq;
@@ -39,10 +42,10 @@ FN Film thinFilm(real c, real n1, real nf, real turns, real n3, real k3) {
   FilmInterface a = filmInterface(sinSq, q1, q2, makeComplex(R(0.0) - eF, R(0.0)));
   real differenceRe = ((nf - n3) * (nf + n3) + k3 * k3) * inverseSq;
   FilmInterface b = filmInterface(sinSq, q2, q3, makeComplex(differenceRe, R(0.0) - e3Im));
-  // Once through the film and back: e^{-2 i beta}.
-  Complex turn = cisTwoPi(turns * n1 * q2.re);
-  real fade = expR(R(6.28318530717958647693) * turns * n1 * q2.im);
-  Complex phase = makeComplex(turn.re * fade, (R(0.0) - turn.im) * fade);
+  // Round trip through the film: e = e^{-2 i beta}.
+  Complex rotation = cisTwoPi(roundTripPhase * n1 * q2.re);
+  real decay = expR(R(6.28318530717958647693) * roundTripPhase * n1 * q2.im);
+  Complex phase = makeComplex(rotation.re * decay, (R(0.0) - rotation.im) * decay);
 
   // r = (r12 + r23 e) / (1 + r12 r23 e)
   Complex one = makeComplex(R(1.0), R(0.0));
@@ -56,7 +59,7 @@ FN Film thinFilm(real c, real n1, real nf, real turns, real n3, real k3) {
   Film f;
   f.reflected.rs = selectR(total, R(1.0), minR(complexNormSq(rs), R(1.0)));
   f.reflected.rp = selectR(total, R(1.0), minR(complexNormSq(rp), R(1.0)));
-  // X = r_p conj(r_s), of the size that the powers have: where 1 + .. nearly vanishes both are rounding.
+  // X = r_p conj(r_s), scaled to sqrt(R_s R_p): where 1 + r12 r23 e nearly vanishes its size is rounding error.
   real xRe = rp.re * rs.re + rp.im * rs.im;
   real xIm = rp.im * rs.re - rp.re * rs.im;
   real size = sqrtR(xRe * xRe + xIm * xIm);
@@ -64,8 +67,8 @@ FN Film thinFilm(real c, real n1, real nf, real turns, real n3, real k3) {
   f.reflected.xRe = xRe * scale;
   f.reflected.xIm = xIm * scale;
 
-  // A film takes nothing: T = 1 - R. t_p/t_s = n1 nf/(k^2 + q1 q2) nf n3/(k^2 + q2 q3) (1 + ..)_s/(1 + ..)_p gives
-  // the phase.
+  // The film absorbs nothing: T = 1 - R. The phase is that of
+  // t_p/t_s = n1 nf/(k^2 + q1 q2) nf n3/(k^2 + q2 q3) (1 + r12 r23 e)_s/(1 + r12 r23 e)_p.
   f.through.rs = R(1.0) - f.reflected.rs;
   f.through.rp = R(1.0) - f.reflected.rp;
   Complex first = complexMul(q1, q2);

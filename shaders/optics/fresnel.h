@@ -1,10 +1,17 @@
-// Fresnel equations of a smooth interface: what share of the power is reflected and transmitted, s and p,
-// and the cross terms that carry phase. Light arrives in a medium of real index n1 at an angle whose
-// cosine c is in [0, 1], on a medium of index n2 - i k2 (time dependence e^{+i w t}, roots with Im <= 0).
-// Signs and stable forms: shaders/optics/CONVENTIONS.md. Sources: Born and Wolf, Principles of Optics,
-// 1.5 and 14.2; the forms in eta^2 - 1 avoid the cancellation of (c - t)/(c + t) near an index match.
+// Fresnel equations of a smooth interface between a medium of real index n1, in which the light arrives, and a medium
+// of index n2 - i k2, with time dependence e^{+i w t} and roots with Im <= 0:
+//
+//   r_s = (c - t)/(c + t),  r_p = (t - eta^2 c)/(t + eta^2 c)
+//
+// c: cosine of the angle of incidence, in [0, 1]; eta = (n2 - i k2)/n1; t = sqrt(eta^2 - sin^2). The sign of r_p is
+// that of CONVENTIONS.md (Interfaces): r_p = -r_s at normal incidence. The functions evaluate
+//
+//   r_s = -(eta^2 - 1)/(c + t)^2,  rho = r_p/r_s = (sin^2 - c t)/(sin^2 + c t)
+//
+// which has no difference of nearly equal numbers near an index match. Source: Born and Wolf, Principles of Optics, 7th
+// edition, 1.5.2 (equations 20 and 21) and 14.2. The result depends on the side of viewing only by the frames.
 
-// Powers and X = r_p conj(r_s); the reflection Mueller matrix needs no more.
+// Power reflectances and the cross term X = r_p conj(r_s), which is all that the Mueller matrix of a reflection needs.
 struct Reflectance {
   real rs;   // |r_s|^2, in [0, 1]
   real rp;   // |r_p|^2, in [0, 1]
@@ -12,14 +19,14 @@ struct Reflectance {
   real xIm;  // Im X
 };
 
-// Flux transmittances (dielectrics only); x = sqrt(ts tp).
+// Flux transmittances of a dielectric; x = sqrt(ts tp).
 struct Transmittance {
   real ts;
   real tp;
   real x;
 };
 
-// What both share: t = sqrt(eta^2 - sin^2), with eta = n2/n1.
+// Quantities of refraction at a dielectric: t = sqrt(eta^2 - sin^2), with eta = n2/n1.
 struct RefractionTerms {
   real eta;      // n2/n1
   real etaSq;    // eta^2
@@ -37,7 +44,7 @@ FN RefractionTerms refractionTerms(real c, real n1, real n2) {
   f.etaSq = f.eta * f.eta;
   f.etaSqM1 = ((n2 - n1) * (n2 + n1)) / (n1 * n1);
   f.sinSq = (R(1.0) - c) * (R(1.0) + c);
-  // Beside 1 an eta^2 of 1e-8 would be lost: of the two forms, the one with the smaller terms.
+  // Take the form with the smaller terms: an eta^2 of 1e-8 is lost beside 1.
   real tSq = selectR(lessR(f.etaSq + f.sinSq, R(1.0)), f.etaSq - f.sinSq, f.etaSqM1 + c * c);
   f.total = lessR(tSq, R(0.0));
   f.matched = equalR(f.etaSqM1, R(0.0));
@@ -46,6 +53,7 @@ FN RefractionTerms refractionTerms(real c, real n1, real n2) {
   return f;
 }
 
+// Reflection at a dielectric. Total reflection gives R_s = R_p = 1 exactly; n1 = n2 reflects nothing at every angle.
 FN Reflectance dielectricReflectance(real c, real n1, real n2) {
   RefractionTerms f = refractionTerms(c, n1, n2);
   // Partial reflection: r_s = -(eta^2 - 1)/(c + t)^2, rho = r_p/r_s = (sin^2 - c t)/(sin^2 + c t).
@@ -65,6 +73,8 @@ FN Reflectance dielectricReflectance(real c, real n1, real n2) {
   return r;
 }
 
+// Transmission through a dielectric: T_s = 4 c t/(c + t)^2, T_p = 4 eta^2 c t/(eta^2 c + t)^2. All 0 in total
+// reflection; 1 at every angle for n1 = n2. Source: Born and Wolf, 1.5.3.
 FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
   RefractionTerms f = refractionTerms(c, n1, n2);
   mask none = orM(f.matched, f.total);
@@ -79,7 +89,8 @@ FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
   return t;
 }
 
-// Conductor of index n2 - i k2, k2 >= 0; with k2 = 0 it is a dielectric that only reflects.
+// Reflection at a conductor of index n2 - i k2, k2 >= 0; with k2 = 0 a dielectric that only reflects. Source: Born and
+// Wolf, 14.2.
 FN Reflectance conductorReflectance(real c, real n1, real n2, real k2) {
   real inverse = R(1.0) / n1;
   real n = n2 * inverse;

@@ -1,6 +1,6 @@
-// Importance of polarized light: what a Stokes vector at one place of an eye path counts for at the eye is its
-// product with a row (w, q, u, v), followed from the eye on. Rows are never divided by w, which may vanish.
-// Frames as in stokes.h, of the light. Derivation: CONVENTIONS.md.
+// Importance of polarized light: a row vector (w, q, u, v) whose product with the Stokes vector of the light at a
+// vertex of the camera path is the intensity that the camera records. It is followed from the camera and never divided
+// by w, which may vanish. Frames are those of the light, as in stokes.h. Derivation: CONVENTIONS.md, Importance.
 
 struct ImportanceVector {
   real w;
@@ -9,8 +9,8 @@ struct ImportanceVector {
   real v;
 };
 
-// The same row in a frame turned by f about the propagation. row' S' = row S with S' = R(f) S makes row R(-f), which
-// is how a Stokes vector turns.
+// The vector in a frame rotated by f about the propagation; cos2 = cos 2f, sin2 = sin 2f. From row' S' = row S and
+// S' = R(f) S follows row' = row R(-f), which is how a Stokes vector rotates.
 FN ImportanceVector rotateImportance(ImportanceVector r, real cos2, real sin2) {
   ImportanceVector t;
   t.w = r.w;
@@ -38,8 +38,8 @@ FN ImportanceVector scaleImportance(ImportanceVector r, real scale) {
   return t;
 }
 
-// From the light that leaves an interface to the light that meets it: the row times the Mueller matrix of stokes.h
-// (stokesInterface). Transmission has the same form with x real.
+// From the light that leaves an interface to the light that arrives at it: row times the Mueller matrix of
+// stokesInterface. For a transmission the terms are T_s, T_p and sqrt(T_s T_p).
 FN ImportanceVector applyInterfaceTransposed(ImportanceVector r, real rs, real rp, real xRe, real xIm) {
   real mean = (rs + rp) * R(0.5);
   real difference = (rs - rp) * R(0.5);

@@ -1,6 +1,5 @@
-// The words that the shared files are written in, for C++. GLSL gets the same words from
-// shaders/gpu/language.glsl. Included before shared files and undone by language_end.h; the including
-// namespace defines the types real, real2, real3 and mask (see optics.h).
+// Words of the shared language for C++; shaders/gpu/language.glsl has them for GLSL. Included before shared files and
+// undone by language_end.h. The including namespace defines the types real, real2, real3, mask and word (optics.h).
 #define FN static inline                     // a function
 #define FN_INLINE [[gnu::always_inline]] FN  // a function that is worth inlining at every call
 #define CONST static constexpr               // a constant

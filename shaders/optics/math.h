@@ -40,8 +40,8 @@ FN real expR(real x) { return real(exp(float(x))); }
 FN real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 FN real3 cross3(real3 a, real3 b) { return make3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
 
-// Numbers of 16 bits, two to a word (methods with packed payloads, float only). Bits of a half float, rounded to
-// nearest; of a fraction in [-1, 1], in steps of 1/32767.
+// Numbers of 16 bits, two in a word, for methods with packed payloads (float only): bits of a half float, rounded to
+// nearest, and of a fraction in [-1, 1] in steps of 1/32767.
 #ifdef __cplusplus
 FN word halfBits(real x) { return glm::packHalf1x16(static_cast<float>(x)); }
 FN real halfValue(word bits) { return static_cast<real>(glm::unpackHalf1x16(static_cast<std::uint16_t>(bits))); }

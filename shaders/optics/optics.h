@@ -1,5 +1,5 @@
-// The shared optics for C++, in float (malus::f32) and double (malus::f64). What each function computes,
-// its units and its source stand in the files that all.h lists; signs and frames in CONVENTIONS.md.
+// Shared optics for C++, in float (malus::f32) and double (malus::f64). The files that all.h lists document each
+// function with its units and source; CONVENTIONS.md fixes signs and frames.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,8 @@
-// Schlick's approximation (1994) of the unpolarized reflectance, as games use it: F0 + (1 - F0)(1 - c)^5,
-// F0 from the complex index at normal incidence. Leaving the denser medium the transmitted cosine is
-// taken, and total reflection gives 1.
+// Schlick's approximation of the unpolarized reflectance: F0 + (1 - F0)(1 - c)^5. Source: Schlick, An Inexpensive BRDF
+// Model for Physically-based Rendering, Computer Graphics Forum 13(3), 1994, equation 24.
+//
+// c: cosine of the angle of incidence; n1, n2 - i k2: indices; f0: reflectance at normal incidence. Light that leaves
+// the denser dielectric uses the cosine of the transmitted ray; total reflection gives 1.
 FN real schlickCurve(real c, real n1, real n2, real k2, real f0) {
   real eta = n2 / n1;
   real sinSq = (R(1.0) - c) * (R(1.0) + c);
@@ -12,6 +14,7 @@ FN real schlickCurve(real c, real n1, real n2, real k2, real f0) {
   real f = f0 + (R(1.0) - f0) * m2 * m2 * m;
   return selectR(andM(leaving, lessR(transmittedSq, R(0.0))), R(1.0), f);
 }
+// The same with F0 = |(n2 - i k2 - n1)/(n2 - i k2 + n1)|^2.
 FN real schlickReflectance(real c, real n1, real n2, real k2) {
   real d = n2 - n1;
   real s = n2 + n1;

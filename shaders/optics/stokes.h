@@ -1,5 +1,6 @@
-// Stokes vectors of three colours and the Mueller matrices of turning, reflection and transmission.
-// S0 total, S1 along x against y, S2 at +45 against -45 degrees, S3 right against left circular.
+// Stokes vectors of three colours and the Mueller matrices of rotation, reflection and transmission. Looking toward the
+// source: S0 total, S1 along x minus along y, S2 at +45 minus at -45 degrees, counter-clockwise, S3 right minus left
+// circular. Signs as in Mitsuba 3 (CONVENTIONS.md, Light).
 
 struct Stokes {
   real3 s0;
@@ -26,7 +27,8 @@ FN Stokes stokesAdd(Stokes a, Stokes b) {
   return s;
 }
 
-// The same light in a frame turned by f about the propagation; cos2 = cos 2f, sin2 = sin 2f.
+// The same light in a frame rotated by f about the propagation: (S1, S2) -> [[cos 2f, sin 2f], [-sin 2f, cos 2f]] (S1,
+// S2).
 FN Stokes rotateStokes(Stokes a, real cos2, real sin2) {
   Stokes s;
   s.s0 = a.s0;
@@ -36,8 +38,9 @@ FN Stokes rotateStokes(Stokes a, real cos2, real sin2) {
   return s;
 }
 
-// Reflection: [[A, B], [B, A]] on (S0, S1), [[Re X, -Im X], [Im X, Re X]] on (S2, S3), A and B the mean
-// and half difference of rs and rp. Transmission has the same form with x real. Frames: x = s.
+// Light that an interface reflects: [[A, B], [B, A]] on (S0, S1) and [[Re X, -Im X], [Im X, Re X]] on (S2, S3), with
+// A = (R_s + R_p)/2, B = (R_s - R_p)/2 and X = r_p conj(r_s) of fresnel.h. For a transmission the terms are T_s, T_p
+// and sqrt(T_s T_p). The x of both frames is the s direction of the surface.
 FN Stokes stokesInterface(Stokes a, real3 rs, real3 rp, real3 xRe, real3 xIm) {
   real3 mean = (rs + rp) * R(0.5);
   real3 difference = (rs - rp) * R(0.5);

@@ -1,8 +1,8 @@
-// Where a ray meets a triangle: the normal to shade with, and origins of further rays.
+// Hit point of a ray and a triangle: shading normal and origins of further rays. Lengths are in metres.
 
-// Normal to shade with, against the ray. geometric: unit normal of the face; interpolated: of the
-// vertices, any length but 0, on the same side. Both are turned against d; where the interpolated one
-// then faces away from the ray, or sends the mirror direction below the face, the geometric one is taken.
+// Shading normal, against the ray. geometric: unit normal of the face; interpolated: interpolated normal of the
+// vertices, on the same side, of any length but 0. Both are flipped against d. The geometric normal replaces an
+// interpolated one that then faces away from the ray or reflects it below the face.
 FN real3 shadingNormal(real3 d, real3 geometric, real3 interpolated) {
   real side = R(0.0) - signNotZero(dot3(d, geometric));
   real3 g = geometric * side;
@@ -13,9 +13,9 @@ FN real3 shadingNormal(real3 d, real3 geometric, real3 interpolated) {
   return select3(usable, n, g);
 }
 
-// Bound on the rounding error of a point b0 p0 + b1 p1 + b2 p2 per axis: gamma(7) times the sum of
-// absolute terms, gamma(n) = n u/(1 - n u), u the unit roundoff. Source: Pharr, Jakob and Humphreys,
-// Physically Based Rendering, 4th edition, 6.8.5.
+// Bound per axis on the rounding error of the point b0 p0 + b1 p1 + b2 p2: gamma(7) times the sum of the absolute
+// terms, gamma(n) = n u/(1 - n u), u the unit roundoff. Source: Pharr, Jakob and Humphreys, Physically Based Rendering,
+// 4th edition, 6.8.5.
 FN real3 hitPointError(real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, real unitRoundoff) {
   real gamma7 = R(7.0) * unitRoundoff / (R(1.0) - R(7.0) * unitRoundoff);
   return make3((absR(b0 * p0.x) + absR(b1 * p1.x) + absR(b2 * p2.x)) * gamma7,
@@ -23,31 +23,33 @@ FN real3 hitPointError(real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, 
                (absR(b0 * p0.z) + absR(b1 * p1.z) + absR(b2 * p2.z)) * gamma7);
 }
 
+// Largest absolute component.
 FN real largestPart(real3 v) { return maxR(absR(v.x), maxR(absR(v.y), absR(v.z))); }
 
-// Distance at which an intersector may still find the triangle that a ray leaves: it subtracts the origin
-// from the corners and multiplies the differences, so its error grows with the triangle and not with the
-// point: 8 roundings of the largest difference. Measured on lavapipe, whose floors show their own triangle
-// at 1 and at 2 no more; Embree needs none.
+// Distance within which an intersector may still find the triangle that a ray leaves. It subtracts the origin from the
+// corners and multiplies the differences, so that its error grows with the triangle and not with the point: 8 roundings
+// of the largest difference. Measured: lavapipe finds the triangle again with 1 rounding, and not with 2; Embree needs
+// none.
 FN real intersectionError(real3 p0, real3 p1, real3 p2, real3 p, real unitRoundoff) {
   return R(8.0) * unitRoundoff * maxR(largestPart(p0 - p), maxR(largestPart(p1 - p), largestPart(p2 - p)));
 }
 
-// A point of the triangle close to p and, where there is room, at least `distance` from its edges: a ray from an edge
-// would start on the neighbour's plane, where rounding lets it start behind and leak. First away from the nearest edge,
-// no farther than to where another is as near; then, for corners, toward the centre of the inscribed circle, by 16
-// times the distance at most. Never out of the triangle. across: cross product of p1 - p0 and p2 - p0.
-FN real3 insideTriangle(real3 p, real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, real3 across, real distance) {
+// A point of the triangle close to p and, where there is room, at least `distance` from its edges. A ray from an edge
+// starts on the neighbour's plane, where rounding may put its origin behind the neighbour, and leaks. The point moves
+// away from the nearest edge, at most until another edge is as near; then, for corners, toward the centre of the
+// inscribed circle, by at most 16 times the distance. It never leaves the triangle. normal: cross product of p1 - p0
+// and p2 - p0.
+FN real3 insideTriangle(real3 p, real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, real3 normal, real distance) {
   real3 e0 = p2 - p1;
   real3 e1 = p0 - p2;
   real3 e2 = p1 - p0;
   real l0 = sqrtR(dot3(e0, e0));
   real l1 = sqrtR(dot3(e1, e1));
   real l2 = sqrtR(dot3(e2, e2));
-  real area = sqrtR(dot3(across, across));
+  real area = sqrtR(dot3(normal, normal));
   mask none = lessEqualR(minR(area, minR(l0, minR(l1, l2))), R(1e-37));
-  // Distances from the edges and their unit normals inward; a coordinate below 0 is a rounding.
-  real3 unit = across * (R(1.0) / selectR(none, R(1.0), area));
+  // Compute the distances from the edges and the edges' unit normals inward; a coordinate below 0 is rounding error.
+  real3 unit = normal * (R(1.0) / selectR(none, R(1.0), area));
   real i0 = R(1.0) / selectR(none, R(1.0), l0);
   real i1 = R(1.0) / selectR(none, R(1.0), l1);
   real i2 = R(1.0) / selectR(none, R(1.0), l2);
@@ -57,7 +59,7 @@ FN real3 insideTriangle(real3 p, real3 p0, real3 p1, real3 p2, real b0, real b1,
   real3 n0 = cross3(unit, e0 * i0);
   real3 n1 = cross3(unit, e1 * i1);
   real3 n2 = cross3(unit, e2 * i2);
-  // The nearest, and the two others.
+  // Order them: the nearest edge and the two others.
   mask first = andM(lessEqualR(d0, d1), lessEqualR(d0, d2));
   mask second = lessEqualR(d1, d2);
   real near = selectR(first, d0, selectR(second, d1, d2));
@@ -71,19 +73,18 @@ FN real3 insideTriangle(real3 p, real3 p0, real3 p1, real3 p2, real b0, real b1,
   real room = minR((left - near) / maxR(R(1.0) - cosLeft, R(1e-6)), (right - near) / maxR(R(1.0) - cosRight, R(1e-6)));
   real away = maxR(minR(distance - near, room), R(0.0));
   real3 q = p + nNear * away;
-  // What is left to do is done toward the inscribed circle's centre.
-  real least = minR(near + away, minR(left + away * cosLeft, right + away * cosRight));
+  // Move the rest of the distance toward the centre of the inscribed circle.
+  real clearance = minR(near + away, minR(left + away * cosLeft, right + away * cosRight));
   real sum = selectR(none, R(1.0), l0 + l1 + l2);
-  real3 way = (p0 * l0 + p1 * l1 + p2 * l2) * (R(1.0) / sum) - q;
+  real3 toCentre = (p0 * l0 + p1 * l1 + p2 * l2) * (R(1.0) / sum) - q;
   real radius = area / sum;
-  real share = clampUnit((distance - least) / maxR(radius - least, R(1e-37)));
-  share = minR(share, R(16.0) * distance / maxR(largestPart(way), R(1e-37)));
-  return select3(none, p, q + way * share);
+  real share = clampUnit((distance - clearance) / maxR(radius - clearance, R(1e-37)));
+  share = minR(share, R(16.0) * distance / maxR(largestPart(toCentre), R(1e-37)));
+  return select3(none, p, q + toCentre * share);
 }
 
-// Origin of a ray that leaves p on the side that n points to, off the box of size error about p, and one
-// rounding step further. n is the unit face normal, turned to the side that the ray leaves to. Source: as
-// above, 6.8.6.
+// Origin of a ray that leaves p on the side of n: outside the error box of p, and one rounding step further. n: unit
+// face normal on the side that the ray leaves to; error: half the size of the box, per axis. Source: as above, 6.8.6.
 FN real3 rayOrigin(real3 p, real3 error, real3 n, real unitRoundoff) {
   real distance = dot3(error, make3(absR(n.x), absR(n.y), absR(n.z)));
   real3 o = p + n * distance;

@@ -1,4 +1,4 @@
-// Small vector and number forms built on math.h alone.
+// Functions of vectors and numbers, built on math.h alone.
 
 CONST real kPi = R(3.14159265358979323846);
 
@@ -18,8 +18,8 @@ FN real square(real x) { return x * x; }
 
 FN real clampUnit(real x) { return minR(maxR(x, R(0.0)), R(1.0)); }
 
-// x^n for 0 <= n < 4096 by squaring, the same on every device, where pow() is not. Its error is at most n
-// roundings, which is what the rounding of x itself costs.
+// x^n for 0 <= n < 4096, by squaring: the same on every device, which pow() is not. Its error is at most n roundings,
+// as large as the effect of the rounding of x itself.
 FN real powInteger(real x, word n) {
   real result = R(1.0);
   real power = x;

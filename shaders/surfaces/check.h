@@ -1,4 +1,4 @@
-// The debug check of what surfaces send toward the eye (--check-numerics): finite, not negative, at most fully
+// Check of the light that surfaces send toward the camera (--check-numerics): finite, not negative, at most fully
 // polarized. Where kCheckNumerics is false none of it is called.
 
 // A device's own isnan may be optimized away.
@@ -20,8 +20,8 @@ FN real polarizationExcess(real s0, real s1, real s2, real s3) {
   return m * sqrtR(a * a + b * b + c * c) - s0;
 }
 
-// By how much light that arrives may be beyond full polarization once the next surface has sent it on: what it is
-// already, and 4 eps of its power (optics.md: rounding adds up to 2.7 eps a bounce).
+// Amount by which light may exceed full polarization behind the next surface: its present excess and 4 eps of its
+// power. Rounding adds up to 2.7 eps per interaction (measured).
 FN real3 roundingSlack(Stokes s) {
   real eps = R(8.0) * kUnitRoundoff;
   return make3(maxR(polarizationExcess(s.s0.x, s.s1.x, s.s2.x, s.s3.x), R(0.0)) + eps * absR(s.s0.x),

@@ -1,6 +1,6 @@
-// The check of what a surface of a recursive method sends (check.h).
+// Check of the light that a surface of a recursive method sends (check.h).
 
-// arriving: slack of the light that met the surface.
+// arriving: slack of the light that arrived at the surface.
 FN void checkSent(IN(Hit) h, Payload sent, real3 arriving) {
   Stokes s = payloadStokes(sent, h.d);
   real eps = R(8.0) * kUnitRoundoff;

@@ -1,5 +1,4 @@
-// From a position in the picture to what the camera records: the Stokes vector in the camera's frame of
-// that ray, as radiance.
+// Stokes vector of the radiance that the camera records at an image position, in the camera frame of that ray.
 FN Stokes cameraSample(real px, real py) {
   real3 d = cameraDirection(camera.right, camera.up, camera.forward, camera.tanX, camera.tanY, px, py);
   real cos2;
@@ -9,7 +8,7 @@ FN Stokes cameraSample(real px, real py) {
   return rotateStokes(s, cos2, sin2);
 }
 
-// Mean over the fixed grid of samples of a pixel.
+// Mean over the fixed grid of a pixel's samples.
 FN Stokes cameraPixel(uint x, uint y) {
   Stokes sum = stokesUnpolarized(splat3(R(0.0)));
   for (uint j = 0u; j < camera.samples; ++j)

@@ -136,8 +136,8 @@ struct BackendNames {
   class Name : public ::testing::Test {}; \
   TYPED_TEST_SUITE(Name, Backends, BackendNames)
 
-// The words of a test: B the backend, kEps the type's spacing at 1, R(x) its rounding of x, kUnit the size that
-// errors are given in: eps times what the backend's arithmetic may be worse than IEEE's.
+// Abbreviations of a test: B the backend, kEps the type's spacing at 1, R(x) its rounding of x, kUnit the size that
+// errors are given in: eps times the factor by which the backend's arithmetic may be worse than IEEE's.
 #define MALUS_BACKEND_TYPES                                                    \
   using B = TypeParam;                                                         \
   using real = typename B::real;                                               \

@@ -11,7 +11,7 @@ MALUS_HARD_CASES(Brewster);
 
 constexpr Real kPi = 3.14159265358979323846L;
 
-TYPED_TEST(Brewster, AroundTheAngle) {
+TYPED_TEST(Brewster, NearBrewsterAngle) {
   MALUS_BACKEND_TYPES;
   std::vector<typename B::SurfaceIn> in;
   for (const double n : {1.1, 1.33, 1.5, 2.42, 4.0, 1 / 1.5})
@@ -28,7 +28,7 @@ TYPED_TEST(Brewster, AroundTheAngle) {
   }
 }
 
-// Two glass mirrors at Brewster's angle, the second turned by `twist` about the ray between them, then `more`.
+// Two glass mirrors at Brewster's angle, the second rotated by `twist` about the ray between them, then `more`.
 Path crossed(Draw& draw, Real twist, const std::vector<Bounce>& more = {}) {
   Path path;
   path.d.push_back(draw.direction());
@@ -36,14 +36,14 @@ Path crossed(Draw& draw, Real twist, const std::vector<Bounce>& more = {}) {
   const Vec across = oracle::anyAcross(path.d[0]);
   extend(path, glassMirror(), oracle::along(path.d[0], -c, across, s));
   const Vec d = path.d[1], inPlane = oracle::cross(oracle::cross(path.d[0], across), d);
-  const Vec turned =
+  const Vec rotated =
       oracle::along(oracle::unit(inPlane), std::cos(twist), oracle::cross(d, oracle::unit(inPlane)), std::sin(twist));
-  extend(path, glassMirror(), oracle::along(d, -c, turned, s));
+  extend(path, glassMirror(), oracle::along(d, -c, rotated, s));
   for (const Bounce& b : more) extend(path, b, normalAt(draw, path.d.back(), 0.6L));
   return path;
 }
 
-TYPED_TEST(Brewster, TwoMirrorsFollowMalus) {
+TYPED_TEST(Brewster, MalussLaw) {
   MALUS_BACKEND_TYPES;
   Draw draw(102);
   std::vector<typename B::ChainIn> chains;
@@ -54,10 +54,10 @@ TYPED_TEST(Brewster, TwoMirrorsFollowMalus) {
     const auto out = B::chains(method, chains);
     for (std::size_t i = 0; i < chains.size(); ++i) {
       const Real cosine = std::cos(static_cast<Real>(i / 20) * 5 * kPi / 180), got = out[i].s0;
-      // Malus's law; a mirror's rounded normal turns its plane by an eps. Packing moves S1/S0 by 1/32767.
+      // Malus's law; the rounding of a mirror's normal rotates its plane by eps. Packing changes S1/S0 by 1/32767.
       if (carriesStokes(method) || method == "sp-malus") {
         EXPECT_CLOSE(got / parallel, cosine * cosine, 24 * kUnit + (method == "stokes-half" ? 2e-3 : 0)) << method;
-        // Extinct, to 1e-6 of the parallel case; in 16 bits to what S1 close to S0 leaves.
+        // Extinct, to 1e-6 of the parallel case; in 16 bits to the rounding of S1 close to S0.
         if (i >= 18 * 20) {
           EXPECT_LT(std::abs(got), (method == "stokes-half" ? 6e-5L : 1e-6L) * parallel) << method;
         }
@@ -72,20 +72,20 @@ TYPED_TEST(Brewster, TwoMirrorsFollowMalus) {
   }
 }
 
-TYPED_TEST(Brewster, FurtherBouncesAfterExtinction) {
+TYPED_TEST(Brewster, BouncesAfterExtinction) {
   MALUS_BACKEND_TYPES;
   Draw draw(103);
-  // What is left is rounding, of any sign and polarization: it must stay that small and never become NaN.
+  // The rest is rounding error of any sign and polarization: it must stay that small and never become NaN.
   const std::vector<std::vector<Bounce>> more = {
       {glassMirror()},
       {metalMirror(kMetals[0]), metalMirror(kMetals[3])},
       {metalMirror(kMetals[0]), glassMirror(), metalMirror(kMetals[1]), glassMirror(), metalMirror(kMetals[2])}};
   std::vector<typename B::ChainIn> chains;
   for (int i = 0; i < 200; ++i) {
-    // The dark pair is the last that the light meets (at the eye) or the first (at the source).
+    // The extinguishing pair is the last one that the light meets (at the camera) or the first (at the source).
     Path path = crossed(draw, kPi / 2, more[static_cast<std::size_t>(i % 3)]);
     chains.push_back(chainOf<B>(path, i % 2 == 0 ? 1 : 1e6));
-    // The same interfaces the other way round.
+    // The same interfaces in reverse order.
     Path back;
     back.d.push_back(oracle::along(path.d.back(), -1, path.d.back(), 0));
     for (std::size_t j = path.bounces.size(); j-- > 0;) extend(back, path.bounces[j], path.bounces[j].n);

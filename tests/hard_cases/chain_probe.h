@@ -12,7 +12,7 @@ FN real excessOf(Stokes s) {
 
 FN ChainOut chainProbe(GIVEN_PARAMETER(ChainIn)) {
   int count = int(GIVEN.count);
-  // Step 1: the eye's rays, forth.
+  // Trace the rays from the camera.
   real3 d[65];
   real c[64];
   d[0] = GIVEN.d;
@@ -25,7 +25,7 @@ FN ChainOut chainProbe(GIVEN_PARAMETER(ChainIn)) {
     else
       d[i + 1] = mirrorDirection(d[i], n, c[i]);
   }
-  // Step 2: the light, back.
+  // Follow the light back to the camera.
   ChainOut r;
   r.gained = R(0.0);
   r.grown = R(0.0);

@@ -1,4 +1,4 @@
-// --check-numerics finds what is put in on purpose: the first value that no light can have, and where it arose.
+// --check-numerics finds injected faults: the first unphysical value and the surface that it comes from.
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "shaders/optics/optics.h"
 #include "tests/render/test_scene.h"
 
-// The check as the renderers have it, on Stokes vectors as they are.
+// The renderers' check, with Stokes vectors as payload.
 #include "shaders/optics/language_begin.h"
 #undef FN
 #define FN  // members
@@ -49,7 +49,7 @@ pack::Scene lampOverGold(double radiance) {
   test::addMaterial(scene, gold);
   test::addMaterial(scene, lamp);
   test::addSquare(scene, 0, {0, -1, 0}, {0, 1, 0}, 4);
-  // Seen in the floor only: it hangs above what the camera sees.
+  // Visible in the floor only: it is above the camera's field of view.
   test::addSquare(scene, 1, {0, 3, -6}, {0, -1, 0}, 1.5);
   test::look(scene, {0, 0.5, 4}, {0, -0.7, 0});
   return scene;
@@ -69,7 +69,7 @@ std::vector<Found> everyRenderer(const pack::Scene& scene, const std::string& me
   return list;
 }
 
-TEST(CheckNumerics, NamesTheSourceOfANan) {
+TEST(CheckNumerics, ReportsTheSourceOfANan) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const pack::Scene scene = lampOverGold(bad);
     std::uint32_t x = 0, y = 0;
@@ -109,7 +109,7 @@ TEST(CheckNumerics, FindsNegativeLight) {
   }
 }
 
-TEST(CheckNumerics, NamesTheSurfaceThatMakesIt) {
+TEST(CheckNumerics, ReportsTheSurface) {
   pack::Scene scene = lampOverGold(1);
   scene.materials[0].k = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
   for (const Found& found : everyRenderer(scene, "stokes")) {
@@ -120,8 +120,8 @@ TEST(CheckNumerics, NamesTheSurfaceThatMakesIt) {
   }
 }
 
-TEST(CheckNumerics, RoundingIsNoFault) {
-  // The check itself, on light that a surface would send. slack: what the light that met it explains.
+TEST(CheckNumerics, AcceptsRounding) {
+  // The check on its own. slack: the excess that the light arriving at the surface explains.
   const auto kindOf = [](float s0, float s1, float s2, float s3, float slack) {
     f32::Checker checker;
     f32::Stokes s = f32::stokesUnpolarized(glm::vec3(s0));
@@ -139,7 +139,7 @@ TEST(CheckNumerics, RoundingIsNoFault) {
   EXPECT_EQ(kindOf(1, 0, 0.8f, -0.8f, 0), gpu::kOverPolarized);
   EXPECT_EQ(kindOf(1e30f, 2e30f, 0, 0, 0), gpu::kOverPolarized) << "no square overflows";
   EXPECT_EQ(kindOf(1e30f, 0, 0, 1e30f, 0), gpu::kNoFault);
-  // Nearly extinct light is what is left of brighter light, and so is its rounding.
+  // Nearly extinct light has the rounding error of the brighter light that it comes from.
   EXPECT_EQ(kindOf(1e-9f, -2e-9f, 0, 0, 4 * eps * 0.1f), gpu::kNoFault);
   EXPECT_EQ(kindOf(-1e-9f, 0, 0, 0, 4 * eps * 0.1f), gpu::kNoFault);
   EXPECT_EQ(kindOf(-1e-6f, 0, 0, 0, 4 * eps * 0.1f), gpu::kNegative);
@@ -147,12 +147,12 @@ TEST(CheckNumerics, RoundingIsNoFault) {
   EXPECT_EQ(kindOf(std::numeric_limits<float>::quiet_NaN(), 0, 0, 0, 0), gpu::kNotFinite);
 }
 
-TEST(CheckNumerics, NamesTheEnvironment) {
+TEST(CheckNumerics, ReportsTheEnvironment) {
   pack::Scene scene = lampOverGold(1);
   scene.environment.radiance.z = std::numeric_limits<double>::infinity();
   for (const Found& found : everyRenderer(scene, "stokes-half")) {
     SCOPED_TRACE(found.renderer);
-    // 16 bits saturate an infinity: those renderers have nothing to find.
+    // 16 bits saturate an infinity: there is no fault to find.
     if (found.renderer != "reference") {
       EXPECT_EQ(found.faults.count, 0u);
       continue;
@@ -163,7 +163,7 @@ TEST(CheckNumerics, NamesTheEnvironment) {
   }
 }
 
-TEST(CheckNumerics, FindsNothingInASoundScene) {
+TEST(CheckNumerics, ValidSceneHasNoFaults) {
   for (const std::string& method : render::methodNames())
     for (const Found& found : everyRenderer(lampOverGold(1), method)) {
       EXPECT_EQ(found.faults.count, 0u) << found.renderer << ' ' << method;
@@ -171,7 +171,7 @@ TEST(CheckNumerics, FindsNothingInASoundScene) {
     }
 }
 
-TEST(CheckNumerics, LeavesThePictureAlone) {
+TEST(CheckNumerics, DoesNotChangeTheImage) {
   const pack::Scene scene = lampOverGold(1);
   render::RenderParameters parameters = render::defaultParameters(scene);
   embree::Renderer embree(scene, 0);

@@ -11,7 +11,7 @@ MALUS_HARD_CASES(CriticalAngle);
 
 constexpr Real kPi = 3.14159265358979323846L;
 
-TYPED_TEST(CriticalAngle, ExactlyAndAMillionthAround) {
+TYPED_TEST(CriticalAngle, NearCriticalAngle) {
   MALUS_BACKEND_TYPES;
   std::vector<typename B::SurfaceIn> in;
   for (const auto& [n1, n2] : {std::pair(1.5, 1.0), {1.25, 0.75}, {1.33, 1.0}, {2.42, 1.0}, {1.5, 1.33}, {1.0, 0.5}}) {
@@ -23,7 +23,7 @@ TYPED_TEST(CriticalAngle, ExactlyAndAMillionthAround) {
     for (int i = 0; i < 4; ++i) c = std::nextafter(c, real(0));
     for (int i = 0; i < 9; ++i, c = std::nextafter(c, real(1))) in.push_back({c, R(n1), R(n2), 0, B::splat3(0)});
   }
-  // The oracle has the rounded inputs; what three roundings of them change is allowed besides.
+  // The oracle takes the rounded inputs; the effect of three roundings of them is allowed in addition.
   expectSurfaces<B>(in, 16);
   const auto out = B::surfaces(in);
   for (const auto& o : out) {
@@ -77,7 +77,7 @@ TYPED_TEST(CriticalAngle, FresnelRhombMakesCircularLight) {
     const Vec across = oracle::anyAcross(path.d[0]);
     extend(path, glassWindow(1, 1.5), path.d[0]);
     for (int bounce = 0; bounce < 2; ++bounce) {
-      // Both in one plane, which holds `across`.
+      // Both in one plane, which contains `across`.
       const Vec d = path.d.back(), side = oracle::cross(oracle::cross(path.d[0], across), d);
       extend(path, glassMirror(1.5, 1), oracle::along(d, -cosine, oracle::unit(side), bounce == 0 ? sine : -sine));
     }
@@ -99,7 +99,7 @@ TYPED_TEST(CriticalAngle, FresnelRhombMakesCircularLight) {
                 60 * kUnit + (method == "stokes-half" ? 1e-3 : 0));
     }
   }
-  // Without S3 each reflection keeps cos 45 degrees of S2, and half of the polarization is left where none should be.
+  // Without S3 each reflection keeps cos 45 degrees of S2, so that half of the polarization remains instead of none.
   for (const auto& o : B::chains("stokes-linear", chains))
     EXPECT_CLOSE(std::hypot(Real(o.s1), Real(o.s2)) / o.s0, 0.5, 60 * kUnit);
 }

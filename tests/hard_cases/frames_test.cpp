@@ -48,11 +48,11 @@ TYPED_TEST(Frames, EveryPairOfDirections) {
   Worst frame("frame", kUnit), s("s", kUnit), turn("turn", kUnit);
   for (std::size_t i = 0; i < in.size(); ++i) {
     const Vec z = oracle::along(toVec(in[i].d), -1, toVec(in[i].d), 0), x = toVec(out[i].x), y = toVec(out[i].y);
-    // Orthonormal and right-handed: x cross y is where the light goes.
+    // Orthonormal and right-handed: x cross y is the direction of propagation.
     for (const auto& [a, b] : {std::pair(x, y), {x, z}, {y, z}}) frame.add(oracle::dot(a, b));
     const Vec across = oracle::cross(x, y);
     for (std::size_t k = 0; k < 3; ++k) frame.add(across[k] - z[k]);
-    // s is a unit vector across the ray and the normal.
+    // s is a unit vector perpendicular to the ray and the normal.
     s.add(oracle::dot(toVec(out[i].s), toVec(out[i].s)) - 1);
     s.add(oracle::dot(toVec(out[i].s), z));
     s.add(oracle::dot(toVec(out[i].s), toVec(in[i].n)));
@@ -66,9 +66,9 @@ TYPED_TEST(Frames, EveryPairOfDirections) {
   EXPECT_LT(turn.value(), 6);
 }
 
-TYPED_TEST(Frames, BothEndsOfARayFindTheSameFrame) {
+TYPED_TEST(Frames, BothEndsOfARayAgree) {
   MALUS_BACKEND_TYPES;
-  // What may happen to a direction between the two ends: a zero changes its sign, a denormal is flushed.
+  // A direction may differ between the two ends: a zero changes its sign, a denormal is flushed.
   std::vector<typename B::FrameIn> in;
   const real tiny = std::numeric_limits<real>::min(), smallest = std::numeric_limits<real>::denorm_min();
   constexpr std::size_t kWays = 8;
@@ -86,9 +86,9 @@ TYPED_TEST(Frames, BothEndsOfARayFindTheSameFrame) {
       }
 }
 
-TYPED_TEST(Frames, LightAcrossTheJumpIsTheSame) {
+TYPED_TEST(Frames, CanonicalFrameJumpDoesNotShow) {
   MALUS_BACKEND_TYPES;
-  // A ray whose z goes through 0: its frame jumps, what the eye sees does not.
+  // A ray whose z goes through 0: its frame jumps, the light at the camera does not.
   std::vector<typename B::ChainIn> chains;
   for (const Real z : {0.0L, -0.0L, 1e-38L, -1e-38L, 1e-20L, -1e-20L, 1e-8L, -1e-8L}) {
     Path path;
@@ -108,34 +108,35 @@ TYPED_TEST(Frames, LightAcrossTheJumpIsTheSame) {
   }
 }
 
-TYPED_TEST(Frames, LoopsOfMirrorsAreTheProductOfTheirHalfTurns) {
+TYPED_TEST(Frames, LoopsOfMirrorsAreProductsOfHalfTurns) {
   MALUS_BACKEND_TYPES;
   // Perfect mirrors map a field by 2 n n^T - 1, n along d_out - d_in: back in its direction the light is not back
-  // in its polarization (z -> x -> y -> z turns it by 90 degrees).
+  // in its polarization (z -> x -> y -> z rotates it by 90 degrees).
   Draw draw(108);
   std::vector<typename B::IterativeIn> in;
   for (int i = 0; i < 300; ++i) {
     typename B::IterativeIn loop{};
-    std::vector<Vec> way;
+    std::vector<Vec> directions;
     if (i < 60) {
-      way = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+      directions = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     } else {
-      // Random ways of 3 to 64 mirrors that end where they began.
+      // Random closed paths of 3 to 64 mirrors.
       const std::size_t count = 3 + draw.below(62);
-      way.push_back(draw.direction());
-      while (way.size() < count) {
+      directions.push_back(draw.direction());
+      while (directions.size() < count) {
         const Vec next = draw.direction();
-        if (oracle::dot(next, way.back()) < 0.9L && (way.size() + 1 < count || oracle::dot(next, way[0]) < 0.9L))
-          way.push_back(next);
+        if (oracle::dot(next, directions.back()) < 0.9L &&
+            (directions.size() + 1 < count || oracle::dot(next, directions[0]) < 0.9L))
+          directions.push_back(next);
       }
-      way.push_back(way[0]);
+      directions.push_back(directions[0]);
     }
-    loop.d = toReal3<B>(way[0]);
+    loop.d = toReal3<B>(directions[0]);
     const Vec p = draw.direction();
     loop.light = toReal3<B>(p);
-    loop.count = static_cast<real>(way.size() - 1);
-    for (std::size_t k = 0; k + 1 < way.size(); ++k)
-      loop.n[k] = toReal3<B>(oracle::unit(oracle::along(way[k + 1], 1, way[k], -1)));
+    loop.count = static_cast<real>(directions.size() - 1);
+    for (std::size_t k = 0; k + 1 < directions.size(); ++k)
+      loop.n[k] = toReal3<B>(oracle::unit(oracle::along(directions[k + 1], 1, directions[k], -1)));
     in.push_back(loop);
   }
   const auto out = B::loops(in);

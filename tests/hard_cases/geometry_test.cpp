@@ -1,6 +1,6 @@
 // The scenes of scenes/hard: the renderers render them without a value that no light can have (every method on Embree,
 // `stokes` and `importance` on Vulkan), they agree, and the centre pixel has its closed form where there is one. Each
-// scene's README says which failure it provokes and where the numbers are from.
+// scene's README describes the failure that it provokes and the source of the numbers.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using Colours = std::array<double, 3>;
 using render::RenderResult;
 
-// What a scene is held to beside being sound. Pixels count as off where a component of a Stokes vector differs by more
+// Bounds of a scene. Pixels count as outliers where a component of a Stokes vector differs by more
 // than `threshold`; edges and magnified roundings explain `outliers` of them.
 struct Expected {
   double threshold = 1e-4;
@@ -83,17 +83,17 @@ void expectSound(const RenderResult& picture, const pack::Scene& scene, const st
   for (const float v : picture.pixels) ASSERT_TRUE(std::isfinite(v)) << what;
 }
 
-// Reference and both renderers' stokes pictures, each rendered and checked once.
-struct Pictures {
+// Images of the reference and of both renderers with `stokes`, each rendered and checked once.
+struct Images {
   RenderResult reference, embree, vulkan;
 };
-const Pictures& picturesOf(const std::string& name) {
-  static std::map<std::string, Pictures> all;
+const Images& imagesOf(const std::string& name) {
+  static std::map<std::string, Images> all;
   const auto at = all.find(name);
   if (at != all.end()) return at->second;
   const pack::Scene& scene = packOf(name).scene;
   const render::RenderParameters parameters = checkedView(scene);
-  Pictures p;
+  Images p;
   p.reference = reference::render(scene, parameters, 0);
   expectSound(p.reference, scene, name + ", reference");
   p.embree = embree::Renderer(scene, 0).render("stokes", parameters);
@@ -132,7 +132,7 @@ std::size_t pixelsOff(const RenderResult& a, const RenderResult& b, double thres
 class HardScenes : public testing::TestWithParam<std::string> {};
 
 TEST_P(HardScenes, RenderersAgreeWithTheReference) {
-  const Pictures& p = picturesOf(GetParam());
+  const Images& p = imagesOf(GetParam());
   const Expected& expected = scenes().at(GetParam());
   const auto expectClose = [&](const RenderResult& a, const char* what) {
     ASSERT_EQ(a.pixels.size(), p.reference.pixels.size()) << what;
@@ -184,7 +184,7 @@ TEST_P(HardScenes, AutoEqualsAll) {
   }
 }
 
-// Every method draws the same picture by the smallest build that will do and by the one that has everything.
+// Every method renders the same image with the smallest sufficient build and with the build of all effects.
 TEST_P(HardScenes, EveryMethodIsTheSameInEveryBuild) {
   const pack::Scene& scene = packOf(GetParam()).scene;
   embree::Renderer renderer(scene, 0);
@@ -236,7 +236,7 @@ TEST_P(HardScenes, ImportanceGivesTheStokesVectorsOfTheReference) {
   parameters.stokes = true;
   const RenderResult picture = embree::Renderer(scene, 0).render("importance", parameters);
   expectSound(picture, scene, GetParam() + ", importance");
-  const RenderResult& truth = picturesOf(GetParam()).reference;
+  const RenderResult& truth = imagesOf(GetParam()).reference;
   ASSERT_EQ(picture.pixels.size(), truth.pixels.size());
   double largest = 0;
   EXPECT_LE(pixelsOff(picture, truth, expected.threshold, largest), expected.outliers) << largest;
@@ -341,7 +341,7 @@ TEST(HardScene, AutoIsExactWherePolarizationCannotShow) {
 
 // Closed forms at the centre pixel, six digits as the READMEs have them.
 void expectCentre(const std::string& name, const std::vector<Colours>& stokes, double tolerance = 2e-6) {
-  const Pictures& p = picturesOf(name);
+  const Images& p = imagesOf(name);
   const Expected& expected = scenes().at(name);
   for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan}) {
     if (picture == &p.vulkan && !expected.vulkanCanDoIt) continue;
@@ -354,8 +354,8 @@ void expectCentre(const std::string& name, const std::vector<Colours>& stokes, d
 }
 Colours grey(double v) { return {v, v, v}; }
 
-TEST(HardScene, CrossedBrewsterMirrorsAreDark) {
-  const Pictures& p = picturesOf("brewster-pair");
+TEST(HardScene, CrossedBrewsterMirrorsExtinguish) {
+  const Images& p = imagesOf("brewster-pair");
   for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan}) {
     const double parallel = stokesAt(*picture, 8, 33)[0][1];
     EXPECT_NEAR(parallel, 0.010941, 5e-6);
@@ -385,7 +385,7 @@ TEST(HardScene, ChainsOfMirrors) {
   // In float 64 directions drift apart by 1e-5.
   expectCentre("facing-mirrors", {{.466385, .272120, .156730}, {.052601, .044035, .032180}}, 2e-5);
   const pack::Scene& scene = packOf("facing-mirrors").scene;
-  const auto centre = centreOf(picturesOf("facing-mirrors").reference);
+  const auto centre = centreOf(imagesOf("facing-mirrors").reference);
   EXPECT_NEAR(centre[0][0], .466385, 2e-6);
   vulkan::Renderer renderer(scene, {});
   if (renderer.maxDepth("stokes") < scene.depth) {
@@ -397,7 +397,7 @@ TEST(HardScene, ChainsOfMirrors) {
                 std::string::npos);
       EXPECT_NE(std::string(error.what()).find("found 64"), std::string::npos) << error.what();
     }
-    // To its limit it goes, and agrees.
+    // Up to its limit it renders, and agrees.
     render::RenderParameters parameters = checkedView(scene);
     parameters.depth = renderer.maxDepth("stokes");
     const RenderResult a = renderer.render("stokes", parameters), b = reference::render(scene, parameters, 0);
@@ -416,9 +416,9 @@ TEST(HardScene, GlassAndMedia) {
   expectCentre("camera-on-surface", {grey(2.163462)});
 }
 
-TEST(HardScene, NoRayLeaksThroughAnEdgeMetFromInside) {
-  // The middle column, whose rays meet the edge itself, reads the panel or nothing, never the sky.
-  const Pictures& p = picturesOf("into-the-edge");
+TEST(HardScene, NoLeaksThroughEdgesFromInside) {
+  // The middle column, whose rays hit the edge, shows the panel or black, never the sky.
+  const Images& p = imagesOf("into-the-edge");
   for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan})
     for (std::size_t y = 0; y < picture->height; ++y) {
       const auto s = stokesAt(*picture, picture->width / 2, y), beside = stokesAt(*picture, picture->width / 2 + 2, y);
@@ -426,11 +426,11 @@ TEST(HardScene, NoRayLeaksThroughAnEdgeMetFromInside) {
     }
 }
 
-TEST(HardScene, SizeAndPlaceDoNotShow) {
+TEST(HardScene, ScaleAndPositionDoNotMatter) {
   // One description at 1, moved by 1e5 metres, and 1e-5 metres large: the grid rounds anew, edges may move a pixel.
-  const Pictures& room = picturesOf("room");
+  const Images& room = imagesOf("room");
   for (const std::string name : {"far-away", "tiny"}) {
-    const Pictures& other = picturesOf(name);
+    const Images& other = imagesOf(name);
     double largest = 0;
     EXPECT_LE(pixelsOff(room.reference, other.reference, 1e-3, largest), 4u) << name << ' ' << largest;
     EXPECT_LE(pixelsOff(room.embree, other.embree, 1e-3, largest), 4u) << name << ' ' << largest;
@@ -438,8 +438,8 @@ TEST(HardScene, SizeAndPlaceDoNotShow) {
   }
 }
 
-TEST(HardScene, SliversDoNotShow) {
-  const Pictures& p = picturesOf("slivers");
+TEST(HardScene, SliversDoNotMatter) {
+  const Images& p = imagesOf("slivers");
   for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan}) {
     const std::size_t y = picture->height / 2;
     for (std::size_t x = 8; x + 8 < picture->width; ++x) {
@@ -452,7 +452,7 @@ TEST(HardScene, SliversDoNotShow) {
 }
 
 TEST(HardScene, CoincidentFacesStayWithinBounds) {
-  const Pictures& p = picturesOf("touching-bodies");
+  const Images& p = imagesOf("touching-bodies");
   for (const RenderResult* picture : {&p.reference, &p.embree, &p.vulkan})
     for (std::size_t y = 0; y < picture->height; ++y)
       for (std::size_t x = 0; x < picture->width; ++x) {

@@ -26,7 +26,7 @@ TYPED_TEST(Grazing, CosineZeroDenormalAndNegative) {
   const auto out = B::surfaces(in);
   for (std::size_t i = 0; i < in.size(); ++i)
     if (in[i].c <= 0) {
-      // A hit cuts the cosine to 0, where R = 1, T = 0 and r_p = r_s = -1.
+      // A hit clamps the cosine to 0, where R = 1, T = 0 and r_p = r_s = -1.
       EXPECT_CLOSE(out[i].dielectric.rs, 1, 3 * kUnit);
       EXPECT_CLOSE(out[i].dielectric.rp, 1, 3 * kUnit);
       EXPECT_CLOSE(out[i].dielectric.xRe, 1, 3 * kUnit);
@@ -35,7 +35,7 @@ TYPED_TEST(Grazing, CosineZeroDenormalAndNegative) {
     }
 }
 
-TYPED_TEST(Grazing, DirectionsKeepTheirLength) {
+TYPED_TEST(Grazing, DirectionsStayNormalized) {
   MALUS_BACKEND_TYPES;
   Draw draw(104);
   std::vector<typename B::FrameIn> in;

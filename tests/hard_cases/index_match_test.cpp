@@ -1,4 +1,4 @@
-// Indices that nearly match, where differences cancel; and those far from 1, where squares swallow each other.
+// Indices that nearly match, where differences cancel, and indices far from 1, where one square absorbs the other.
 #include "tests/hard_cases/oracle_checks.h"
 
 namespace malus::test {
@@ -35,7 +35,7 @@ oracle::Powers closedForm(Real c, Real n1, oracle::Complex complex) {
   return p;
 }
 
-TYPED_TEST(IndexMatch, EqualIndicesAreNoInterface) {
+TYPED_TEST(IndexMatch, IndexMatchReflectsNothing) {
   MALUS_BACKEND_TYPES;
   std::vector<typename B::SurfaceIn> in;
   for (const real c : cosines<real>())
@@ -50,7 +50,7 @@ TYPED_TEST(IndexMatch, EqualIndicesAreNoInterface) {
   }
 }
 
-TYPED_TEST(IndexMatch, NearlyEqualKeepTheirRelativeError) {
+TYPED_TEST(IndexMatch, NearMatchKeepsRelativeAccuracy) {
   MALUS_BACKEND_TYPES;
   std::vector<typename B::SurfaceIn> in;
   for (const real c : cosines<real>()) {
@@ -70,7 +70,7 @@ TYPED_TEST(IndexMatch, NearlyEqualKeepTheirRelativeError) {
   expectSurfaces<B>(in, 8, closedForm);
 }
 
-TYPED_TEST(IndexMatch, FarFromOne) {
+TYPED_TEST(IndexMatch, ExtremeIndexRatios) {
   MALUS_BACKEND_TYPES;
   std::vector<typename B::SurfaceIn> in;
   for (const real c : cosines<real>())
@@ -81,7 +81,7 @@ TYPED_TEST(IndexMatch, FarFromOne) {
   expectSurfaces<B>(in, 16);
 }
 
-TYPED_TEST(IndexMatch, WithoutAbsorptionAMetalIsAGlassMirror) {
+TYPED_TEST(IndexMatch, MetalWithoutAbsorptionIsADielectric) {
   MALUS_BACKEND_TYPES;
   std::vector<typename B::SurfaceIn> in;
   for (const real c : cosines<real>())

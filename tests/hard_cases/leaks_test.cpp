@@ -11,7 +11,7 @@
 namespace malus {
 namespace {
 
-constexpr int kCells = 64;  // grid squares along a side of the front; the picture has as many pixels
+constexpr int kCells = 64;  // grid squares along a side of the front; the image has as many pixels
 
 enum class Aim { faces, edges, corners };
 struct Shift {
@@ -75,7 +75,7 @@ pack::Scene sceneOf(Aim aim, bool inside, const pack::Material& material, std::u
   scene.camera.verticalFovDegrees = 90;
   test::look(scene, {0, 0, 0}, {0, 0, -1});
   if (!inside) {
-    // From before the front, at the same distance and turned about: the grid is met at the same places, mirrored.
+    // From in front of the front, at the same distance and facing it: the grid is hit at the same points, mirrored.
     test::look(scene, {0, 0, -2}, {0, 0, -1});
   }
   return scene;
@@ -107,7 +107,8 @@ void expectAtMost(const Counts& c, double share, const char* what) {
       what, std::to_string(c.embree) + " " + std::to_string(c.reference) + " " + std::to_string(c.vulkan));
 }
 
-// What aiming at corners may cost both intersectors, in ROBUST mode too: .7 % were measured on large meshes.
+// Fraction of rays aimed at corners that both intersectors may lose, even in ROBUST mode: .7 % measured on large
+// meshes.
 constexpr double kCorners = 0.01;
 
 TEST(Leaks, FromInside) {
@@ -125,25 +126,25 @@ TEST(Leaks, FromOutside) {
   expectAtMost(off(sceneOf(Aim::corners, false, lamp, 2), 0.5), kCorners, "outsideCorners");
 }
 
-TEST(Leaks, MirrorsAreNotMetAgainByWhatTheyReflect) {
-  // A perfect mirror from outside: every ray goes to the sky after one reflection. A ray that met its own surface again
-  // would need a second one, which depth 1 does not have.
+TEST(Leaks, MirrorsDoNotHitThemselves) {
+  // A perfect mirror from outside: every ray leaves to the sky after one reflection. A ray that met its own surface
+  // again would need a second one, which depth 1 does not have.
   pack::Material mirror = test::metal(glm::dvec3(1e-3), glm::dvec3(1e3));
   expectAtMost(off(sceneOf(Aim::faces, false, mirror, 1), 1), 0, "selfHitsFaces");
   expectAtMost(off(sceneOf(Aim::edges, false, mirror, 1), 1), 0, "selfHitsEdges");
   expectAtMost(off(sceneOf(Aim::corners, false, mirror, 1), 1), kCorners, "selfHitsCorners");
 }
 
-TEST(Leaks, LightStaysInAMirrorBox) {
-  // From inside the same mirror: after any number of reflections it is dark, because nothing gets in.
+TEST(Leaks, MirrorBoxConservesLight) {
+  // From inside the same mirror: after any number of reflections it is black, because no light enters.
   pack::Material mirror = test::metal(glm::dvec3(1e-3), glm::dvec3(1e3));
   expectAtMost(off(sceneOf(Aim::faces, true, mirror, 6), 0), 0, "mirrorBoxFaces");
   expectAtMost(off(sceneOf(Aim::edges, true, mirror, 6), 0), 0.002, "mirrorBoxEdges");
   expectAtMost(off(sceneOf(Aim::corners, true, mirror, 6), 0), kCorners, "mirrorBoxCorners");
 }
 
-TEST(Leaks, GlassIsMetOnce) {
-  // A body whose index is that of its surroundings is not there: the sky is seen through it, once each way.
+TEST(Leaks, GlassFacesAreHitOnce) {
+  // A body whose index matches the outer medium is invisible: the sky is seen through it, through each face once.
   pack::Material nothing = test::dielectric(pack::MaterialKind::glass, 1.0);
   expectAtMost(off(sceneOf(Aim::faces, false, nothing, 2), 1), 0, "glassFaces");
   expectAtMost(off(sceneOf(Aim::edges, false, nothing, 2), 1), 0.002, "glassEdges");

@@ -9,7 +9,7 @@ using oracle::Vec;
 
 MALUS_HARD_CASES(LongChains);
 
-// 64 mirrors, each at `cosine`, the plane of incidence turned by `twist` at every mirror.
+// 64 mirrors, each at `cosine`, the plane of incidence rotated by `twist` at every mirror.
 Path mirrors(Draw& draw, const std::vector<Bounce>& kinds, std::size_t count, Real cosine, Real twist) {
   Path path;
   path.d.push_back(draw.direction());
@@ -17,12 +17,12 @@ Path mirrors(Draw& draw, const std::vector<Bounce>& kinds, std::size_t count, Re
   const Real sine = std::sqrt(1 - cosine * cosine);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec d = path.d.back(), p = oracle::cross(d, s);
-    const Vec turned = oracle::unit(oracle::along(s, std::cos(twist), p, std::sin(twist)));
-    // Unit anew, or mirroring would double what is off at every step.
-    extend(path, kinds[i % kinds.size()], oracle::unit(oracle::along(d, -cosine, oracle::cross(d, turned), sine)));
-    // The same s serves both rays of a mirror; keep it across the next.
+    const Vec rotated = oracle::unit(oracle::along(s, std::cos(twist), p, std::sin(twist)));
+    // Normalize, or every reflection would double the error of the length.
+    extend(path, kinds[i % kinds.size()], oracle::unit(oracle::along(d, -cosine, oracle::cross(d, rotated), sine)));
+    // Both rays of a mirror have the same s; keep it perpendicular to the next ray.
     const Vec next = path.d.back();
-    s = oracle::unit(oracle::along(turned, 1, next, -oracle::dot(turned, next)));
+    s = oracle::unit(oracle::along(rotated, 1, next, -oracle::dot(rotated, next)));
   }
   return path;
 }
@@ -38,7 +38,7 @@ TYPED_TEST(LongChains, SixtyFourMirrors) {
                                                                 {metalMirror(kMetals[0]), metalMirror(kMetals[3])},
                                                                 {glassMirror(1.5, 1)},
                                                                 {glassMirror(), metalMirror(kMetals[1])}}) {
-        // Inside glass past the critical angle, where nothing is lost; at the others it is a chain like any.
+        // Inside glass past the critical angle, where no light is lost; at the other cosines it is an ordinary chain.
         chains.push_back(chainOf<B>(mirrors(draw, kinds, 64, cosine, twist)));
       }
   for (const std::string& method : everyMethod()) {

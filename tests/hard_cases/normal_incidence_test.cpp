@@ -27,7 +27,7 @@ TYPED_TEST(NormalIncidence, Powers) {
   // Some twenty roundings lie between the inputs and R of a metal.
   expectSurfaces<B>(in, 12);
   const auto out = B::surfaces(in);
-  // At exactly normal incidence nothing tells s from p.
+  // At exactly normal incidence s and p cannot be distinguished.
   for (std::size_t i = 0; i < 7; ++i) {
     EXPECT_CLOSE(out[i].dielectric.rs, out[i].dielectric.rp, kUnit * out[i].dielectric.rs);
     EXPECT_CLOSE(out[i].conductor.rs, out[i].conductor.rp, 8 * kUnit * out[i].conductor.rs);
@@ -35,7 +35,7 @@ TYPED_TEST(NormalIncidence, Powers) {
   }
 }
 
-// The eye looks straight down on a metal, tilted by next to nothing in a direction that goes round; the ray that
+// The camera looks perpendicularly at a metal, tilted by a tiny angle in a rotating direction; the ray that
 // comes back meets glass at Brewster's angle, which makes its light fully polarized.
 Path towardGlass(const Vec& d, Real tilt, Real azimuth) {
   const Vec u = oracle::anyAcross(d), v = oracle::cross(d, u);
@@ -44,12 +44,12 @@ Path towardGlass(const Vec& d, Real tilt, Real azimuth) {
   const Vec normal =
       oracle::unit(oracle::along(oracle::along(d, -1, u, tilt * std::cos(azimuth)), 1, v, tilt * std::sin(azimuth)));
   extend(path, metalMirror(kMetals[0]), normal);
-  const Real c = 1 / std::sqrt(3.25L);  // Brewster's angle of n = 1.5, seen from the ray that goes exactly back
+  const Real c = 1 / std::sqrt(3.25L);  // Brewster's angle of n = 1.5, for the ray that returns exactly
   extend(path, glassMirror(), oracle::along(d, c, oracle::unit(oracle::along(u, 0.6L, v, 0.8L)), std::sqrt(1 - c * c)));
   return path;
 }
 
-TYPED_TEST(NormalIncidence, TheChoiceOfSDoesNotShow) {
+TYPED_TEST(NormalIncidence, TheChoiceOfSDoesNotMatter) {
   MALUS_BACKEND_TYPES;
   Draw draw(101);
   std::vector<typename B::ChainIn> chains;
@@ -75,7 +75,7 @@ TYPED_TEST(NormalIncidence, TheChoiceOfSDoesNotShow) {
     for (std::size_t i = 0; i < chains.size(); ++i) {
       const oracle::Stokes4 want = oracleStokes(chains[i]), got = stokesOf(out[i]);
       for (const Real v : got) ASSERT_TRUE(std::isfinite(v)) << method;
-      // Brewster glass reflects .148 of s light: errors are relative to what is seen.
+      // Brewster glass reflects .148 of s light: errors are relative to the recorded light.
       if (carriesStokes(method)) worst = std::max(worst, largestDifference(want, got) / want[0]);
       low = std::min(low, got[0] / want[0]);
       high = std::max(high, got[0] / want[0]);
@@ -83,11 +83,11 @@ TYPED_TEST(NormalIncidence, TheChoiceOfSDoesNotShow) {
     ::testing::Test::RecordProperty(method + "_intensityLow", std::to_string(static_cast<double>(low)));
     ::testing::Test::RecordProperty(method + "_intensityHigh", std::to_string(static_cast<double>(high)));
     if (carriesStokes(method)) {
-      // Two interfaces and four turns, some forty roundings in a row; 16 bits a number cost more.
+      // Two interfaces and four rotations, some forty roundings in a row; 16 bits per number cost more.
       // A metal tilted by 1e-4 delays p by about 1e-8, which stokes-linear drops.
       EXPECT_LT(worst, 20 * kUnit + 2 * packingLoss(method) + (method == "stokes-linear" ? 1e-8L : 0)) << method;
     } else if (method == "sp" || method == "sp-cosine" || method == "sp-ratio") {
-      // |cos| makes between 1 and 1.41 times the light, by the angle between an s that means nothing and the glass's.
+      // |cos| makes between 1 and 1.41 times the light, by the angle between an arbitrary s and the glass's.
       EXPECT_GT(high, 1.3) << method;
       EXPECT_LT(high, std::sqrt(2.0L) * (1 + (method == "sp" ? 20 * kUnit : 1e-3))) << method;
       EXPECT_GT(low, 1 - (method == "sp" ? 20 * kUnit : 1e-3)) << method;

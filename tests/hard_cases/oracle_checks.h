@@ -6,8 +6,8 @@
 
 namespace malus::test {
 
-// Expects every number of an interface within `roundings` of eps (times what the backend's arithmetic may be worse)
-// of the oracle: relative to R_s where it is small, absolute to 1 for transmittances.
+// Expects every number of an interface within `roundings` times eps, times the factor by which the backend's arithmetic
+// may be worse, of the oracle: relative to R_s where it is small, absolute to 1 for transmittances.
 template <class B>
 void expectSurface(const typename B::SurfaceIn& in, const typename B::SurfaceOut& out, double roundings,
                    PowersOf powersOf = oracle::powers) {
@@ -73,7 +73,7 @@ oracle::Real largestDifference(const A& a, const A& b, std::size_t components = 
 }
 
 inline bool carriesStokes(const std::string& method) { return method.starts_with("stokes"); }
-// What packing to 16 bits may cost a Stokes vector per bounce, relative to its S0 (stokes_half.h).
+// Error of a Stokes vector per bounce from packing to 16 bits, relative to its S0 (stokes_half.h).
 inline double packingLoss(const std::string& method) { return method == "stokes-half" ? 1.5e-3 : 0; }
 
 }  // namespace malus::test

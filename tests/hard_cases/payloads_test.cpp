@@ -1,4 +1,4 @@
-// What a ray carries, at the points where it cannot: cosines near 1, ratios over nothing, 16 bits for six decades.
+// Payloads at the limits of their encoding: cosines near 1, ratios with a zero denominator, 16 bits for six decades.
 #include "tests/hard_cases/oracle_checks.h"
 
 namespace malus::test {
@@ -9,7 +9,7 @@ using oracle::Vec;
 
 MALUS_HARD_CASES(Payloads);
 
-TYPED_TEST(Payloads, EveryLightArrivesAtEveryMethod) {
+TYPED_TEST(Payloads, EveryMethodReceivesEveryState) {
   MALUS_BACKEND_TYPES;
   Draw draw(112);
   // Directions of s: the canonical axes exactly, a few roundings off them, and any.
@@ -55,10 +55,10 @@ TYPED_TEST(Payloads, EveryLightArrivesAtEveryMethod) {
   }
 }
 
-TYPED_TEST(Payloads, RatioWithoutS) {
+TYPED_TEST(Payloads, RatioWithZeroS) {
   MALUS_BACKEND_TYPES;
   Draw draw(113);
-  // All light along p: the ratio would be infinite. The powers change places and nothing is lost.
+  // All light along p: the ratio would be infinite. The powers are swapped and no light is lost.
   std::vector<typename B::HandOverIn> in;
   for (int i = 0; i < 200; ++i) {
     const Vec d = draw.direction(), s = oracle::unit(oracle::cross(d, draw.direction()));

@@ -1,7 +1,7 @@
-// What the hard cases ask of the optics, in the shared words: C++ and a compute shader run the same. Structs of
-// numbers alone, so that they lie in memory in the same way.
+// Probes of the hard cases, in the shared language: C++ and a compute shader run the same code. The structs contain
+// numbers alone, so that their layout is the same.
 
-// One interface at one angle. The cosine is cut to [0, 1] as a hit does.
+// One interface at one angle. The cosine is clamped to [0, 1], as at a hit.
 struct SurfaceIn {
   real c;
   real n1;
@@ -94,7 +94,7 @@ FN FrameOut frameProbe(FrameIn g) {
   return r;
 }
 
-// A path of an eye ray over interfaces (chain_probe.h). kind 0: glass mirror, 1: metal, 2: window into n2.
+// A path of a camera ray over interfaces (chain_probe.h). kind 0: glass mirror, 1: metal, 2: window into n2.
 CONST int kMaxBounces = 64;
 struct BounceIn {
   real3 n;
@@ -104,19 +104,19 @@ struct BounceIn {
   real kind;
 };
 struct ChainIn {
-  real3 d;        // of the eye ray
+  real3 d;        // of the camera ray
   real radiance;  // of the unpolarized source at the end
   real count;
   BounceIn bounces[64];
 };
 struct ChainOut {
-  real s0, s1, s2, s3;  // toward the eye, in the canonical frame of the eye ray
+  real s0, s1, s2, s3;  // toward the camera, in the canonical frame of the camera ray
   real3 last;           // direction of the ray that meets the source
-  real gained;          // most that one bounce adds to |(S1, S2, S3)| - S0, over the S0 that met it
-  real grown;           // most that one bounce adds to S0, over the same
+  real gained;          // maximum over the bounces of the increase of |(S1, S2, S3)| - S0, over the arriving S0
+  real grown;           // maximum of the increase of S0, over the same
 };
 
-// Light on a way around perfect mirrors: r_s = -1, r_p = 1. Of the light itself: d is where it goes.
+// Light on a closed path of perfect mirrors: r_s = -1, r_p = 1. d is the direction of the light, not of a camera ray.
 struct IterativeIn {
   real3 d;
   real3 light;  // S1, S2, S3 in the canonical frame of d, S0 = 1
@@ -128,7 +128,7 @@ struct IterativeOut {
   real3 last;
 };
 
-// Light handed from a surface to the next: any light, any two s directions across one ray.
+// Light passed from one surface to the next: any light, any two s directions perpendicular to one ray.
 struct HandOverIn {
   real3 d;
   real3 from;   // s of the surface that sends
@@ -137,6 +137,6 @@ struct HandOverIn {
   real3 radiance;
 };
 struct HandOverOut {
-  real3 s0, s1, s2, s3;  // what the ray brings, in its canonical frame
+  real3 s0, s1, s2, s3;  // Stokes vector of the payload, in the ray's canonical frame
   real3 received;        // S0 at the receiver
 };

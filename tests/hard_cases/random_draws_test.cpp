@@ -1,4 +1,4 @@
-// A million draws of interfaces and lights with a fixed seed: what holds for every one of them.
+// A million draws of interfaces and lights with a fixed seed: properties that every one of them has.
 #include "tests/hard_cases/oracle_checks.h"
 
 namespace malus::test {
@@ -40,7 +40,7 @@ TYPED_TEST(RandomDraws, AMillionInterfaces) {
       sum.add(Real(o.dielectric.rs) + o.transmittance.ts - 1);
       sum.add(Real(o.dielectric.rp) + o.transmittance.tp - 1);
       // The same transmittances from the other side, along the refracted ray. Its cosine is off by a rounding over
-      // t^2; the way back magnifies that by t^2 over the cosine outside squared.
+      // t^2; the return magnifies that by t^2 over the cosine outside squared.
       if (o.total == 0 && o.t > 0 && in[i].c > R(1e-3L)) {
         const Real t = o.t, c = in[i].c, magnified = 1 + t * t / (c * c) + 1 / (t * t);
         back.add((Real(o.transmittance.ts) - o.back.ts) / magnified);
@@ -66,11 +66,11 @@ TYPED_TEST(RandomDraws, AMillionInterfaces) {
   EXPECT_LT(negative.value(), 4);
 }
 
-TYPED_TEST(RandomDraws, TurningEverythingChangesNothing) {
+TYPED_TEST(RandomDraws, RotationInvariance) {
   MALUS_BACKEND_TYPES;
   Draw draw(115);
-  // The same path in a turned world: S0, the degrees of linear and of circular polarization stay. Directions and
-  // normals round anew, which the path magnifies: the oracle, fed with both, tells how much.
+  // The same path, rotated as a whole: S0, the degrees of linear and of circular polarization stay. Directions and
+  // normals round anew, which the path magnifies: the oracle, applied to both, gives the amount.
   std::vector<typename B::ChainIn> plain, turned;
   for (int i = 0; i < 3000; ++i) {
     const Path path = randomPath(draw, 1 + draw.below(6));
@@ -89,7 +89,7 @@ TYPED_TEST(RandomDraws, TurningEverythingChangesNothing) {
       const auto x = seen(stokesOf(a[i])), y = seen(stokesOf(b[i]));
       const auto ox = seen(oracleStokes(plain[i])), oy = seen(oracleStokes(turned[i]));
       const Real size = std::max(unpolarizedShare(pathOf(plain[i]), 1), Real(1e-3L));
-      // A cosine turns s by up to 7e-4 a ray in float; 16 bits a number cost 1.5e-3.
+      // A cosine rotates s by up to 7e-4 per ray in float; 16 bits per number cost 1.5e-3.
       const Real coarse =
           method == "sp-cosine" || method == "sp-ratio" ? 12 * std::sqrt(kUnit) : 6 * packingLoss(method);
       for (std::size_t k = 0; k < 3; ++k)

@@ -9,7 +9,7 @@ using oracle::Vec;
 
 MALUS_OPTICS_SUITE(CameraTest);
 
-TYPED_TEST(CameraTest, DirectionsOfMiddleAndCorners) {
+TYPED_TEST(CameraTest, CentreAndCorners) {
   MALUS_TYPES;
   const real3 right = O::make3(1, 0, 0), up = O::make3(0, 0, 1), forward = O::make3(0, 1, 0);
   const auto at = [&](double x, double y) {
@@ -24,16 +24,16 @@ TYPED_TEST(CameraTest, DirectionsOfMiddleAndCorners) {
   EXPECT_CLOSE(low.z / low.y, -0.25L, 2 * kEps);
 }
 
-TYPED_TEST(CameraTest, FrameOfARayHasXAcrossUp) {
+TYPED_TEST(CameraTest, XOfTheFrameIsPerpendicularToUp) {
   MALUS_TYPES;
   Draw draw(16);
   Worst worst("camera", double(kEps));
   for (int i = 0; i < 2000; ++i) {
     const Vec d = draw.direction(), up{0, 0, 1};
-    if (std::abs(d[2]) > 0.99L) continue;  // x loses its meaning along up
+    if (std::abs(d[2]) > 0.99L) continue;  // x is undefined along up
     real cos2, sin2;
     O::cameraFrameRotation(toReal3<O>(d), toReal3<O>(up), cos2, sin2);
-    // The turn must take light measured in the canonical frame of -d to that measured with x = d x up.
+    // The rotation must take light in the canonical frame of -d to light in the frame with x = d x up.
     const Vec k = oracle::along(d, -1, d, 0), x = oracle::unit(oracle::cross(d, up));
     const oracle::Beam beam = oracle::polarized(k, oracle::anyAcross(k), {0.6L, 0.3L}, {-0.2L, 0.5L});
     const oracle::Stokes4 s = oracle::measured(beam, oracle::canonicalX(k)), want = oracle::measured(beam, x);
@@ -49,7 +49,7 @@ TYPED_TEST(CameraTest, FrameOfARayHasXAcrossUp) {
   EXPECT_LT(worst.value(), 3);  // times 1/sin of the angle to up
 }
 
-TYPED_TEST(CameraTest, AnalyserIsARow) {
+TYPED_TEST(CameraTest, AnalyserIsAMuellerRow) {
   MALUS_TYPES;
   typename O::Stokes s;
   s.s0 = O::make3(1, 2, 3);

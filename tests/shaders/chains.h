@@ -1,11 +1,11 @@
-// Paths of an eye ray over several interfaces, and the light that the Jones oracle sends along them.
+// Paths of a camera ray over several interfaces, and the light that the Jones oracle sends along them.
 #pragma once
 
 #include "tests/shaders/optics_types.h"
 
 namespace malus::test {
 
-// One interface as the eye ray meets it: going from a medium of index n1 to one of n2 (per colour, complex
+// One interface as the camera ray meets it: from a medium of index n1 to one of n2 (per colour, complex
 // for metals).
 struct Bounce {
   oracle::Vec n{};  // unit, against the ray
@@ -15,7 +15,7 @@ struct Bounce {
   bool transmits = false;
 };
 struct Path {
-  std::vector<oracle::Vec> d;  // of the eye ray: before the first bounce, ..., after the last
+  std::vector<oracle::Vec> d;  // of the camera ray: before the first bounce, ..., after the last
   std::vector<Bounce> bounces;
   oracle::Real cosine(std::size_t i) const { return -oracle::dot(d[i], bounces[i].n); }
 };
@@ -65,7 +65,7 @@ inline Path randomPath(Draw& draw, std::size_t length) {
   return path;
 }
 
-// The light that comes back to the eye from an unpolarized source of radiance 1 at the path's end.
+// The light that returns to the camera from an unpolarized source of radiance 1 at the path's end.
 inline oracle::Beam lightAlong(const Path& path, std::size_t colour, oracle::Beam beam) {
   for (std::size_t i = path.bounces.size(); i-- > 0;) {
     const Bounce& b = path.bounces[i];
@@ -83,7 +83,7 @@ inline oracle::Stokes4 expectedStokes(const Path& path, std::size_t colour) {
   return oracle::measured(lightAlong(path, colour), oracle::canonicalX(oracle::along(path.d[0], -1, path.d[0], 0)));
 }
 
-// What is left of the light when polarization is ignored: the size that errors are compared with.
+// The light without polarization, the scale of errors.
 inline oracle::Real unpolarizedShare(const Path& path, std::size_t colour) {
   oracle::Real share = 1;
   for (std::size_t i = 0; i < path.bounces.size(); ++i) {

@@ -135,7 +135,7 @@ std::vector<std::byte> ComputeDevice::run(const std::vector<std::uint32_t>& spir
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set;
-  write.descriptorCount = 2;  // goes on to the next binding
+  write.descriptorCount = 2;  // continues to the next binding
   write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
   write.pBufferInfo = buffers;
   vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);

@@ -29,7 +29,7 @@ Incidence<O> incidence(Draw& draw, Real degrees) {
   return r;
 }
 
-TYPED_TEST(DirectionsTest, MirrorKeepsTheAngleAndThePlane) {
+TYPED_TEST(DirectionsTest, ReflectionLaw) {
   MALUS_TYPES;
   Draw draw(6);
   Worst worst("mirror", double(kEps));
@@ -42,7 +42,7 @@ TYPED_TEST(DirectionsTest, MirrorKeepsTheAngleAndThePlane) {
   EXPECT_LT(worst.value(), 6);  // d and n are unit to 1 eps only, and c is counted twice
 }
 
-TYPED_TEST(DirectionsTest, RefractionFollowsSnell) {
+TYPED_TEST(DirectionsTest, SnellsLaw) {
   MALUS_TYPES;
   Draw draw(7);
   constexpr double kPairs[][2] = {{1, 1.5}, {1.5, 1}, {1, 2.42}, {2.42, 1.33}, {1, 1.0001}, {1.5168, 1.5167}};
@@ -62,7 +62,7 @@ TYPED_TEST(DirectionsTest, RefractionFollowsSnell) {
   EXPECT_LT(worst.value(), 8);
 }
 
-TYPED_TEST(DirectionsTest, NormalIncidenceAndEqualIndicesGoStraight) {
+TYPED_TEST(DirectionsTest, NormalIncidenceAndEqualIndicesDoNotDeflect) {
   MALUS_TYPES;
   Draw draw(8);
   for (int i = 0; i < 100; ++i) {
@@ -82,7 +82,7 @@ TYPED_TEST(DirectionsTest, NormalIncidenceAndEqualIndicesGoStraight) {
   EXPECT_EQ(grazing, O::make3(1, 0, 0));
 }
 
-TYPED_TEST(DirectionsTest, ThePathThroughASlabEndsParallel) {
+TYPED_TEST(DirectionsTest, SlabDoesNotDeflect) {
   MALUS_TYPES;
   Draw draw(9);
   for (int i = 0; i < 1000; ++i) {
@@ -94,7 +94,7 @@ TYPED_TEST(DirectionsTest, ThePathThroughASlabEndsParallel) {
   }
 }
 
-TYPED_TEST(DirectionsTest, LongChainsDoNotDrift) {
+TYPED_TEST(DirectionsTest, LongChainsStayNormalized) {
   MALUS_TYPES;
   Draw draw(10);
   real3 d = toReal3<O>(draw.direction());

@@ -9,7 +9,7 @@ using oracle::Vec;
 
 MALUS_OPTICS_SUITE(EnvironmentTest);
 
-TYPED_TEST(EnvironmentTest, OctahedralMapGoesThereAndBack) {
+TYPED_TEST(EnvironmentTest, OctahedralMapRoundTrip) {
   MALUS_TYPES;
   Draw draw(11);
   Worst worst("octahedral", double(kEps));
@@ -80,7 +80,7 @@ std::array<Real, 9> projected(const F& radiance) {
   return c;
 }
 
-TYPED_TEST(EnvironmentTest, IrradianceOfAConstantAndOfALinearSky) {
+TYPED_TEST(EnvironmentTest, IrradianceOfConstantAndLinearSky) {
   MALUS_TYPES;
   Draw draw(12);
   const Real pi = std::acos(Real(-1));

@@ -1,4 +1,4 @@
-// Rough surfaces and the clear sky: what their samples and formulas stand for, by integrals.
+// Rough surfaces and the clear sky: samples and formulas against integrals.
 #include "tests/shaders/optics_types.h"
 
 namespace malus::test {
@@ -18,7 +18,7 @@ void overDisk(int rings, Act act) {
     }
 }
 
-TYPED_TEST(FacetsTest, AreTheFacetsThatTheEyeSees) {
+TYPED_TEST(FacetsTest, DistributionOfVisibleNormals) {
   MALUS_TYPES;
   // Means over the facets are integrals over GGX: D(m) G1(o) (o.m)/(o.n) dm. Source of D: Walter et al. 2007.
   for (const double alpha : {0.1, 0.5, 1.0})
@@ -55,7 +55,7 @@ TYPED_TEST(FacetsTest, AreTheFacetsThatTheEyeSees) {
     }
 }
 
-TYPED_TEST(FacetsTest, MeanWeightIsWhatASurfaceReflectsOfUniformLight) {
+TYPED_TEST(FacetsTest, MeanWeightIsTheAlbedo) {
   MALUS_TYPES;
   // The integral over directions of D G2/(4 o.n), the reflection without Fresnel; Walter et al. 2007, equation 20.
   for (const double alpha : {0.1, 0.3, 0.7})
@@ -84,7 +84,7 @@ TYPED_TEST(FacetsTest, MeanWeightIsWhatASurfaceReflectsOfUniformLight) {
     }
 }
 
-TYPED_TEST(FacetsTest, NeverMakeLight) {
+TYPED_TEST(FacetsTest, EnergyIsNotCreated) {
   MALUS_TYPES;
   Draw draw(11);
   for (int i = 0; i < 3000; ++i) {
@@ -94,7 +94,7 @@ TYPED_TEST(FacetsTest, NeverMakeLight) {
     const real3 m = O::facetNormal(o, n, alpha, radius * std::cos(angle), radius * std::sin(angle));
     EXPECT_CLOSE(O::dot3(m, m), 1, 8 * kEps);
     EXPECT_GT(O::dot3(m, n), 0);
-    EXPECT_GE(O::dot3(m, o), -1e-5);  // seen by the eye
+    EXPECT_GE(O::dot3(m, o), -1e-5);  // visible from the camera
     const real3 i1 = O::mirrorDirection(o * R(-1), m, O::dot3(o, m));
     const real weight = O::facetWeight(o, i1, n, alpha);
     EXPECT_GE(weight, 0);
@@ -103,14 +103,14 @@ TYPED_TEST(FacetsTest, NeverMakeLight) {
       EXPECT_EQ(weight, 0);
     }
   }
-  // Nearly smooth: the surface's own normal, and nothing hidden.
+  // Nearly smooth: the surface's normal, and no masking.
   const real3 n = O::make3(0, 0, 1), o = O::normalize3(O::make3(1, 0, 1));
   const real3 m = O::facetNormal(o, n, R(1e-5L), R(0.5L), R(0.5L));
   EXPECT_CLOSE(m.z, 1, 1e-9 + kEps);
   EXPECT_CLOSE(O::facetWeight(o, O::make3(-o.x, 0, o.z), n, R(1e-5L)), 1, 1e-9 + kEps);
 }
 
-TYPED_TEST(FacetsTest, SkyIsPolarizedAcrossFromTheSun) {
+TYPED_TEST(FacetsTest, RayleighSkyIsPolarizedAt90Degrees) {
   MALUS_TYPES;
   EXPECT_CLOSE(O::rayleighDegree(0, R(0.8L)), R(0.8L), kEps);
   EXPECT_EQ(O::rayleighDegree(1, R(0.8L)), 0);

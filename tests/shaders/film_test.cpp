@@ -35,7 +35,7 @@ Stack layered(Real c, Real n1, Real nf, Real d, Cx n3) {
   solve(n1 * n1 / q1, nf * nf / qf, n3 * n3 / q3, stack.rp, stack.tp);
   stack.fluxS = (q3 / q1).real() * std::norm(stack.ts);
   stack.fluxP = ((n3 * n3 / q3) / (n1 * n1 / q1)).real() * std::norm(stack.tp);
-  // From tangential fields to fields along p, which turns over on reflection (r_p = -r_s at normal incidence).
+  // From tangential fields to fields along p, which flips on reflection (r_p = -r_s at normal incidence).
   stack.rp = -stack.rp;
   stack.tp *= c / (q3 / n3);
   return stack;
@@ -74,7 +74,7 @@ TYPED_TEST(FilmTest, EqualsTheCharacteristicMatrix) {
   EXPECT_LT(transmission.value(), 2000);  // the phase of a small field
 }
 
-TYPED_TEST(FilmTest, WithoutThicknessItIsNotThere) {
+TYPED_TEST(FilmTest, ZeroThicknessIsTheBareInterface) {
   MALUS_TYPES;
   for (const real c : {R(1.0L), R(0.7L), R(0.2L), R(0.01L)}) {
     const auto metal = O::thinFilm(c, 1, R(1.46L), 0, R(0.2L), R(3.4L));
@@ -97,7 +97,7 @@ TYPED_TEST(FilmTest, WithoutThicknessItIsNotThere) {
   }
 }
 
-TYPED_TEST(FilmTest, QuarterAndHalfWaveAtNormalIncidence) {
+TYPED_TEST(FilmTest, QuarterWaveAndHalfWave) {
   MALUS_TYPES;
   const Real nf = 1.38L, n3 = 1.52L, reflected = (n3 - nf * nf) / (n3 + nf * nf), bare = (n3 - 1) / (n3 + 1);
   // A quarter of the wavelength in the film: twice its thickness over that in vacuum is 1/(2 nf).
@@ -109,7 +109,7 @@ TYPED_TEST(FilmTest, QuarterAndHalfWaveAtNormalIncidence) {
   EXPECT_CLOSE(half.reflected.rp, bare * bare, 8 * kEps);
 }
 
-TYPED_TEST(FilmTest, StaysPhysicalAtTheEnds) {
+TYPED_TEST(FilmTest, PhysicalAtNormalAndGrazingIncidence) {
   MALUS_TYPES;
   for (const real c : {R(0), R(1e-30L), R(1e-6L), R(1)})
     for (const real n1 : {R(1), R(1.5L)})
@@ -131,7 +131,7 @@ TYPED_TEST(FilmTest, StaysPhysicalAtTheEnds) {
             }
 }
 
-TYPED_TEST(FilmTest, TurnsAndRoots) {
+TYPED_TEST(FilmTest, ComplexExponentialAndSquareRoot) {
   MALUS_TYPES;
   Draw draw(3);
   for (int i = 0; i < 1000; ++i) {

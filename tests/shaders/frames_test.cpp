@@ -1,4 +1,4 @@
-// Reference frames: the one that both ends of a ray agree on, and the turn to a surface's s direction.
+// Reference frames: the one that both ends of a ray agree on, and the rotation to a surface's s direction.
 #include "tests/shaders/optics_types.h"
 
 namespace malus::test {
@@ -38,7 +38,7 @@ TYPED_TEST(FramesTest, CanonicalFrameIsOrthonormalAndRightHanded) {
     worst.add(oracle::dot(b, b) - 1);
     for (const Real d : {oracle::dot(a, b), oracle::dot(a, z), oracle::dot(b, z)}) worst.add(d);
     for (std::size_t i = 0; i < 3; ++i) worst.add(along[i] - z[i]);
-    // And it is the frame that the shortest turn gives.
+    // It is the frame that the shortest rotation gives.
     const Vec expected = oracle::canonicalX(oracle::unit(z));
     for (std::size_t i = 0; i < 3; ++i) worst.add(a[i] - expected[i]);
   }
@@ -57,7 +57,7 @@ TYPED_TEST(FramesTest, BothZerosGiveTheSameFrame) {
   }
 }
 
-TYPED_TEST(FramesTest, SIsAcrossTheRayAndTheNormal) {
+TYPED_TEST(FramesTest, SIsPerpendicularToRayAndNormal) {
   MALUS_TYPES;
   Draw draw(4);
   Worst worst("s", double(kEps));
@@ -83,14 +83,14 @@ TYPED_TEST(FramesTest, SIsPerpendicularToThePlaneOfIncidence) {
     const Real sine = std::sqrt(oracle::dot(across, across));
     if (sine < 1e-3L) continue;
     const Vec s = toVec(O::sDirection(toReal3<O>(d), toReal3<O>(n)));
-    // The rounding of d and n turns the plane by eps over the sine. The sign of s means nothing.
+    // The rounding of d and n rotates the plane by eps over the sine. The sign of s has no meaning.
     EXPECT_CLOSE(std::abs(oracle::dot(s, across)) / sine, 1, 8 * kEps) << i;
     const Vec off = oracle::cross(s, across);
     EXPECT_CLOSE(std::sqrt(oracle::dot(off, off)) / sine, 0, 8 * kEps / sine) << i;
   }
 }
 
-TYPED_TEST(FramesTest, TurnEqualsTheExplicitAngle) {
+TYPED_TEST(FramesTest, RotationEqualsTheExplicitAngle) {
   MALUS_TYPES;
   const real3 x = O::make3(1, 0, 0), y = O::make3(0, 1, 0);
   for (int degree = 0; degree < 360; degree += 5) {
@@ -102,14 +102,14 @@ TYPED_TEST(FramesTest, TurnEqualsTheExplicitAngle) {
   }
 }
 
-TYPED_TEST(FramesTest, TurnIsUnitAndNeverNan) {
+TYPED_TEST(FramesTest, RotationIsUnitAndFinite) {
   MALUS_TYPES;
   Draw draw(4);
   for (int i = 0; i < 5000; ++i) {
     real3 x, y;
     const real3 d = toReal3<O>(draw.direction());
     O::canonicalFrame(d * real(-1), x, y);
-    // Whether s lies across the ray or not.
+    // Whether or not s is perpendicular to the ray.
     const real3 s = i % 2 == 0 ? toReal3<O>(draw.direction()) : d;
     real cos2, sin2;
     O::frameRotation(s, x, y, cos2, sin2);
@@ -117,7 +117,7 @@ TYPED_TEST(FramesTest, TurnIsUnitAndNeverNan) {
   }
 }
 
-TYPED_TEST(FramesTest, XIsTakenWhereThePlaneOfIncidenceDoesNotExist) {
+TYPED_TEST(FramesTest, NormalIncidenceUsesCanonicalX) {
   MALUS_TYPES;
   const real3 d = O::make3(0, 0, -1), x = O::make3(1, 0, 0);
   EXPECT_EQ(O::sDirection(d, O::make3(0, 0, 1)), x);

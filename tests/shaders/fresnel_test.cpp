@@ -123,7 +123,7 @@ TYPED_TEST(FresnelTest, NormalIncidence) {
   }
 }
 
-TYPED_TEST(FresnelTest, BrewstersAngle) {
+TYPED_TEST(FresnelTest, BrewsterAngle) {
   MALUS_TYPES;
   for (const double n : {1.1, 1.33, 1.5, 2.42, 4.0}) {
     const Real eta = R(n), c = 1 / std::sqrt(1 + eta * eta), cs = (eta * eta - 1) / (eta * eta + 1);
@@ -136,7 +136,7 @@ TYPED_TEST(FresnelTest, BrewstersAngle) {
   }
 }
 
-TYPED_TEST(FresnelTest, Grazing) {
+TYPED_TEST(FresnelTest, GrazingIncidence) {
   MALUS_TYPES;
   for (const auto& pair : kPairs) {
     const auto r = O::dielectricReflectance(0, R(pair[0]), R(pair[1]));
@@ -150,7 +150,7 @@ TYPED_TEST(FresnelTest, Grazing) {
   for (const Metal& m : kMetals) EXPECT_CLOSE(O::conductorReflectance(0, 1, R(m.n[0]), R(m.k[0])).rp, 1, 6 * kEps);
 }
 
-TYPED_TEST(FresnelTest, EqualIndicesAreNoInterface) {
+TYPED_TEST(FresnelTest, IndexMatchReflectsNothing) {
   MALUS_TYPES;
   for (const real c : cosines<real>())
     for (const double n : {1e-3, 1.0, 1.5168, 1e3}) {
@@ -221,7 +221,7 @@ TYPED_TEST(FresnelTest, ConductorWithoutAbsorptionIsADielectric) {
     }
 }
 
-TYPED_TEST(FresnelTest, PurelyImaginaryIndexReflectsAll) {
+TYPED_TEST(FresnelTest, PurelyImaginaryIndexIsAPerfectMirror) {
   MALUS_TYPES;
   // n = 0: nothing is absorbed and nothing passes, R = 1 at every angle.
   for (const real c : cosines<real>())
@@ -234,7 +234,7 @@ TYPED_TEST(FresnelTest, PurelyImaginaryIndexReflectsAll) {
     }
 }
 
-TYPED_TEST(FresnelTest, ReflectedAndTransmittedMakeOne) {
+TYPED_TEST(FresnelTest, EnergyConservation) {
   MALUS_TYPES;
   Worst sum("sum", double(kEps));
   for (const auto& pair : kPairs)
@@ -248,7 +248,7 @@ TYPED_TEST(FresnelTest, ReflectedAndTransmittedMakeOne) {
   EXPECT_LT(sum.value(), 8);  // R near 1 has the relative error of (eta^2-1)^2/(c+t)^4
 }
 
-TYPED_TEST(FresnelTest, TransmissionIsReciprocal) {
+TYPED_TEST(FresnelTest, Reciprocity) {
   MALUS_TYPES;
   for (const auto& pair : kPairs)
     for (const real c : cosines<real>()) {
@@ -263,7 +263,7 @@ TYPED_TEST(FresnelTest, TransmissionIsReciprocal) {
     }
 }
 
-TYPED_TEST(FresnelTest, EveryInputThatAPackHoldsStaysPhysical) {
+TYPED_TEST(FresnelTest, EveryValidInputStaysPhysical) {
   MALUS_TYPES;
   // Indices from 1e-3 to 1e3 on both sides, k alike or 0, every cosine.
   const double indices[] = {1e-3, 1e-2, 0.1, 0.5, 0.9999999, 1, 1.0000001, 1.5, 10, 100, 1e3};

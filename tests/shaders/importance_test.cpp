@@ -32,7 +32,7 @@ Real weighed(const ImportanceVector& r, const typename O::Stokes& s) {
   return Real(r.w) * s.s0.x + Real(r.q) * s.s1.x + Real(r.u) * s.s2.x + Real(r.v) * s.s3.x;
 }
 
-TYPED_TEST(ImportanceTest, EveryStepKeepsTheProduct) {
+TYPED_TEST(ImportanceTest, EveryStepPreservesTheProductWithStokes) {
   MALUS_TYPES;
   using A = Rows<O>;
   Draw draw(130);
@@ -44,11 +44,11 @@ TYPED_TEST(ImportanceTest, EveryStepKeepsTheProduct) {
     light.s1 = O::splat3(R(q[0]));
     light.s2 = O::splat3(R(q[1]));
     light.s3 = O::splat3(R(q[2]));
-    // A frame turned: both turn, the product stays.
+    // In a rotated frame both rotate and the product stays.
     const Real angle = draw.between(0, 6.3);
     const real c = R(std::cos(angle)), s = R(std::sin(angle));
     turned.add(weighed<O>(A::turn(row, c, s), O::rotateStokes(light, c, s)) - weighed<O>(row, light));
-    // An interface: the row that meets it, times what arrives, is the row that left it, times what it makes of that.
+    // At an interface: (row M) S = row (M S).
     const Metal& m = kMetals[draw.below(5)];
     const auto f = draw.below(2) == 0 ? O::conductorReflectance(R(draw.unit()), 1, R(m.n[0]), R(m.k[0]))
                                       : O::dielectricReflectance(R(draw.unit()), R(1.5L), 1);
@@ -60,10 +60,10 @@ TYPED_TEST(ImportanceTest, EveryStepKeepsTheProduct) {
   EXPECT_LT(met.value(), 8);
 }
 
-TYPED_TEST(ImportanceTest, CrossedMirrorsLeaveNothingAndNoNan) {
+TYPED_TEST(ImportanceTest, CrossedBrewsterMirrorsExtinguish) {
   MALUS_TYPES;
   using A = Rows<O>;
-  // Brewster, a quarter turn, Brewster: w vanishes. Whatever follows stays that small; nothing is divided by w.
+  // Brewster mirror, rotation by 90 degrees, Brewster mirror: w vanishes. All that follows stays that small.
   const auto f = O::dielectricReflectance(R(1 / std::sqrt(3.25L)), 1, R(1.5L));
   typename A::ImportanceVector row{1, 0, 0, 0};
   row = A::interface(row, f.rs, f.rp, f.xRe, f.xIm);

@@ -1,7 +1,7 @@
 // An oracle for the optics, written apart from shaders/: Jones calculus in long double on field vectors in
-// space, so that no reference frame has to be turned. Time e^{+iwt}, waves e^{i(wt - k.r)}, index n - i k.
-// A field is a complex vector across its direction; unpolarized light is the incoherent sum of two.
-// jones_test.cpp holds it against Maxwell's boundary conditions and against the turning of a field in time.
+// space, so that no reference frame has to be rotated. Time e^{+iwt}, waves e^{i(wt - k.r)}, index n - i k.
+// A field is a complex vector perpendicular to its direction; unpolarized light is the incoherent sum of two.
+// jones_test.cpp compares it with Maxwell's boundary conditions and with the rotation of a field in time.
 #pragma once
 
 #include <algorithm>
@@ -144,7 +144,7 @@ inline Beam reflect(const Beam& in, const Vec& n, Real n1, Complex n2) {
   for (const Field& e : in.fields) out.fields.push_back(sum(s, a.rs * dot(e, s), pOut, a.rp * dot(e, pIn)));
   return out;
 }
-// Snell's law; c: cosine of incidence. For total reflection the result means nothing.
+// Snell's law; c: cosine of incidence. For total reflection the result has no meaning.
 inline Vec refracted(const Vec& k, const Vec& n, Real n1, Real n2) {
   const Real c = dot(k, n);
   const Vec tangent = along(k, n1 / n2, n, -c * n1 / n2);
@@ -163,7 +163,7 @@ inline Beam transmit(const Beam& in, const Vec& n, Real n1, Real n2) {
   return out;
 }
 
-// What an observer with this x axis measures.
+// Stokes vector for an observer with this x axis.
 inline Stokes4 measured(const Beam& beam, const Vec& x) {
   const Vec y = cross(beam.k, x);
   Stokes4 total{};
@@ -174,12 +174,12 @@ inline Stokes4 measured(const Beam& beam, const Vec& x) {
   return total;
 }
 
-// The frame of a ray that both its ends agree on: x of space, throughput by the shortest turn that takes the
+// The frame of a ray that both its ends agree on: x of space, carried by the shortest rotation that takes the
 // z axis onto the direction or its opposite, whichever is above the horizon (or so little
 // below that a float may have lost it).
 inline Vec canonicalX(const Vec& k) {
   const Vec m = k[2] < -1e-30L ? along(k, -1, k, 0) : k;
-  const Vec axis = cross(Vec{0, 0, 1}, m);  // sin of the turn in its length
+  const Vec axis = cross(Vec{0, 0, 1}, m);  // its length is the sine of the rotation
   const Vec e{1, 0, 0};
   // Rodrigues: e cos + (axis x e) + axis (axis . e) / (1 + cos)
   const Vec turned = along(along(e, m[2], cross(axis, e), 1), 1, axis, dot(axis, e) / (1 + m[2]));

@@ -1,4 +1,4 @@
-// The oracle itself: handedness from a field that turns in time, amplitudes from Maxwell's equations.
+// The oracle itself: handedness from a field that rotates in time, amplitudes from Maxwell's equations.
 #include "tests/shaders/jones.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ constexpr Real kTight = 1e-15L;  // thousands of roundings of long double where 
 Real degrees(Real d) { return d * kPi / 180; }
 
 TEST(JonesTest, S3IsPositiveForClockwiseSeenTowardTheSource) {
-  // Right circular: seen by whom the light reaches (x to the right, y up, z to the eye) E turns clockwise.
+  // Right circular: seen by the receiver (x to the right, y up, z toward the receiver) E rotates clockwise.
   for (const Real phase : {kPi / 2, -kPi / 2}) {
     const Complex ex = 1, ey = std::polar(Real(1), phase);
     const auto angleAt = [&](Real wt) {
@@ -96,7 +96,7 @@ TEST(JonesTest, BeamsAgreeWithMuellerMatrices) {
   }
 }
 
-TEST(JonesTest, EnergyIsKept) {
+TEST(JonesTest, EnergyConservation) {
   for (const Real c : {0.01L, 0.2L, 0.6L, 0.999L}) {
     const Powers p = powers(c, 1, 1.5L);
     EXPECT_NEAR(static_cast<double>(p.rs + p.ts), 1, 1e-15);

@@ -1,4 +1,4 @@
-// What shaders/optics/math.h declares, on two lanes. No include guard: included once for each scalar.
+// The functions of shaders/optics/math.h on two lanes. No include guard: included once for each scalar.
 using real = lanes::Lane2<scalar>;
 using real3 = lanes::Three<scalar>;
 using mask = lanes::Mask2;

@@ -1,4 +1,4 @@
-// The two builds of the optics as types, for typed tests, and what the tests of this folder share.
+// The two builds of the optics as types, for typed tests, and shared parts of the tests of this folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -87,12 +87,12 @@ struct OpticsNames {
   }
 };
 
-// A suite of typed tests needs a class of its own.
+// A suite of typed tests needs its own class.
 #define MALUS_OPTICS_SUITE(Name)          \
   template <class T>                      \
   class Name : public ::testing::Test {}; \
   TYPED_TEST_SUITE(Name, OpticsTypes, OpticsNames)
-// The words of a typed test: O the build, kEps its spacing at 1, R(x) its rounding of x.
+// Abbreviations of a typed test: O the build, kEps its spacing at 1, R(x) its rounding of x.
 #define MALUS_TYPES                                                            \
   using O = TypeParam;                                                         \
   using real [[maybe_unused]] = typename O::real;                              \
@@ -102,7 +102,7 @@ struct OpticsNames {
 #define EXPECT_CLOSE(a, b, allowed) \
   EXPECT_NEAR(static_cast<double>(a), static_cast<double>(b), static_cast<double>(allowed))
 
-// Largest of the errors given to it; written to the test's record, so that a report can name it.
+// Largest of the errors given to it; recorded as a property of the test, for reports.
 class Worst {
  public:
   Worst(std::string name, double unit) : name_(std::move(name)), unit_(unit) {}

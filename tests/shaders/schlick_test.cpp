@@ -1,4 +1,4 @@
-// Schlick's approximation against its formula and against what it approximates.
+// Schlick's approximation against its formula and against the exact mean.
 #include "tests/shaders/optics_types.h"
 
 namespace malus::test {
@@ -34,7 +34,7 @@ TYPED_TEST(SchlickTest, EqualsTheFormula) {
   EXPECT_LT(worst.value(), 20);  // absolute; inside glass near the critical angle the root magnifies up to 7 times
 }
 
-TYPED_TEST(SchlickTest, IsExactAtNormalIncidenceAndOneAtGrazing) {
+TYPED_TEST(SchlickTest, ExactAtNormalIncidenceAndOneAtGrazing) {
   MALUS_TYPES;
   EXPECT_CLOSE(O::schlickReflectance(1, 1, R(1.5L), 0), 0.04L, kEps);
   EXPECT_CLOSE(O::schlickReflectance(1, R(1.5L), 1, 0), 0.04L, kEps);

@@ -8,7 +8,7 @@ using oracle::Real;
 
 MALUS_OPTICS_SUITE(SourcesTest);
 
-TYPED_TEST(SourcesTest, LambertSendsBackItsAlbedo) {
+TYPED_TEST(SourcesTest, LambertReflectsItsAlbedo) {
   MALUS_TYPES;
   // Radiance L into the hemisphere is the exitance pi L.
   const real3 l = O::lambertRadiance(O::make3(R(0.2L), R(0.5L), 1), O::make3(1, 10, R(0.5L)), O::splat3(R(0.9L)));
@@ -37,7 +37,7 @@ TYPED_TEST(SourcesTest, PhongLobeIsNormalized) {
   }
 }
 
-TYPED_TEST(SourcesTest, PhongLobeIsDarkBehindTheMirrorDirection) {
+TYPED_TEST(SourcesTest, PhongLobeIsZeroBehindTheMirrorDirection) {
   MALUS_TYPES;
   EXPECT_EQ(O::phongLobe(O::make3(0, 0, 1), O::make3(0, R(0.6L), R(-0.8L)), 5), 0);
   EXPECT_EQ(O::phongLobe(O::make3(0, 0, 1), O::make3(1, 0, 0), 5), 0);

@@ -1,4 +1,4 @@
-// Mueller forms of turning, reflection and transmission, alone and in chains, against Jones fields in space.
+// Mueller matrices of rotation, reflection and transmission, alone and in chains, against Jones fields in space.
 #include "tests/shaders/chains.h"
 
 namespace malus::test {
@@ -37,7 +37,7 @@ S turned(const S& s, const V& d, const V& across, bool toSurface) {
   O::frameRotation(across, x, y, cos2, sin2);
   return O::rotateStokes(s, cos2, toSurface ? sin2 : -sin2);
 }
-// The optics along a path, back to the eye, in the canonical frame of its first ray.
+// Light along a path, back to the camera, in the canonical frame of its first ray.
 template <class O>
 typename O::Stokes along(const Path& path, typename O::Stokes s) {
   using real = typename O::real;
@@ -69,7 +69,7 @@ typename O::Stokes along(const Path& path, typename O::Stokes s) {
   return s;
 }
 
-TYPED_TEST(StokesTest, TurningIdentities) {
+TYPED_TEST(StokesTest, RotationIdentities) {
   MALUS_TYPES;
   Draw draw(20);
   const auto turn = [&](const typename O::Stokes& s, Real angle) {
@@ -87,7 +87,7 @@ TYPED_TEST(StokesTest, TurningIdentities) {
       EXPECT_CLOSE(half[j], start[j], kEps) << "half a turn is none";
     }
   }
-  // A frame turned by +45 degrees has its x along the +45 of the old one.
+  // A frame rotated by +45 degrees has its x along the +45 degrees of the old one.
   const Stokes4 s = toStokes4(O::rotateStokes(toStokes<O>({1, 0, 1, 0}), 0, 1), 0);
   EXPECT_TRUE(s[1] == 1 && s[2] == 0);
 }
@@ -138,9 +138,9 @@ TYPED_TEST(StokesTest, ReflectionKeepsLightPhysical) {
   EXPECT_LE(worst.value(), 4);  // |S| - S0 <= 4 eps A S0
 }
 
-TYPED_TEST(StokesTest, CrossedBrewsterMirrorsAreDark) {
+TYPED_TEST(StokesTest, CrossedBrewsterMirrorsExtinguish) {
   MALUS_TYPES;
-  // The second plane of incidence is at 90 degrees to the first: what one passes the other takes.
+  // The second plane of incidence is at 90 degrees to the first: what one reflects the other extinguishes.
   const Real c = 1 / std::sqrt(1 + 2.25L);
   Path path;
   path.d.push_back({0, 0, 1});
@@ -161,7 +161,7 @@ TYPED_TEST(StokesTest, CrossedBrewsterMirrorsAreDark) {
 
 TYPED_TEST(StokesTest, GoldPeriscopePerColour) {
   MALUS_TYPES;
-  // Two mirrors at 45 degrees; the second turned about the ray between by f: A^2 (1 + D^2 cos 2f).
+  // Two mirrors at 45 degrees; the second rotated by f about the ray between: A^2 (1 + D^2 cos 2f).
   const Real half = std::sqrt(0.5L);
   for (int degree = 0; degree <= 180; degree += 15) {
     const Real f = degree * std::acos(Real(-1)) / 180;
@@ -202,7 +202,7 @@ TYPED_TEST(StokesTest, FresnelRhombMakesCircularLight) {
   EXPECT_CLOSE((p.x * p.x).imag(), 1, 1e-15);
 }
 
-TYPED_TEST(StokesTest, LoopOfMirrorsIsTheProductOfHalfTurns) {
+TYPED_TEST(StokesTest, LoopOfMirrorsIsAProductOfHalfTurns) {
   MALUS_TYPES;
   // A ray z -> x -> y -> z on perfect mirrors: each maps the field by 2 n n^T - 1, n along d_out - d_in.
   const Vec axes[4] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -216,7 +216,7 @@ TYPED_TEST(StokesTest, LoopOfMirrorsIsTheProductOfHalfTurns) {
       const Vec n = oracle::unit(oracle::along(axes[i + 1], 1, axes[i], -1));
       const Complex en = oracle::dot(e, n);
       for (std::size_t j = 0; j < 3; ++j) e[j] = Real(2) * n[j] * en - e[j];
-      // Here the light itself is followed: its direction is the axis, that of an eye ray the opposite.
+      // Here the light itself is followed: its direction is the axis, opposite to that of a camera ray.
       const auto eyeIn = toReal3<O>(axes[i]) * real(-1), eyeOut = toReal3<O>(axes[i + 1]) * real(-1);
       const auto across = O::sDirection(eyeIn, toReal3<O>(n));
       s = turned<O>(s, eyeIn, across, true);
@@ -229,7 +229,7 @@ TYPED_TEST(StokesTest, LoopOfMirrorsIsTheProductOfHalfTurns) {
   }
 }
 
-TYPED_TEST(StokesTest, SlabOfGlassSumsAllItsReflections) {
+TYPED_TEST(StokesTest, SlabTransmittanceSeries) {
   MALUS_TYPES;
   for (int i = 1; i <= 100; ++i) {
     const real c = static_cast<real>(i) / 100;
@@ -264,11 +264,11 @@ TYPED_TEST(StokesTest, RandomChainsEqualJones) {
       for (std::size_t j = 0; j < 4; ++j) worst.add((got[j] - want[j]) / unpolarizedShare(path, index));
     }
   }
-  // Up to six interfaces, each with a dozen roundings and two turns, whose cosines steep angles magnify.
+  // Up to six interfaces, each with a dozen roundings and two rotations, whose cosines steep angles magnify.
   EXPECT_LT(worst.value(), 60);
 }
 
-TYPED_TEST(StokesTest, CircularLightCountsBetweenTwoGoldMirrorsInGlassOnes) {
+TYPED_TEST(StokesTest, CircularLightMattersBetweenTwoPhaseShifters) {
   MALUS_TYPES;
   // Glass, gold, gold, glass, each plane twisted by 45 degrees: the smallest chain where S3 matters.
   Draw draw(25);

@@ -9,7 +9,7 @@ using oracle::Vec;
 
 MALUS_OPTICS_SUITE(SurfacePointTest);
 
-TYPED_TEST(SurfacePointTest, NormalsTurnAgainstTheRay) {
+TYPED_TEST(SurfacePointTest, NormalsFaceTheRay) {
   MALUS_TYPES;
   const real3 g = O::make3(0, 0, 1), n = O::make3(R(0.1L), 0, 1);
   const real3 front = O::shadingNormal(O::make3(R(0.6L), 0, R(-0.8L)), g, n);
@@ -20,7 +20,7 @@ TYPED_TEST(SurfacePointTest, NormalsTurnAgainstTheRay) {
   EXPECT_CLOSE(back.x / back.z, 0.1L, 2 * kEps);
 }
 
-TYPED_TEST(SurfacePointTest, GeometricNormalWhereTheInterpolatedOneCannotBeUsed) {
+TYPED_TEST(SurfacePointTest, GeometricNormalReplacesUnusableNormal) {
   MALUS_TYPES;
   const real3 g = O::make3(0, 0, 1);
   // Facing away from the ray.
@@ -31,7 +31,7 @@ TYPED_TEST(SurfacePointTest, GeometricNormalWhereTheInterpolatedOneCannotBeUsed)
   EXPECT_EQ(O::shadingNormal(O::make3(1, 0, 0), g, g).x, 0);
 }
 
-TYPED_TEST(SurfacePointTest, EveryNormalSendsTheMirrorDirectionAboveTheFace) {
+TYPED_TEST(SurfacePointTest, ReflectionStaysAboveTheFace) {
   MALUS_TYPES;
   Draw draw(13);
   for (int i = 0; i < 5000; ++i) {
@@ -47,7 +47,7 @@ TYPED_TEST(SurfacePointTest, EveryNormalSendsTheMirrorDirectionAboveTheFace) {
   }
 }
 
-TYPED_TEST(SurfacePointTest, ErrorBoundHoldsTheTrueError) {
+TYPED_TEST(SurfacePointTest, ErrorBoundContainsTheTrueError) {
   MALUS_TYPES;
   Draw draw(14);
   for (int i = 0; i < 5000; ++i) {
@@ -81,7 +81,7 @@ TYPED_TEST(SurfacePointTest, IntersectionErrorGrowsWithTheTriangle) {
   EXPECT_CLOSE(O::intersectionError(far + O::make3(1, 0, 0), far, far, far, kEps / 2), 4 * kEps, 1e-3 * kEps);
 }
 
-TYPED_TEST(SurfacePointTest, OriginsLieBeyondTheErrorBox) {
+TYPED_TEST(SurfacePointTest, OriginsAreOutsideTheErrorBox) {
   MALUS_TYPES;
   Draw draw(15);
   for (int i = 0; i < 5000; ++i) {
@@ -103,7 +103,7 @@ TYPED_TEST(SurfacePointTest, OriginsLieBeyondTheErrorBox) {
   EXPECT_EQ(O::rayOrigin(O::splat3(0), O::splat3(0), O::make3(0, 0, 1), kEps), O::splat3(0));
 }
 
-TYPED_TEST(SurfacePointTest, StartsKeepAwayFromEdgesAndInside) {
+TYPED_TEST(SurfacePointTest, StartsStayInsideAndOffTheEdges) {
   MALUS_TYPES;
   Draw draw(16);
   int roomy = 0;

@@ -1,5 +1,5 @@
 // One call of every function of the optics, in the shared words: glsl_values_test.cpp runs it in C++ and, in a
-// compute shader, on the device. Structs of numbers alone, so that they lie in memory in the same way.
+// compute shader, on the device. Structs of numbers alone, so that their layout is the same.
 
 struct Given {
   real c;
@@ -110,7 +110,7 @@ FN Values valuesOf(Given g) {
   word bits = joinWord(halfBits(g.k2), fractionBits(g.cos2));
   r.halved = halfValue(lowHalf(bits));
   r.fraction = fractionValue(highHalf(bits));
-  // Denser than the first medium: GLSL has no exponential function in double for what fades.
+  // Denser than the first medium: GLSL has no exponential function in double for evanescent waves.
   r.film = thinFilm(g.c, R(1.0), R(1.0) + absR(g.cos2), R(1.25), R(1.0) + absR(g.sin2), g.k2);
   r.facet = facetNormal(g.d, g.n, R(0.25), R(0.5) * g.cos2, R(0.5) * g.sin2);
   r.facetShare = facetWeight(g.d, g.interpolated, g.n, R(0.25));

@@ -45,21 +45,21 @@ std::string plyText(const pack::Mesh& mesh) {
 }
 
 void writeEnvironment(const pack::Environment& environment, const fs::path& file) {
-  image::Image picture;
-  picture.width = picture.height = static_cast<int>(environment.size) + 2;
-  picture.channels = {"R", "G", "B"};
-  for (const glm::vec3& t : environment.texels) picture.pixels.insert(picture.pixels.end(), {t.x, t.y, t.z});
-  image::writeExr(file, picture);
+  image::Image image;
+  image.width = image.height = static_cast<int>(environment.size) + 2;
+  image.channels = {"R", "G", "B"};
+  for (const glm::vec3& t : environment.texels) image.pixels.insert(image.pixels.end(), {t.x, t.y, t.z});
+  image::writeExr(file, image);
 }
 
 // Linear texels, as the pack has them.
 void writeTexture(const pack::Texture& texture, const fs::path& file) {
-  image::Image picture;
-  picture.width = static_cast<int>(texture.width);
-  picture.height = static_cast<int>(texture.height);
-  picture.channels = {"R", "G", "B"};
-  for (const glm::vec3& t : texture.texels) picture.pixels.insert(picture.pixels.end(), {t.x, t.y, t.z});
-  image::writeExr(file, picture);
+  image::Image image;
+  image.width = static_cast<int>(texture.width);
+  image.height = static_cast<int>(texture.height);
+  image.channels = {"R", "G", "B"};
+  for (const glm::vec3& t : texture.texels) image.pixels.insert(image.pixels.end(), {t.x, t.y, t.z});
+  image::writeExr(file, image);
 }
 
 }  // namespace

@@ -16,17 +16,17 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The picture as a function of direction.
+// The image as a function of direction.
 class LatLong {
  public:
-  LatLong(const image::Image& picture, std::string_view where, double scale)
-      : width_(picture.width), height_(picture.height) {
-    const int r = picture.channel("R"), g = picture.channel("G"), b = picture.channel("B");
-    if (r < 0 || g < 0 || b < 0) throw Error(where, "environment picture has no colour", "channels R, G and B");
-    const auto channels = picture.channels.size();
+  LatLong(const image::Image& image, std::string_view where, double scale)
+      : width_(image.width), height_(image.height) {
+    const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
+    if (r < 0 || g < 0 || b < 0) throw Error(where, "environment image has no colour", "channels R, G and B");
+    const auto channels = image.channels.size();
     texels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     for (std::size_t i = 0; i < texels_.size(); ++i) {
-      const float* p = picture.pixels.data() + i * channels;
+      const float* p = image.pixels.data() + i * channels;
       const glm::dvec3 value(p[r], p[g], p[b]);
       for (int c = 0; c < 3; ++c)
         if (!std::isfinite(value[c]) || value[c] < 0)
@@ -87,9 +87,9 @@ struct Moments {
 
 }  // namespace
 
-void bakeEnvironment(const image::Image& picture, std::string_view where, double scale, double rotationDegrees,
+void bakeEnvironment(const image::Image& image, std::string_view where, double scale, double rotationDegrees,
                      pack::Environment& environment) {
-  const LatLong source(picture, where, scale);
+  const LatLong source(image, where, scale);
   const int size = std::min(source.height(), 1024);
 
   // Each texel is the mean of a 2 x 2 grid over its area.
@@ -115,7 +115,7 @@ void bakeEnvironment(const image::Image& picture, std::string_view where, double
         slot(i, j)[c] = pack::floatFromHalf(pack::halfFromFloat(static_cast<float>(value[c])));
     }
 
-  // The border repeats what lies across the edges: each edge of the square is folded about its middle.
+  // The border repeats the texels across the edges: each edge of the square is folded about its middle.
   for (int j = -1; j <= size; ++j)
     for (int i = -1; i <= size; ++i) {
       int x = i, y = j;
@@ -124,7 +124,7 @@ void bakeEnvironment(const image::Image& picture, std::string_view where, double
       if (x != i || y != j) slot(i, j) = slot(x, y);
     }
 
-  // Irradiance from the picture itself: every texel with its solid angle.
+  // Sum the irradiance over the texels of the image, each weighted by its solid angle.
   Moments moments;
   for (int y = 0; y < source.height(); ++y) {
     const double top = kPi * y / source.height(), bottom = kPi * (y + 1) / source.height(), middle = (top + bottom) / 2;

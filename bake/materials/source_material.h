@@ -1,5 +1,5 @@
-// What a file from outside says about a surface (glTF's terms, meshprep/read/source_scene.h) as one of malus's
-// materials. The first of these rules that fits:
+// Converts the material of an imported file (glTF's terms, meshprep/read/source_scene.h) into one of malus's materials
+// by the first of these rules that fits:
 //
 //   emissive over 0         emitter: radiance = emissive, whose cd/m^2 are taken as the scene's unit
 //   transmission over 0.5   glass: eta = ior; with a volume, absorption = -ln(attenuation colour) / attenuation
@@ -12,7 +12,7 @@
 //   alpha 0.3 or more       lambert: albedo = base colour
 //   otherwise               paint: albedo = base colour, eta = ior, roughness alpha
 //
-// alpha = roughness^2, as glTF has it; below 0.01 it is 0. ior is bounded by what a pack holds, 1 to 1000.
+// alpha = roughness^2, as glTF has it; below 0.01 it is 0. ior is clamped to 1 to 1000, the bounds of a pack.
 #pragma once
 
 #include <string>
@@ -23,10 +23,10 @@
 
 namespace malus::bake {
 
-// Named as the source; within the bounds of a pack. What is left out is added to notes.
+// Keeps the name; values are within the bounds of a pack. Adds a note for everything that is left out.
 pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<std::string>& notes);
 
-// Of parts that have none: lambert, albedo 0.8, named "default".
+// Material of parts without one: lambert, albedo 0.8, named "default".
 pack::Material defaultMaterial();
 
 }  // namespace malus::bake

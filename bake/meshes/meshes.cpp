@@ -17,18 +17,18 @@ namespace malus::bake {
 
 namespace {
 
-constexpr std::size_t kToldProblems = 3;
+constexpr std::size_t kReportedProblems = 3;
 
-// The first reasons why a mesh is no glass, component by component.
+// The first reasons why a mesh is not a body of glass, by component.
 std::string listProblems(const prep::Certificate& certificate) {
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   for (const prep::Problem& p : certificate.problems)
-    if (told.size() < kToldProblems)
-      told.push_back(fmt::format("component {}: {}, {}; {}", p.component, p.what, p.where, p.repair));
-  if (certificate.problems.size() > told.size())
-    told.push_back(
-        fmt::format("and {} more, see malus prep --certify glass", certificate.problems.size() - told.size()));
-  return fmt::format("{}", fmt::join(told, "; "));
+    if (reported.size() < kReportedProblems)
+      reported.push_back(fmt::format("component {}: {}, {}; {}", p.component, p.what, p.where, p.repair));
+  if (certificate.problems.size() > reported.size())
+    reported.push_back(
+        fmt::format("and {} more, see malus prep --certify glass", certificate.problems.size() - reported.size()));
+  return fmt::format("{}", fmt::join(reported, "; "));
 }
 
 class Placer {
@@ -39,7 +39,7 @@ class Placer {
   }
 
   void add(const MeshDescription& mesh) {
-    // Step 1: prepare; glass is looked at more closely.
+    // Prepare the mesh, and certify glass.
     const auto material =
         static_cast<std::uint32_t>(std::find_if(materials_.begin(), materials_.end(),
                                                 [&](const pack::Material& m) { return m.name == mesh.material; }) -
@@ -57,7 +57,7 @@ class Placer {
     requireCertificate(mesh.file, mesh.name, report);
     result_.reports.push_back(std::move(report));
 
-    // Step 2: every instance.
+    // Place the instances.
     for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
       std::string name = mesh.instances.size() == 1 ? mesh.name : fmt::format("{}.{}", mesh.name, i + 1);
       name = meshNames_.take(name);
@@ -67,10 +67,10 @@ class Placer {
 
   void add(const ImportDescription& import) {
     Imported imported = importScene(import, materials_, materialNames_, meshNames_);
-    std::vector<char> told(imported.parts.size(), 0);
+    std::vector<char> reported(imported.parts.size(), 0);
     for (ImportedMesh& mesh : imported.meshes) {
       const ImportedPart& part = imported.parts[mesh.part];
-      if (std::exchange(told[mesh.part], 1) == 0) requireCertificate(import.file, mesh.name, part.report);
+      if (std::exchange(reported[mesh.part], 1) == 0) requireCertificate(import.file, mesh.name, part.report);
       place(part.mesh, mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.openSurface);
     }
     for (ImportedPart& part : imported.parts) result_.reports.push_back(std::move(part.report));

@@ -1,4 +1,4 @@
-// The meshes of a scene where they stand: read, cleaned, certified where they are glass, and moved into world space.
+// Meshes of a scene in world space: read, cleaned, certified if they are glass, and transformed.
 #pragma once
 
 #include <functional>
@@ -15,11 +15,11 @@ namespace malus::bake {
 
 struct MeshSettings {
   bool allowOpenGlass = false;  // glass that is not certified is a note, not an error
-  bool keepMap = false;         // tell where vertices and faces come from (pack::Mesh)
+  bool keepMap = false;         // fill the map to the source (pack::Mesh)
 };
 
-// In world space, in double: rounding to float comes after the origin is taken off. `packed` has everything but the
-// geometry.
+// In world space, in double: positions are rounded to float after the origin is subtracted. `packed` has everything but
+// the geometry.
 struct PlacedMesh {
   prep::Mesh world;
   pack::Mesh packed;
@@ -27,12 +27,12 @@ struct PlacedMesh {
 
 struct PlacedMeshes {
   std::vector<PlacedMesh> meshes;
-  std::vector<prep::Report> reports;  // one a mesh of the description, then one a part of an import
-  std::vector<std::string> notes;     // what files hold and is left out, and glass that is open
+  std::vector<prep::Report> reports;  // per mesh of the description, then per part of an import
+  std::vector<std::string> notes;     // contents of files that are left out, and glass that is not certified
 };
 
-// Adds to materials those that imports bring. Throws Error: a mesh that cannot be read or cleaned, glass that is not
-// certified, more meshes than a pack holds.
+// Adds the materials of imports to materials. Throws Error: a mesh that cannot be read or cleaned, glass that is not
+// certified, more meshes than a pack can contain.
 PlacedMeshes placeMeshes(const SceneDescription& description, const MeshSettings& settings,
                          std::vector<pack::Material>& materials, const std::function<void(std::string_view)>& progress);
 

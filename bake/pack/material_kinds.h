@@ -10,7 +10,7 @@
 
 namespace malus::pack {
 
-// How a surface treats light. Values are those of the pack.
+// Kinds of material. Values are those of the pack.
 enum class MaterialKind : std::uint32_t {
 #define MALUS_MATERIAL_KIND(kind, value, name, surface, traits, summary) kind = (value),
 #include "bake/pack/material_kinds.def"

@@ -1,4 +1,4 @@
-// Pictures that stand for numbers of materials.
+// Textures of materials, baked from images.
 #pragma once
 
 #include "bake/pack/scene.h"
@@ -7,9 +7,9 @@
 
 namespace malus::bake {
 
-// Texels from a picture: linear (a picture that says or implies sRGB is decoded; IEC 61966-2-1), times scale, plus
-// offset. A picture of one or two channels is grey. name: for messages and the pack. Throws Error: too large, a value
-// outside of what the material's number may be.
-pack::Texture bakeTexture(const image::Image& picture, const TextureDescription& description, const std::string& name);
+// Returns the texels of an image: decoded from sRGB (IEC 61966-2-1) if it is an albedo and the file states or implies
+// sRGB, times scale, plus offset. An image of one or two channels is grey. name: for the pack. Throws Error: too large,
+// or a value outside the bounds of the material's number.
+pack::Texture bakeTexture(const image::Image& image, const TextureDescription& description, const std::string& name);
 
 }  // namespace malus::bake

@@ -1,4 +1,4 @@
-// What is different between two packs.
+// Differences between two packs.
 #include "bake/diff.h"
 
 #include <algorithm>

@@ -2,11 +2,10 @@
 // the encodings (whose errors are measured with the machine's arc tangent), one of the decoded geometry, and for each
 // mesh its counts, its bytes and the hash of its geometry.
 //
-// A hash that changed does not tell how: the failing test writes the pack that it baked and says how to compare it with
-// the one from before.
+// The test writes the pack whose hash changed and prints the commands that compare it with the one from before.
 //
-// After a change that is meant: MALUS_UPDATE_GOLDEN=1 test_golden writes tests/bake/golden.json anew (and
-// fails, so that no test run passes by it); the difference belongs into the same commit, with its reason.
+// After an intended change, MALUS_UPDATE_GOLDEN=1 test_golden rewrites tests/bake/golden.json (and fails, so that no
+// test run passes by it); commit the difference with the change and its reason.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -30,7 +29,7 @@ using nlohmann::json;
 const std::filesystem::path kSource = MALUS_SOURCE_DIR;
 const std::filesystem::path kGolden = kSource / "tests/bake/golden.json";
 
-// What the paper gives.
+// Counts of the paper.
 struct Expected {
   const char* name;
   std::uint64_t vertices, triangles;
@@ -95,7 +94,7 @@ std::string differences(const json& expected, const json& found) {
   std::string text;
   for (const auto& item : before.items())
     if (!after.contains(item.key()))
-      text += fmt::format("  {}: was {}, is gone\n", item.key(), item.value().dump());
+      text += fmt::format("  {}: was {}, is missing\n", item.key(), item.value().dump());
     else if (after[item.key()] != item.value())
       text += fmt::format("  {}: was {}, is {}\n", item.key(), item.value().dump(), after[item.key()].dump());
   for (const auto& item : after.items())
@@ -103,7 +102,7 @@ std::string differences(const json& expected, const json& found) {
   return text;
 }
 
-// How the pack of today is compared with that of the commit that golden.json belongs to.
+// Commands that compare the pack of today with that of the commit of golden.json.
 std::string howToCompare(const std::string& name, const std::filesystem::path& today) {
   return fmt::format(
       "To see what changed, bake the scene with the malus of the commit before and compare:\n"
@@ -177,7 +176,7 @@ TEST(GoldenDifference, IsReadable) {
   const json before = {{"vertices", 36}, {"sections", {{"GEOM", {{"hash", "aa"}}}, {"OLD", 1}}}};
   const json after = {{"vertices", 38}, {"sections", {{"GEOM", {{"hash", "bb"}}}}}, {"triangles", 2}};
   EXPECT_EQ(differences(before, after),
-            "  /sections/GEOM/hash: was \"aa\", is \"bb\"\n  /sections/OLD: was 1, is gone\n"
+            "  /sections/GEOM/hash: was \"aa\", is \"bb\"\n  /sections/OLD: was 1, is missing\n"
             "  /vertices: was 36, is 38\n  /triangles: is new, 2\n");
   EXPECT_EQ(differences(before, before), "");
 }

@@ -1,4 +1,4 @@
-// A pack taken apart: the numbers of the files are those of the pack.
+// Unpacking: the numbers of the files are those of the pack.
 #include "bake/unpack.h"
 
 #include "bake/pack/writer.h"

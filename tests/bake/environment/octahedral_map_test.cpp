@@ -211,10 +211,10 @@ TEST(Irradiance, OfAClampedCosineLobe) {
   }
 }
 
-TEST(OctahedralMap, BadPictures) {
+TEST(OctahedralMap, BadImages) {
   image::Image grey = picture(4, 2, colourOf);
   grey.channels = {"Y", "Z", "A"};
-  EXPECT_TRUE(contains(errorOf([&] { baked(grey); }), "sky.hdr: environment picture has no colour"));
+  EXPECT_TRUE(contains(errorOf([&] { baked(grey); }), "no colour"));
   for (const float bad : {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     image::Image source = picture(4, 2, colourOf);
     source.pixels[3 * 5 + 1] = bad;

@@ -1,4 +1,4 @@
-// Damaged and hostile packs: always an Error that says what and where, never a crash or a large allocation.
+// Damaged and hostile packs: an Error that names the problem and its place, never a crash or a large allocation.
 #include <sys/resource.h>
 
 #include <algorithm>

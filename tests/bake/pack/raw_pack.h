@@ -1,5 +1,5 @@
-// A scene pack taken apart and put together again with matching hashes, by a second implementation of
-// bake/FORMAT.md: so that damage behind a hash can be made.
+// Splits a scene pack into sections and joins them again with matching hashes: a second implementation of
+// bake/FORMAT.md, so that tests can damage contents and keep the hashes valid.
 #pragma once
 
 #include <cstring>

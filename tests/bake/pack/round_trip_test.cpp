@@ -1,4 +1,4 @@
-// A pack holds everything that a scene holds, and equal scenes are equal files.
+// A pack contains everything of its scene, and equal scenes give equal files.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

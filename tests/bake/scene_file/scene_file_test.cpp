@@ -1,4 +1,4 @@
-// scene.json: every key of bake/SCENE.md, and what happens to everything else.
+// scene.json: every key of bake/SCENE.md, and errors for everything else.
 #include "bake/scene_file/scene_file.h"
 
 #include <algorithm>

@@ -62,7 +62,7 @@ void tell(const Arguments& arguments, const Report& report) {
 
 // What is no glass is told in full, and not delivered.
 void requireCertificate(const Arguments& arguments, const Report& report) {
-  if (!report.certificate.checked || report.certificate.holds()) return;
+  if (!report.certificate.checked || report.certificate.isGranted()) return;
   tell(arguments, report);
   const Problem& first = report.certificate.problems.front();
   throw Error(arguments.input, fmt::format("is not certified as glass: component {}: {}", first.component, first.what),
@@ -164,7 +164,7 @@ void addPrepCommand(CLI::App& app) {
       ->type_name("KIND")
       ->default_str("crease");
   prep->add_flag("--flat", arguments->options.flat, "Normals are those of the faces; no vertex is split");
-  prep->add_flag("--sheet", arguments->options.sheet, "An open surface on purpose: its side is kept");
+  prep->add_flag("--sheet", arguments->options.openSurface, "An open surface on purpose: its side is kept");
   prep->add_option("--crease", arguments->options.creaseDegrees, "Edges sharper than this get two normals")
       ->check(CLI::Range(0.0, 180.0))
       ->type_name("DEGREES")

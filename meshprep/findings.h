@@ -1,4 +1,4 @@
-// What one step of preparation found or did: how often, and the first of them by name and place.
+// Findings of a step of preparation: their number, and the first ones with their location.
 #pragma once
 
 #include <cstddef>
@@ -14,26 +14,26 @@
 
 namespace malus::prep {
 
-// One thing. Vertices and faces are those of the source file, counted from 0.
+// A single finding. Vertices and faces are indices in the source file, from 0.
 struct Finding {
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> faces;
-  glm::dvec3 at{0};   // metres, in the axes of the file
-  std::string what;   // in words; empty where the step's name says it all
-  std::string place;  // in the file, as messages name it; prepare() fills it in where the reader told it
+  glm::dvec3 at{0};            // metres, in the axes of the file
+  std::string what;            // description; empty if the name of the step suffices
+  std::string sourceLocation;  // "FILE:LINE" or "FILE, byte N"; set by prepare() if known
 };
 
 // Returns "faces 3, 4, vertex 7 at (1, 2, 3), model.obj:17", without unknown parts.
 std::string describe(const Finding& finding);
 
-// No step lists more than this; all are counted.
+// Largest number of listed findings of a step. All are counted.
 inline constexpr std::size_t kListed = 1000;
 
 struct Findings {
   std::uint64_t count = 0;
   std::vector<Finding> first;
 
-  // make() gives the finding; it is called only for those that are listed.
+  // Counts a finding, and calls make() for it if it is listed.
   template <class Make>
   void add(Make make) {
     ++count;
@@ -47,6 +47,7 @@ struct Findings {
   }
 };
 
+// Index in the source file.
 inline std::uint32_t sourceVertex(const Mesh& mesh, std::size_t vertex) {
   return mesh.sourceVertices.empty() ? static_cast<std::uint32_t>(vertex) : mesh.sourceVertices[vertex];
 }
@@ -54,7 +55,7 @@ inline std::uint32_t sourceFace(const Mesh& mesh, std::size_t triangle) {
   return mesh.sourceFaces.empty() ? static_cast<std::uint32_t>(triangle) : mesh.sourceFaces[triangle];
 }
 
-// A finding about these triangles and vertices of the mesh as it is now.
+// Returns a finding at these triangles and vertices of the current mesh.
 inline Finding findingAt(const Mesh& mesh, const glm::dvec3& at, std::initializer_list<std::size_t> triangles,
                          std::initializer_list<std::size_t> vertices = {}, std::string what = {}) {
   Finding finding;

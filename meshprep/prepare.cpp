@@ -13,9 +13,9 @@
 
 #include "meshprep/base/error.h"
 #include "meshprep/certify/glass.h"
+#include "meshprep/clean/fixed_point.h"
 #include "meshprep/clean/intersections.h"
 #include "meshprep/clean/junctions.h"
-#include "meshprep/clean/rounds.h"
 #include "meshprep/clean/select.h"
 #include "meshprep/clean/triangulate.h"
 #include "meshprep/normals/authored_normals.h"
@@ -30,16 +30,16 @@ namespace {
 
 void checkOptions(const Options& options) {
   if (!(options.creaseDegrees >= 0 && options.creaseDegrees <= 180))
-    throw Error("prep", "a crease angle out of bounds", "0 to 180 degrees", fmt::to_string(options.creaseDegrees));
+    throw Error("prep", "crease angle out of range", "0 to 180 degrees", fmt::to_string(options.creaseDegrees));
   const double tolerance = options.steps.weldTolerance;
   if (!(tolerance >= 0) || !std::isfinite(tolerance))
-    throw Error("prep", "a weld tolerance out of bounds", "0 or more metres", fmt::to_string(tolerance));
+    throw Error("prep", "weld tolerance out of range", "0 metres or more", fmt::to_string(tolerance));
   if (!(options.weldRelative >= 0 && options.weldRelative <= 1))
-    throw Error("prep", "a relative weld tolerance out of bounds", "0 to 1", fmt::to_string(options.weldRelative));
+    throw Error("prep", "relative weld tolerance out of range", "0 to 1", fmt::to_string(options.weldRelative));
   checkSimplifyBounds(options.simplify);
   if (!options.simplify.any()) return;
   if (options.asIs)
-    throw Error("prep --simplify", "simplification needs a cleaned mesh", "a mesh that is not taken as it is");
+    throw Error("prep --simplify", "simplification needs a cleaned mesh", "\"asIs\": false");
   const Cleaning& steps = options.steps;
   if (!steps.degenerate || !steps.duplicates || !steps.orient || !steps.fans)
     throw Error("prep --simplify", "simplification needs an oriented manifold",
@@ -60,21 +60,22 @@ std::vector<std::uint32_t> faceMaterials(const Polygons& polygons) {
   return materials;
 }
 
-// The file's own normals, made unit.
+// Returns the normals of the file, normalized.
 std::vector<glm::vec3> authoredNormals(const Polygons& polygons, const std::string& source) {
-  if (polygons.normals.empty()) throw Error(source, "has no normals", "nx, ny, nz in a PLY file, or a flat mesh");
+  if (polygons.normals.empty())
+    throw Error(source, "file has no normals", "nx, ny, nz in a PLY file, or \"flat\": true");
   std::vector<glm::vec3> normals;
   for (std::size_t i = 0; i < polygons.normals.size(); ++i) {
     const glm::dvec3 n(polygons.normals[i]);
     const double length = glm::length(n);
     if (!(length > 0) || !std::isfinite(length))
-      throw Error(source, fmt::format("the normal of vertex {} has no length", i), "a direction");
+      throw Error(source, fmt::format("normal of vertex {} has no length", i), "a direction");
     normals.emplace_back(n / length);
   }
   return normals;
 }
 
-// The steps, each with its entry in the report.
+// Runs the steps and fills the report.
 class Preparation {
  public:
   // faceMaterials: of the faces of the source; empty if they all have the same.
@@ -82,9 +83,9 @@ class Preparation {
       : mesh_(std::move(mesh)), options_(options), faceMaterials_(std::move(faceMaterials)), report_(report) {}
 
   Mesh run() {
-    nameSources();
-    cleanUp();
-    look();
+    setSources();
+    cleanMesh();
+    inspect();
     addNormals();
     report_.output.vertices = mesh_.positions.size();
     report_.output.triangles = mesh_.triangles.size();
@@ -97,8 +98,8 @@ class Preparation {
     report_.steps.push_back({std::move(name), findings.count, std::move(findings.first)});
   }
 
-  // A mesh in memory is its own source.
-  void nameSources() {
+  // Sets the sources of a mesh in memory, which is its own source.
+  void setSources() {
     if (mesh_.sourceVertices.empty()) {
       mesh_.sourceVertices.resize(mesh_.positions.size());
       std::iota(mesh_.sourceVertices.begin(), mesh_.sourceVertices.end(), 0u);
@@ -110,26 +111,26 @@ class Preparation {
     mesh_.sourceCorners.clear();
     for (const glm::uvec3& t : mesh_.triangles)
       mesh_.sourceCorners.emplace_back(mesh_.sourceVertices[t.x], mesh_.sourceVertices[t.y], mesh_.sourceVertices[t.z]);
-    mesh_.turned.assign(mesh_.triangles.size(), 0);
+    mesh_.flipped.assign(mesh_.triangles.size(), 0);
   }
 
   double weldTolerance() const {
     if (options_.weldRelative == 0 || mesh_.triangles.empty()) return options_.steps.weldTolerance;
     glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
-    for (const glm::uvec3& t : mesh_.triangles)  // what no face names may lie anywhere
+    for (const glm::uvec3& t : mesh_.triangles)  // ignore unused vertices
       for (int k = 0; k < 3; ++k)
         low = glm::min(low, mesh_.positions[t[k]]), high = glm::max(high, mesh_.positions[t[k]]);
     return std::max(options_.steps.weldTolerance, options_.weldRelative * glm::distance(low, high));
   }
 
-  void cleanUp() {
+  void cleanMesh() {
     Cleaning steps = options_.steps;
-    steps.sheet = options_.sheet;
+    steps.openSurface = options_.openSurface;
     if (!report_.source.empty()) steps.where = report_.source;
     steps.weldTolerance = weldTolerance();
-    Cleaned done = cleanInRounds(mesh_, steps);
+    Cleaned done = cleanToFixedPoint(mesh_, steps);
     if (mesh_.triangles.empty())
-      throw Error(report_.source.empty() ? "mesh" : report_.source, "nothing is left after cleaning",
+      throw Error(report_.source.empty() ? "mesh" : report_.source, "no triangle is left after cleaning",
                   "a triangle with area");
     step("vertices-welded", std::move(done.welded.joined));
     step("welds-refused", std::move(done.welded.refused));
@@ -140,16 +141,16 @@ class Preparation {
     step("faces-dropped-duplicate", std::move(done.duplicates.same));
     step(steps.dropOpposite ? "faces-dropped-opposite" : "faces-opposite", std::move(done.duplicates.opposite));
     step("vertices-dropped-unreferenced", std::move(done.unreferenced));
-    step("edges-taken-apart", std::move(done.fans.edges));
+    step("edges-separated", std::move(done.fans.edges));
     step("vertices-split", std::move(done.fans.vertices));
     step("edges-cut", done.fans.cutEdges);
     step("holes", std::move(done.holes));
     step("holes-filled", std::move(done.filled.filled));
     step("holes-left", std::move(done.filled.left));
-    step("rounds-ran-out", done.settled ? 0 : 1);
-    sides_ = std::move(done.sides);
+    step("cleaning-not-converged", done.converged ? 0 : 1);
+    orientation_ = std::move(done.orientation);
     if (options_.simplify.any()) simplifyMesh();
-    tellSides();
+    reportOrientation();
   }
 
   void simplifyMesh() {
@@ -160,7 +161,7 @@ class Preparation {
     if (!faceMaterials_.empty())
       for (const std::uint32_t face : mesh_.sourceFaces) materials.push_back(faceMaterials_[face]);
     lines.materials = materials;
-    if (sides_.notOrientable > 0) {
+    if (orientation_.notOrientable > 0) {
       report_.simplification = {true, mesh_.triangles.size(), mesh_.triangles.size(), 0, 0, {}};
       report_.simplification.warnings.emplace_back(
           "the mesh is unchanged: a component has one side only; cut it where it twists");
@@ -168,57 +169,57 @@ class Preparation {
     }
     if (options_.certifyGlass) unsimplified_ = mesh_;
     report_.simplification = simplify(mesh_, options_.simplify, lines);
-    sides_ = orient(mesh_, options_.sheet);
+    orientation_ = orient(mesh_, options_.openSurface);
   }
 
   // Problems of a mesh that would be certified without simplification need another repair.
   void blameSimplification() {
     const Simplification& s = report_.simplification;
-    if (report_.certificate.holds() || s.trianglesAfter == s.trianglesBefore) return;
-    const OrientResult sides = orient(unsimplified_, options_.sheet);
+    if (report_.certificate.isGranted() || s.trianglesAfter == s.trianglesBefore) return;
+    const OrientResult sides = orient(unsimplified_, options_.openSurface);
     Intersections intersections;
-    if (!options_.sheet) intersections = findIntersections(unsimplified_);
-    if (!certifyGlass(unsimplified_, options_.sheet, {sides, intersections}).holds()) return;
+    if (!options_.openSurface) intersections = findIntersections(unsimplified_);
+    if (!certifyGlass(unsimplified_, options_.openSurface, {sides, intersections}).isGranted()) return;
     for (Problem& problem : report_.certificate.problems)
       problem.repair =
           "simplify less, because the mesh is certified without simplification: lower --simplify-error or "
           "--simplify-normal, or raise --simplify-triangles";
   }
 
-  void tellSides() {
-    step("edges-boundary", sides_.boundaryEdges);
-    step("edges-non-manifold", sides_.nonManifoldEdges);
-    step("components-not-orientable", sides_.notOrientable);
-    step("components-without-volume", sides_.withoutVolume);
-    step("components-nested", sides_.nested);
-    step("components-nesting-unchecked", sides_.nestingUnchecked);
+  void reportOrientation() {
+    step("edges-boundary", orientation_.boundaryEdges);
+    step("edges-non-manifold", orientation_.nonManifoldEdges);
+    step("components-not-orientable", orientation_.notOrientable);
+    step("components-without-volume", orientation_.withoutVolume);
+    step("components-nested", orientation_.nested);
+    step("components-nesting-unchecked", orientation_.nestingUnchecked);
     Findings flipped;
-    for (Component& c : sides_.components) c.flipped = 0;
-    for (std::size_t i = 0; i < mesh_.turned.size(); ++i) {
-      if (mesh_.turned[i] == 0) continue;
+    for (Component& c : orientation_.components) c.flipped = 0;
+    for (std::size_t i = 0; i < mesh_.flipped.size(); ++i) {
+      if (mesh_.flipped[i] == 0) continue;
       flipped.add([&] { return findingAt(mesh_, centroid(mesh_, i), {i}); });
-      ++sides_.components[sides_.componentOf[i]].flipped;
+      ++orientation_.components[orientation_.componentOf[i]].flipped;
     }
-    step("faces-turned-over", std::move(flipped));
-    report_.components = sides_.components;
+    step("faces-flipped", std::move(flipped));
+    report_.components = orientation_.components;
   }
 
-  // What is told and left.
-  void look() {
+  // Reports defects that are not repaired.
+  void inspect() {
     if (options_.findJunctions) {
       Junctions junctions = findJunctions(mesh_);
       step("t-junctions", std::move(junctions.found));
       step("t-junctions-unchecked", junctions.complete ? 0 : 1);
     }
     Intersections intersections;
-    if (options_.findIntersections || (options_.certifyGlass && !options_.sheet)) {
+    if (options_.findIntersections || (options_.certifyGlass && !options_.openSurface)) {
       intersections = findIntersections(mesh_);
       step("faces-crossing", describePairs(mesh_, intersections.crossing));
       step("faces-coincident", describePairs(mesh_, intersections.coincident));
       step("faces-crossing-unchecked", intersections.complete ? 0 : 1);
     }
     if (!options_.certifyGlass) return;
-    report_.certificate = certifyGlass(mesh_, options_.sheet, {sides_, intersections});
+    report_.certificate = certifyGlass(mesh_, options_.openSurface, {orientation_, intersections});
     blameSimplification();
   }
 
@@ -229,14 +230,15 @@ class Preparation {
     if (options_.flat) {
       mesh_.normals.clear();
     } else if (options_.normals == Normals::authored) {
-      if (mesh_.cornerNormals.empty()) throw Error(report_.source, "has no normals", "normals, or --normals crease");
+      if (mesh_.cornerNormals.empty())
+        throw Error(report_.source, "file has no normals", "normals in the file, or --normals crease");
       AuthoredNormals authored = addAuthoredNormals(mesh_, options_.creaseDegrees);
       counts = authored.counts;
       against = std::move(authored.against);
       missing = authored.missing;
     } else if (options_.normals == Normals::smoothing) {
       if (mesh_.smoothingGroups.empty())
-        throw Error(report_.source, "has no smoothing groups", "'s' statements, or --normals crease");
+        throw Error(report_.source, "file has no smoothing groups", "'s' statements, or --normals crease");
       counts = addSmoothingNormals(mesh_);
     } else {
       counts = addCreaseNormals(mesh_, options_.creaseDegrees);
@@ -252,21 +254,21 @@ class Preparation {
   std::vector<std::uint32_t> faceMaterials_;
   Mesh unsimplified_;  // kept for a certificate
   Report& report_;
-  OrientResult sides_;
+  OrientResult orientation_;
 };
 
-// Where in the file the findings are.
-void addPlaces(const Polygons& polygons, Report& report) {
-  const auto place = [&](const std::vector<std::uint64_t>& places,
-                         const std::vector<std::uint32_t>& ids) -> std::string {
-    if (ids.empty() || ids.front() >= places.size()) return {};
-    return polygons.locationsAreBytes ? fmt::format("{}, byte {}", report.source, places[ids.front()])
-                                      : fmt::format("{}:{}", report.source, places[ids.front()]);
+// Sets the locations of the findings in the file.
+void addLocations(const Polygons& polygons, Report& report) {
+  const auto locate = [&](const std::vector<std::uint64_t>& locations,
+                          const std::vector<std::uint32_t>& ids) -> std::string {
+    if (ids.empty() || ids.front() >= locations.size()) return {};
+    return polygons.locationsAreBytes ? fmt::format("{}, byte {}", report.source, locations[ids.front()])
+                                      : fmt::format("{}:{}", report.source, locations[ids.front()]);
   };
   for (Step& step : report.steps)
     for (Finding& finding : step.findings) {
-      finding.place = place(polygons.faceLocations, finding.faces);
-      if (finding.place.empty()) finding.place = place(polygons.vertexLocations, finding.vertices);
+      finding.sourceLocation = locate(polygons.faceLocations, finding.faces);
+      if (finding.sourceLocation.empty()) finding.sourceLocation = locate(polygons.vertexLocations, finding.vertices);
     }
 }
 
@@ -290,12 +292,12 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
   report.input.vertices = polygons.positions.size();
   report.input.faces = polygons.faceCount();
 
-  // Step 1: triangles.
+  // Triangulate.
   TriangulateCounts counts;
   Mesh mesh;
   try {
     mesh = triangulate(polygons, counts);
-  } catch (const Error& error) {  // which names the face alone
+  } catch (const Error& error) {  // names only the face
     throw Error(source, error.what());
   }
   report.steps.push_back({"polygons-triangulated", counts.polygons, {}});
@@ -304,7 +306,7 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
   report.steps.push_back({"polygons-self-crossing", counts.crossing, {}});
   report.steps.push_back({"polygon-corners-repeated", counts.repeatedCorners, {}});
 
-  // Step 2: everything else, or nothing.
+  // Clean, unless the mesh is used unchanged.
   if (options.asIs) {
     if (!options.flat) mesh.normals = authoredNormals(polygons, report.source);
     report.output.vertices = mesh.positions.size();
@@ -312,7 +314,7 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
     return mesh;
   }
   mesh = Preparation(std::move(mesh), options, faceMaterials(polygons), report).run();
-  addPlaces(polygons, report);
+  addLocations(polygons, report);
   return mesh;
 }
 

@@ -29,7 +29,7 @@ nlohmann::json findingJson(const Finding& finding) {
   if (!finding.vertices.empty()) json["vertices"] = finding.vertices;
   if (!finding.faces.empty()) json["faces"] = finding.faces;
   if (!finding.what.empty()) json["what"] = finding.what;
-  if (!finding.place.empty()) json["place"] = finding.place;
+  if (!finding.sourceLocation.empty()) json["sourceLocation"] = finding.sourceLocation;
   return json;
 }
 
@@ -66,7 +66,7 @@ nlohmann::json toJson(const Report& report) {
                               {"warnings", s.warnings}};
   }
   if (report.certificate.checked) {
-    json["certificate"] = {{"holds", report.certificate.holds()}, {"problems", nlohmann::json::array()}};
+    json["certificate"] = {{"granted", report.certificate.isGranted()}, {"problems", nlohmann::json::array()}};
     for (const Problem& p : report.certificate.problems)
       json["certificate"]["problems"].push_back(
           {{"component", p.component}, {"what", p.what}, {"where", p.where}, {"repair", p.repair}});
@@ -91,31 +91,31 @@ nlohmann::json toJson(const Report& report) {
 }
 
 std::string toText(const Report& report) {
-  // Step 1: before and after.
+  // Print the counts before and after.
   std::string text = fmt::format("{}\n", report.source);
   text += fmt::format("  {:<34}{:>12}{:>12}\n", "", "before", "after");
   text += fmt::format("  {:<34}{:>12}{:>12}\n", "vertices", report.input.vertices, report.output.vertices);
   text += fmt::format("  {:<34}{:>12}{:>12}\n", "faces, triangles", report.input.faces, report.output.triangles);
 
-  // Step 2: what was found and done.
+  // Print steps with findings.
   for (const Step& step : report.steps)
     if (step.count > 0)
       text += fmt::format("  {:<34}{:>12}{}\n", step.name, step.count,
                           step.findings.empty() ? ""
                                                 : fmt::format("  {}{}", step.count > 1 ? "first: " : "",
                                                               describe(step.findings.front())));
-  for (const std::string& note : report.notes) text += fmt::format("  left out: {}\n", note);
+  for (const std::string& note : report.notes) text += fmt::format("  ignored: {}\n", note);
 
-  // Step 3: components, in numbers.
+  // Print the numbers of components.
   const auto count = [&](auto which) {
     return std::count_if(report.components.begin(), report.components.end(), which);
   };
   text += fmt::format("  {:<34}{:>12}\n", "components", report.components.size());
   text += fmt::format("  {:<34}{:>12}\n", "  closed", count([](const Component& c) { return c.closed; }));
-  text += fmt::format("  {:<34}{:>12}\n", "  with turned triangles",
+  text += fmt::format("  {:<34}{:>12}\n", "  with flipped triangles",
                       count([](const Component& c) { return c.flipped > 0; }));
 
-  // Step 4: simplification.
+  // Print simplification.
   if (report.simplification.applied) {
     const Simplification& s = report.simplification;
     text += fmt::format("  {:<34}{:>12}{:>12}\n", "triangles simplified", s.trianglesBefore, s.trianglesAfter);
@@ -124,17 +124,17 @@ std::string toText(const Report& report) {
     for (const std::string& warning : s.warnings) text += fmt::format("  warning: {}\n", warning);
   }
 
-  // Step 5: the certificate.
+  // Print the certificate.
   if (report.certificate.checked) {
-    text += fmt::format("  {:<34}{:>12}\n", "certificate", report.certificate.holds() ? "holds" : "refused");
+    text += fmt::format("  {:<34}{:>12}\n", "certificate", report.certificate.isGranted() ? "granted" : "refused");
     for (const Problem& p : report.certificate.problems)
       text += fmt::format("    component {}: {}; {}; {}\n", p.component, p.what, p.where, p.repair);
   }
 
-  // Step 6: compression.
+  // Print compression.
   if (report.compression.bytes > 0) {
     const auto& c = report.compression;
-    text += fmt::format("  {:<34}{:>12} bytes, {:.2f} a triangle\n", "compressed", c.bytes, bytesPerTriangle(report));
+    text += fmt::format("  {:<34}{:>12} bytes, {:.2f} per triangle\n", "compressed", c.bytes, bytesPerTriangle(report));
     text += fmt::format("  {:<34}{:>12}{}{}\n", "  method", c.method, c.sequentialReason.empty() ? "" : ": ",
                         c.sequentialReason);
     text += fmt::format("  {:<34}{:>12} positions, {} normals\n", "  bits", c.positionBits, c.normalBits);

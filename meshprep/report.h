@@ -1,6 +1,5 @@
-// What preparation did to a mesh: counts before and after, one entry for every step with what it found and where, the
-// connected components, what a certificate says, and the errors that compression adds. Lengths in metres, angles in
-// degrees.
+// Report of preparation: counts before and after, the findings of each step, connected components, certificate, and
+// compression with its errors. Lengths are in metres, angles in degrees.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +15,7 @@
 
 namespace malus::prep {
 
-// One thing that was found or done, how often, and the first of them. Names are stable: see prepare.cpp, where they
-// are given.
+// Findings of one step. The names ("vertices-welded", ...) are set in prepare.cpp and are stable.
 struct Step {
   std::string name;
   std::uint64_t count = 0;
@@ -35,7 +33,7 @@ struct Simplification {
 
 struct Report {
   std::string source;
-  std::vector<std::string> notes;  // what the file holds and reading left out
+  std::vector<std::string> notes;  // content of the file that was ignored
   struct {
     std::uint64_t vertices = 0;
     std::uint64_t faces = 0;
@@ -49,41 +47,39 @@ struct Report {
   Simplification simplification;
   Certificate certificate;
 
-  // Set where the mesh was compressed: bytes > 0.
+  // Set if the mesh was compressed (bytes > 0).
   struct {
     double positionMax = 0;        // metres
     double normalMaxDegrees = 0;   // degrees
-    double tiltMaxDegrees = 0;     // of faces that have area
+    double tiltMaxDegrees = 0;     // of faces with area
     std::uint64_t flipped = 0;     // faces tilted by more than 90 degrees
     std::uint64_t degenerate = 0;  // faces that lost their area
   } errors;
   struct {
     std::string method;
     std::uint64_t bytes = 0;
-    std::string sequentialReason;  // empty where the method is edgebreaker
+    std::string sequentialReason;  // reason against edgebreaker; empty if it is used
     int positionBits = 0;
-    int normalBits = 0;                 // 0 where there are no normals
-    double encodeMs = 0, decodeMs = 0;  // wall clock
-    std::vector<std::string> warnings;  // default bounds that are not kept
+    int normalBits = 0;                 // 0 without normals
+    double encodeMs = 0, decodeMs = 0;  // wall-clock time
+    std::vector<std::string> warnings;  // exceeded default bounds
   } compression;
 
-  // The count of a step; 0 where there was no such step.
+  // Returns the count of a step, 0 if there is no such step.
   std::uint64_t count(std::string_view step) const;
 };
 
 // {source, notes[], input{vertices, faces}, output{vertices, triangles},
-//  steps[{name, count, findings[{vertices, faces, at, what, place}]}],
+//  steps[{name, count, findings[{vertices, faces, at, what, sourceLocation}]}],
 //  components[{triangles, closed, orientable, flipped, signedVolume, hasVolume, at, firstFace}],
 //  simplification{trianglesBefore, trianglesAfter, maxDeviation, maxNormalDegrees, warnings},
-//  certificate{holds, problems[{component, what, where, repair}]}, errors{positionMax, normalMaxDegrees,
+//  certificate{granted, problems[{component, what, where, repair}]}, errors{positionMax, normalMaxDegrees,
 //  tiltMaxDegrees, flipped, degenerate}, compression{method, sequentialReason, bytes, bytesPerTriangle, positionBits,
-//  normalBits, encodeMs, decodeMs, warnings}}; simplification and certificate only where they were requested, errors
-//  and compression only
-// where the mesh was compressed, findings and their parts only where there are any.
+//  normalBits, encodeMs, decodeMs, warnings}}; simplification and certificate only if requested, errors and
+//  compression only if the mesh was compressed, findings and their members only if they are not empty.
 nlohmann::json toJson(const Report& report);
 
-// A table for a terminal, ending in a line break. Steps that found nothing are left out; of the others the first
-// finding is shown.
+// Returns a table for a terminal, which ends with a newline. Contains the steps with findings, and the first of each.
 std::string toText(const Report& report);
 
 }  // namespace malus::prep

@@ -124,7 +124,7 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     const prep::SourcePart& part = source.parts[index];
     const bool authored = !part.polygons.normals.empty() || !part.polygons.cornerNormals.empty();
     prep::Options options = description.preparation;
-    options.sheet = openSurface;
+    options.openSurface = openSurface;
     options.certifyGlass = glass;
     options.normals = description.normals.value_or(authored ? prep::Normals::authored : prep::Normals::crease);
     ImportedPart made;

@@ -47,7 +47,7 @@ class Placer {
     const bool glass = pack::hasInside(materials_[material].kind);
     prep::Options options = mesh.preparation;
     options.certifyGlass = glass && !options.asIs;
-    if (glass && options.asIs && !options.sheet)
+    if (glass && options.asIs && !options.openSurface)
       throw Error(mesh.file.string(), fmt::format("mesh '{}' is a glass body with \"asIs\"", mesh.name),
                   "\"openSurface\": true beside \"asIs\": true, because it is not checked that the mesh is closed");
     const prep::Polygons polygons = prep::readMesh(mesh.file);
@@ -61,7 +61,7 @@ class Placer {
     for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
       std::string name = mesh.instances.size() == 1 ? mesh.name : fmt::format("{}.{}", mesh.name, i + 1);
       name = meshNames_.take(name);
-      place(prepared, transformMatrix(mesh.instances[i]), std::move(name), material, options.sheet);
+      place(prepared, transformMatrix(mesh.instances[i]), std::move(name), material, options.openSurface);
     }
   }
 
@@ -81,7 +81,7 @@ class Placer {
 
  private:
   void requireCertificate(const std::filesystem::path& file, const std::string& name, const prep::Report& report) {
-    if (!report.certificate.checked || report.certificate.holds()) return;
+    if (!report.certificate.checked || report.certificate.isGranted()) return;
     const std::string what =
         fmt::format("mesh '{}' is not certified as glass: {}", name, listProblems(report.certificate));
     if (!settings_.allowOpenGlass)

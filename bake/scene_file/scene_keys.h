@@ -252,7 +252,7 @@ void visitMeshKeys(Visitor&& visit, Meshes&... m) {
                       "An open glass surface needs another behind each of its faces",
               .key = Key::optional,
               .alias = "sheet"},
-        m.preparation.sheet...);
+        m.preparation.openSurface...);
   visit(
       Field{.name = "asIs",
             .text =

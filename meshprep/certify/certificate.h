@@ -17,8 +17,8 @@ struct Problem {
 
 struct Certificate {
   bool checked = false;           // the certificate was requested
-  std::vector<Problem> problems;  // reasons to refuse it; empty if it holds
-  bool holds() const { return checked && problems.empty(); }
+  std::vector<Problem> problems;  // reasons to refuse it; empty if it is granted
+  bool isGranted() const { return checked && problems.empty(); }
 };
 
 }  // namespace malus::prep

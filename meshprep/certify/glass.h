@@ -1,13 +1,14 @@
-// Whether a mesh can be a body that light passes through: where it is not, a ray that enters never leaves, or leaves
-// twice, and the renderers' record of what it is inside of goes wrong without a word.
+// Certification of a mesh as glass. In a mesh that is not certified, a ray that enters may not leave, or leave twice,
+// and the renderers' record of the medium around a ray becomes wrong without an error.
 //
-// A body: every component closed, its two sides told apart, with an inside, turned outward (inward where it is a
-// cavity: orient.h), without edges of more than two triangles, without triangles that cross, touch but in corners and
-// edges of both, or lie on each other. It holds for the mesh as it is cleaned, in double and in its own space: not for
-// what another mesh of the scene does to it, nor for what rounding to float and to a grid may bring into contact. A
-// sheet, open on purpose: only that the two sides of every component are told apart, and that it has a partner: behind
-// every triangle, against its normal, lies one of the mesh that is left by its front. A single interface, such as the
-// surface of a lake, is no pair.
+// A solid: every component is closed, orientable, has a volume, and is oriented outward (inward if it is a cavity:
+// orient.h). No edge has more than two triangles. No triangles cross, coincide, or touch outside of their shared
+// corners and edges. This is checked for the cleaned mesh, in double and in its own space. Other meshes of the scene,
+// and rounding to float and to a grid, may cause contacts that are not checked.
+//
+// An open surface: every component is orientable, and has an opposite surface: the ray from a face against its normal
+// leaves through the front of another face. This is sampled. A single interface, such as the surface of a lake, is not
+// certified.
 #pragma once
 
 #include "meshprep/certify/certificate.h"
@@ -16,13 +17,13 @@
 
 namespace malus::prep {
 
-// What cleaning found: of the mesh as it is now, before normals split its vertices.
+// Findings of cleaning, for the current mesh, before normals split its vertices.
 struct GlassEvidence {
-  const OrientResult& sides;
+  const OrientResult& orientation;
   const Intersections& intersections;
 };
 
-// The first problem of each kind is told for every component.
-Certificate certifyGlass(const Mesh& mesh, bool sheet, const GlassEvidence& evidence);
+// Reports the number and the first of each kind of problem per component.
+Certificate certifyGlass(const Mesh& mesh, bool openSurface, const GlassEvidence& evidence);
 
 }  // namespace malus::prep

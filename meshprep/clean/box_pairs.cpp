@@ -18,7 +18,7 @@ using Point = bg::model::point<double, 3, bg::cs::cartesian>;
 using TreeBox = bg::model::box<Point>;
 using Entry = std::pair<TreeBox, std::uint32_t>;
 
-constexpr std::uint64_t kBatch = 1024;  // pairs of a box between two looks at the number of all
+constexpr std::uint64_t kBatch = 1024;  // pairs of a box between updates of the total
 
 TreeBox treeBox(const Box& box) { return {{box.low.x, box.low.y, box.low.z}, {box.high.x, box.high.y, box.high.z}}; }
 
@@ -26,14 +26,14 @@ TreeBox treeBox(const Box& box) { return {{box.low.x, box.low.y, box.low.z}, {bo
 
 bool forOverlappingBoxes(std::span<const Box> a, std::span<const Box> b, std::uint64_t most,
                          const std::function<bool(std::uint32_t, std::uint32_t)>& visit) {
-  // Step 1: the tree, packed from all entries at once.
+  // Build the tree from all entries at once.
   std::vector<Entry> entries;
   entries.reserve(b.size());
   for (std::uint32_t j = 0; j < b.size(); ++j) entries.emplace_back(treeBox(b[j]), j);
   const bg::index::rtree<Entry, bg::index::quadratic<16>> tree(entries);
   entries = {};
 
-  // Step 2: one query for each box, until there are too many pairs.
+  // Query each box, until there are too many pairs.
   std::atomic<std::uint64_t> pairs{0};
   tbb::parallel_for(std::size_t{0}, a.size(), [&](std::size_t i) {
     if (pairs.load(std::memory_order_relaxed) > most) return;

@@ -1,4 +1,4 @@
-// Which boxes of two lists overlap: the first look before an exact test. An R-tree (Boost.Geometry) finds them.
+// Pairs of overlapping boxes of two lists, found by an R-tree (Boost.Geometry).
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 namespace malus::prep {
 
 struct Box {
-  glm::dvec3 low, high;
+  glm::dvec3 low, high;  // corners, low <= high
 };
 
-// Calls visit(i, j) for every a[i] and b[j] that overlap or touch, from several threads at once and in any order; it
-// tells whether the pair was worth counting. Returns false where more than `most` were: then some were left out, which
-// ones depends on the threads, and the caller should forget what it saw.
+// Calls visit(i, j) for every a[i] and b[j] that overlap or touch, from several threads and in any order. visit returns
+// true to count the pair. Returns false if more than `most` were counted; the visited pairs then depend on the timing
+// of the threads and must be discarded.
 bool forOverlappingBoxes(std::span<const Box> a, std::span<const Box> b, std::uint64_t most,
                          const std::function<bool(std::uint32_t, std::uint32_t)>& visit);
 

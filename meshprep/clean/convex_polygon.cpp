@@ -11,28 +11,28 @@ namespace malus::prep {
 
 namespace {
 
-constexpr double kStraight = 1e-9;  // sine of the turn at a corner within a side
-constexpr int kMaxTries = 8;        // of fans that look good at both ends
+constexpr double kStraight = 1e-9;  // largest sine of the turn at a collinear corner
+constexpr int kMaxTries = 8;        // fans whose end triangles have area
 
-// The first corner around which every triangle of a fan has area. Those at the ends have none where the corner ends a
-// side with corners in it: only where they are fine are the others worth a look.
+// Returns the first corner around which all triangles of a fan have area. The end triangles are tested first: they have
+// none if the corner ends a side with collinear corners.
 std::optional<std::size_t> fanCorner(const FlatPolygon& flat) {
   const std::size_t n = flat.points.size();
-  const auto fine = [&](std::size_t start, std::size_t i) {
+  const auto hasTriangle = [&](std::size_t start, std::size_t i) {
     return hasArea(flat, start, (start + i) % n, (start + i + 1) % n);
   };
   int tries = 0;
   for (std::size_t start = 0; start < n && tries < kMaxTries; ++start) {
-    if (!fine(start, 1) || !fine(start, n - 2)) continue;
+    if (!hasTriangle(start, 1) || !hasTriangle(start, n - 2)) continue;
     ++tries;
     bool good = true;
-    for (std::size_t i = 2; good && i + 2 < n; ++i) good = fine(start, i);
+    for (std::size_t i = 2; good && i + 2 < n; ++i) good = hasTriangle(start, i);
     if (good) return start;
   }
   return std::nullopt;
 }
 
-// What is left of the boundary, as a ring.
+// Remaining boundary.
 class Ring {
  public:
   explicit Ring(const FlatPolygon& flat) : next_(flat.points.size()), prev_(next_.size()), straight_(next_.size()) {
@@ -46,12 +46,11 @@ class Ring {
     }
   }
 
-  std::size_t turning() const {
+  std::size_t countTurning() const {
     return static_cast<std::size_t>(std::count(straight_.begin(), straight_.end(), false));
   }
 
-  // Cuts off a side that ends at `end`: all its corners together with the corner after it. Of the side, its beginning
-  // and the corner after that are left, and every corner touched turns.
+  // Clips the collinear corners of the side that ends at `end`, by triangles with the corner after it.
   void cutSide(std::uint32_t end, std::vector<glm::uvec3>& triangles) {
     const std::uint32_t apex = next_[end];
     if (straight_[end] || !straight_[prev_[end]]) return;
@@ -61,13 +60,13 @@ class Ring {
       triangles.emplace_back(before, end, apex);
       next_[before] = apex;
       prev_[apex] = before;
-      next_[end] = end;  // no longer of the ring
+      next_[end] = end;  // removed from the boundary
       straight_[before] = false;
       end = before;
     }
   }
 
-  // A fan of what is left.
+  // Appends a fan of the remaining boundary.
   void fan(std::vector<glm::uvec3>& triangles) const {
     std::uint32_t first = 0;
     while (next_[first] == first) ++first;
@@ -101,7 +100,7 @@ bool addConvex(const FlatPolygon& flat, std::vector<glm::uvec3>& triangles) {
     return true;
   }
   Ring ring(flat);
-  if (ring.turning() < 3) return false;
+  if (ring.countTurning() < 3) return false;
   for (std::uint32_t i = 0; i < n; ++i) ring.cutSide(i, triangles);
   ring.fan(triangles);
   return true;

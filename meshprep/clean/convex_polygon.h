@@ -1,5 +1,5 @@
-// Convex polygons, corners within a side allowed, into triangles of which none is without area. All of it takes time
-// in proportion to the number of corners, so a polygon may have millions of them.
+// Triangulation of convex polygons, including collinear corners, without triangles of zero area. Takes linear time, for
+// polygons of millions of corners.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace malus::prep {
 
-// No corner turns right, and the boundary goes around once.
+// Returns true if no corner turns right and the boundary winds once.
 bool isConvex(const FlatPolygon& flat);
 
-// Adds the triangles of a convex polygon: a fan around the first corner that allows it; where none does because every
-// corner ends a side with further corners in it, those sides are cut off first. Returns false, having added nothing,
-// where the polygon has no area.
+// Appends the triangles of a convex polygon: a fan around the first suitable corner. If there is none, because every
+// corner ends a side with collinear corners, such sides are clipped first. Returns false, without triangles, if the
+// polygon has no area.
 bool addConvex(const FlatPolygon& flat, std::vector<glm::uvec3>& triangles);
 
 }  // namespace malus::prep

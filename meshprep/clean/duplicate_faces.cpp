@@ -11,11 +11,11 @@ namespace malus::prep {
 
 namespace {
 
-// A triangle by its vertices, smallest first.
+// Triangle with sorted vertices.
 struct Face {
   std::array<std::uint32_t, 3> vertices{};
   std::uint32_t triangle = 0;
-  bool even = false;  // the way around: smallest, middle, largest
+  bool even = false;  // orientation: smallest, middle, largest
 };
 
 std::vector<Face> sortedFaces(const Mesh& mesh) {
@@ -38,25 +38,25 @@ std::vector<Face> sortedFaces(const Mesh& mesh) {
 }  // namespace
 
 DuplicateFaces dropDuplicateFaces(Mesh& mesh, bool dropOpposite) {
-  // Step 1: for every triangle, the first one that it repeats, the same way around or the other.
+  // Find the first triangle with the same vertices, for each orientation.
   constexpr std::uint32_t kNone = kNoSource;
   const std::vector<Face> faces = sortedFaces(mesh);
   std::vector<std::uint32_t> same(mesh.triangles.size(), kNone), opposite(mesh.triangles.size(), kNone);
   for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
-    std::array<std::uint32_t, 2> first{kNone, kNone};  // of each way around
+    std::array<std::uint32_t, 2> first{kNone, kNone};  // per orientation
     for (; end < faces.size() && faces[end].vertices == faces[begin].vertices; ++end) {
       const Face& face = faces[end];
-      std::uint32_t& mine = first[face.even ? 1 : 0];
-      if (mine != kNone) {
-        same[face.triangle] = mine;
+      std::uint32_t& earlier = first[face.even ? 1 : 0];
+      if (earlier != kNone) {
+        same[face.triangle] = earlier;
       } else {
-        mine = face.triangle;
+        earlier = face.triangle;
         opposite[face.triangle] = first[face.even ? 0 : 1];
       }
     }
   }
 
-  // Step 2: in the order of the mesh.
+  // Drop and report in the order of the mesh.
   DuplicateFaces result;
   std::vector<char> keep(mesh.triangles.size(), 1);
   for (std::size_t i = 0; i < keep.size(); ++i) {

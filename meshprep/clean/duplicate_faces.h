@@ -1,6 +1,6 @@
-// Drops triangles that name the same three vertices as an earlier one, the same way around: copies. One that names
-// them the other way around is the back of a wall without thickness, or a face that two bodies share: it stays, and
-// is told, unless its dropping is asked for.
+// Removal of triangles with the same three vertices and orientation as an earlier one. Those with the opposite
+// orientation are the back of a wall without thickness, or a face that two bodies share: they are reported, and removed
+// only on request.
 #pragma once
 
 #include "meshprep/findings.h"
@@ -8,8 +8,8 @@
 namespace malus::prep {
 
 struct DuplicateFaces {
-  Findings same;      // dropped: the same way around as an earlier one
-  Findings opposite;  // the other way around: dropped with dropOpposite, else left
+  Findings same;      // dropped: orientation of the earlier one
+  Findings opposite;  // opposite orientation; dropped if dropOpposite
 };
 
 DuplicateFaces dropDuplicateFaces(Mesh& mesh, bool dropOpposite);

@@ -13,10 +13,10 @@ namespace malus::prep {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint64_t kNotAsked = std::numeric_limits<std::uint64_t>::max();
-constexpr std::size_t kSmall = 64;  // corners that need no grid and no rounds
+constexpr std::uint64_t kNotQueued = std::numeric_limits<std::uint64_t>::max();
+constexpr std::size_t kSmall = 64;  // largest polygon without grid and rounds
 constexpr std::uint32_t kMaxColumns = 1024;
-// What it costs to look into a cell, and to take a corner from the heap, in tests: both wait for memory.
+// Costs of a cell and of a heap operation, in tests: both wait for memory.
 constexpr std::uint64_t kTestsPerCell = 5;
 constexpr std::uint64_t kTestsPerCorner = 50;
 
@@ -31,7 +31,7 @@ void EarCutter::makeRing() {
     prev_[i] = (i + n - 1) % n;
   }
   heap_.resize(n);
-  std::iota(heap_.begin(), heap_.end(), std::uint64_t{0});  // sorted, hence a heap
+  std::iota(heap_.begin(), heap_.end(), std::uint64_t{0});  // a sorted list is a heap
   key_ = heap_;
   round_ = 0;
   firstWaiting_.assign(n, kNone);
@@ -48,7 +48,7 @@ std::uint32_t EarCutter::row(double y) const {
   return std::min(static_cast<std::uint32_t>((y - origin_.y) * cellsPerUnit_.y), columns_ - 1);
 }
 
-// A few corners a cell, if they were spread evenly.
+// Makes a grid with a few corners per cell if they are distributed evenly.
 void EarCutter::makeGrid() {
   const std::vector<glm::dvec2>& points = flat_->points;
   const std::size_t n = points.size();
@@ -63,21 +63,21 @@ void EarCutter::makeGrid() {
   for (int axis = 0; axis < 2; ++axis)
     if (const double cells = columns_ / (high[axis] - low[axis]); std::isfinite(cells)) cellsPerUnit_[axis] = cells;
 
-  // Sort by cell, counting first.
-  cellOf_.resize(n);
-  slotOf_.resize(n);
+  // Sort by cell (counting sort).
+  cell_.resize(n);
+  slot_.resize(n);
   members_.resize(n);
   count_.assign(std::size_t{columns_} * columns_, 0);
   for (std::size_t i = 0; i < n; ++i) {
-    cellOf_[i] = row(points[i].y) * columns_ + column(points[i].x);
-    ++count_[cellOf_[i]];
+    cell_[i] = row(points[i].y) * columns_ + column(points[i].x);
+    ++count_[cell_[i]];
   }
   begin_.resize(count_.size());
   std::exclusive_scan(count_.begin(), count_.end(), begin_.begin(), 0u);
   std::fill(count_.begin(), count_.end(), 0u);
   for (std::uint32_t i = 0; i < n; ++i) {
-    slotOf_[i] = begin_[cellOf_[i]] + count_[cellOf_[i]]++;
-    members_[slotOf_[i]] = i;
+    slot_[i] = begin_[cell_[i]] + count_[cell_[i]]++;
+    members_[slot_[i]] = i;
   }
 }
 
@@ -97,7 +97,7 @@ void EarCutter::stopWaiting(std::uint32_t corner) {
   waitsFor_[corner] = kNone;
 }
 
-void EarCutter::ask(std::uint32_t corner) {
+void EarCutter::enqueue(std::uint32_t corner) {
   stopWaiting(corner);
   const std::uint64_t round = flat_->points.size() <= kSmall ? 0 : round_ + 1;
   const std::uint64_t key = round << 32u | corner;
@@ -107,23 +107,23 @@ void EarCutter::ask(std::uint32_t corner) {
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
 
-// Takes a corner out of the ring and the grid, and asks those again whose answer may have changed.
+// Removes a corner from boundary and grid, and enqueues the corners whose result may change.
 void EarCutter::remove(std::uint32_t corner) {
   const std::uint32_t before = prev_[corner], after = next_[corner];
   next_[before] = after;
   prev_[after] = before;
-  const std::uint32_t cell = cellOf_[corner];
+  const std::uint32_t cell = cell_[corner];
   const std::uint32_t last = members_[begin_[cell] + --count_[cell]];
-  members_[slotOf_[corner]] = last;
-  slotOf_[last] = slotOf_[corner];
+  members_[slot_[corner]] = last;
+  slot_[last] = slot_[corner];
 
-  next_[corner] = corner;  // no longer of the ring
-  while (firstWaiting_[corner] != kNone) ask(firstWaiting_[corner]);
-  ask(before);
-  ask(after);
+  next_[corner] = corner;  // removed from the boundary
+  while (firstWaiting_[corner] != kNone) enqueue(firstWaiting_[corner]);
+  enqueue(before);
+  enqueue(after);
 }
 
-// A corner that lies in the triangle or on its boundary, not in one of its corners' places.
+// Returns a corner inside the triangle or on its boundary, but not at the position of one of its corners.
 std::optional<std::uint32_t> EarCutter::cornerInside(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                                      std::uint64_t& tests) const {
   const std::vector<glm::dvec2>& points = flat_->points;
@@ -164,12 +164,12 @@ EarCutter::Outcome EarCutter::cut(const FlatPolygon& flat, std::uint64_t& tests,
     const std::uint64_t key = heap_.back();
     heap_.pop_back();
     const auto b = static_cast<std::uint32_t>(key);
-    if (key_[b] != key || next_[b] == b) continue;  // asked again later, or gone
-    key_[b] = kNotAsked;
+    if (key_[b] != key || next_[b] == b) continue;  // enqueued again, or removed
+    key_[b] = kNotQueued;
     round_ = key >> 32u;
     tests -= std::min(tests, kTestsPerCorner);
     const std::uint32_t a = prev_[b], c = next_[b];
-    if (!hasArea(flat, a, b, c)) continue;  // until a neighbour goes
+    if (!hasArea(flat, a, b, c)) continue;  // until a neighbour is removed
 
     const std::optional<std::uint32_t> inside = cornerInside(a, b, c, tests);
     if (tests == 0) return undo(Outcome::kTooMuchWork);

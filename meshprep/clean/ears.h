@@ -1,11 +1,11 @@
-// Any polygon that does not cross itself into triangles, one ear after the other: G. H. Meisters, "Polygons have
-// ears", American Mathematical Monthly 82, 1975.
+// Triangulation of simple polygons by ear clipping: G. H. Meisters, "Polygons have ears", American Mathematical
+// Monthly 82, 1975.
 //
-// Of a small polygon the ear of the smallest number is cut first. Of a large one the boundary is gone around again and
-// again, and about every other corner is cut in each round, so that triangles stay short and few corners are near them;
-// those are looked for in a grid. Whether a corner is an ear is asked again only when one of its neighbours, or the
-// corner found inside its triangle, is gone. Most polygons take a few tens of tests a corner, but some take as many
-// as the square of their corners or more, so tests are counted against a budget.
+// A small polygon loses the ear with the smallest index first. The boundary of a large one is traversed repeatedly, and
+// about every second corner is clipped per round, so that triangles stay short and few corners are near them; a grid
+// finds these. A corner is tested again only after one of its neighbours, or the corner found inside its triangle, is
+// removed. Most polygons need some tens of tests per corner, some need the square of the number of corners or more;
+// therefore tests are limited by a budget.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@
 
 namespace malus::prep {
 
-// Keeps its memory from one polygon to the next.
+// Reuses its memory for all polygons.
 class EarCutter {
  public:
   enum class Outcome { kDone, kNoEars, kTooMuchWork };
 
-  // Adds the triangles, or nothing where ears run out (the polygon crosses itself) or the tests do. `tests` is what is
-  // left of the budget, a few nanoseconds each; it is reduced.
+  // Appends the triangles, or nothing if there are no more ears (the polygon is not simple) or no more tests. Reduces
+  // `tests`, the rest of the budget, by the used tests (a few nanoseconds each).
   Outcome cut(const FlatPolygon& flat, std::uint64_t& tests, std::vector<glm::uvec3>& triangles);
 
  private:
@@ -38,7 +38,7 @@ class EarCutter {
   std::uint32_t column(double x) const;
   std::uint32_t row(double y) const;
   void remove(std::uint32_t corner);
-  void ask(std::uint32_t corner);
+  void enqueue(std::uint32_t corner);
   void wait(std::uint32_t corner, std::uint32_t until);
   void stopWaiting(std::uint32_t corner);
   std::optional<std::uint32_t> cornerInside(std::uint32_t a, std::uint32_t b, std::uint32_t c,
@@ -46,20 +46,19 @@ class EarCutter {
 
   const FlatPolygon* flat_ = nullptr;
 
-  // What is left of the boundary.
+  // Remaining boundary.
   std::vector<std::uint32_t> next_, prev_;
 
-  // Corners to ask whether they are ears: a heap of round and number, the smallest first. What it holds of a corner
-  // counts where it equals key_. Others wait, in lists, until another one is gone.
+  // Corners to test: a heap of round and index, the smallest first. An entry is valid if it equals key_ of the corner.
+  // Other corners wait, in lists, for the removal of another one.
   std::vector<std::uint64_t> heap_, key_;
   std::uint64_t round_ = 0;
   std::vector<std::uint32_t> waitsFor_, firstWaiting_, nextWaiting_, prevWaiting_;
 
-  // Corners by cell of a grid of columns_ x columns_: those of cell k are members_[begin_[k]] and on, count_[k] of
-  // them.
+  // Corners by cells of a grid of columns_ x columns_: cell k has count_[k] corners from members_[begin_[k]] on.
   std::uint32_t columns_ = 1;
   glm::dvec2 origin_{0}, cellsPerUnit_{0};
-  std::vector<std::uint32_t> begin_, count_, members_, slotOf_, cellOf_;
+  std::vector<std::uint32_t> begin_, count_, members_, slot_, cell_;
 };
 
 }  // namespace malus::prep

@@ -7,7 +7,7 @@
 namespace malus::prep {
 
 std::vector<EdgeUse> edgeUses(std::span<const glm::uvec3> triangles) {
-  // Step 1: where the uses of each lower vertex begin. A sort of all of them would take many times as long on a grid.
+  // Count the uses of each lower vertex. Sorting all of them at once is several times slower on grids.
   std::vector<std::uint32_t> end;
   for (const glm::uvec3& t : triangles)
     for (int corner = 0; corner < 3; ++corner) {
@@ -17,7 +17,7 @@ std::vector<EdgeUse> edgeUses(std::span<const glm::uvec3> triangles) {
     }
   std::exclusive_scan(end.begin(), end.end(), end.begin(), 0u);
 
-  // Step 2: put them there, and sort those of each.
+  // Distribute them, and sort those of each vertex.
   std::vector<EdgeUse> uses(3 * triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
     for (int corner = 0; corner < 3; ++corner) {

@@ -1,4 +1,4 @@
-// The edges of a triangle list with the triangles on them, however many those are.
+// Edges of a list of triangles, with any number of triangles each.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace malus::prep {
 
-// One triangle on one edge.
+// Triangle on an edge.
 struct EdgeUse {
   std::uint32_t low = 0;  // the edge's vertices, low < high
   std::uint32_t high = 0;
   std::uint32_t triangle = 0;
-  std::uint8_t corner = 0;  // of the triangle, where the edge begins
-  bool forward = false;     // the triangle runs along it from low to high
+  std::uint8_t corner = 0;  // corner of the triangle at which the edge begins
+  bool forward = false;     // the triangle traverses it from low to high
 };
 
-// Three for every triangle, sorted by edge, then by triangle. Triangles must have three different vertices.
+// Returns three uses per triangle, sorted by edge, then by triangle. Triangles must have three different vertices.
 std::vector<EdgeUse> edgeUses(std::span<const glm::uvec3> triangles);
 
-// Calls visit(std::span<const EdgeUse>) for every edge with all triangles on it.
+// Calls visit(std::span<const EdgeUse>) for every edge, with all its triangles.
 template <class Visit>
 void forEachEdge(std::span<const EdgeUse> uses, Visit visit) {
   for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {

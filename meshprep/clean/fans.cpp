@@ -12,20 +12,20 @@
 #include <glm/geometric.hpp>
 
 #include "meshprep/base/error.h"
+#include "meshprep/clean/disjoint_sets.h"
 #include "meshprep/clean/edges.h"
-#include "meshprep/clean/pieces.h"
 #include "meshprep/clean/select.h"
 
 namespace malus::prep {
 
 namespace {
 
-// A surface has one fan a vertex. Where there are very many more, faces join vertices at random.
+// A surface has one fan per vertex; many more mean random faces.
 constexpr std::size_t kFansPerVertex = 4;
-constexpr std::size_t kFansOfAnyMesh = 65536;
-constexpr double kSameAngle = 1e-9;  // radians: triangles that lie on each other
+constexpr std::size_t kMinFanLimit = 65536;
+constexpr double kSameAngle = 1e-9;  // radians: angle between coincident triangles
 
-// Two triangles that stay together on an edge, or one alone.
+// Two triangles that stay connected at an edge, or a single one.
 struct Pair {
   EdgeUse first, second;
   bool single = false;
@@ -34,7 +34,7 @@ struct Pair {
 std::uint32_t beginCorner(const EdgeUse& use) { return 3 * use.triangle + use.corner; }
 std::uint32_t endCorner(const EdgeUse& use) { return 3 * use.triangle + (use.corner + 1u) % 3; }
 
-// The corner at the edge's lower vertex, and at the higher.
+// Corners (3 * triangle + corner) at the lower and the higher vertex of the edge.
 std::uint32_t lowCorner(const EdgeUse& use) { return use.forward ? beginCorner(use) : endCorner(use); }
 std::uint32_t highCorner(const EdgeUse& use) { return use.forward ? endCorner(use) : beginCorner(use); }
 
@@ -45,31 +45,31 @@ class Splitter {
   Fans run() {
     pairUp();
     splitVertices();
-    cutCrowdedEdges();
+    cutNonManifoldEdges();
     return std::move(fans_);
   }
 
  private:
-  // What hangs together through edges of two triangles, as the first triangle of each part.
-  void findParts(std::span<const EdgeUse> uses) {
-    Pieces parts(mesh_.triangles.size());
+  // Finds the components that are connected through edges of two triangles, by their first triangle.
+  void findComponents(std::span<const EdgeUse> uses) {
+    DisjointSets parts(mesh_.triangles.size());
     forEachEdge(uses, [&](std::span<const EdgeUse> edge) {
-      if (edge.size() == 2 && !backToBack(edge[0], edge[1])) parts.merge(edge[0].triangle, edge[1].triangle);
+      if (edge.size() == 2 && !areBackToBack(edge[0], edge[1])) parts.merge(edge[0].triangle, edge[1].triangle);
     });
-    partOf_.resize(mesh_.triangles.size());
-    for (std::uint32_t t = 0; t < partOf_.size(); ++t) partOf_[t] = parts.find(t);
+    component_.resize(mesh_.triangles.size());
+    for (std::uint32_t t = 0; t < component_.size(); ++t) component_[t] = parts.find(t);
   }
 
-  // Where a triangle lies around the edge, as an angle from the first one, in [0, 2 pi).
+  // Returns the angle of each triangle around the edge from the first one, in [0, 2 pi).
   std::vector<double> anglesAround(std::span<const EdgeUse> edge) const {
     const glm::dvec3 low = mesh_.positions[edge[0].low];
-    const glm::dvec3 along = glm::normalize(mesh_.positions[edge[0].high] - low);
+    const glm::dvec3 axis = glm::normalize(mesh_.positions[edge[0].high] - low);
     std::vector<glm::dvec3> out;
     for (const EdgeUse& use : edge) {
-      const glm::dvec3 apex = mesh_.positions[apexOf(use)] - low;
-      out.push_back(glm::normalize(apex - glm::dot(apex, along) * along));
+      const glm::dvec3 toApex = mesh_.positions[apex(use)] - low;
+      out.push_back(glm::normalize(toApex - glm::dot(toApex, axis) * axis));
     }
-    const glm::dvec3 x = out[0], y = glm::cross(along, x);
+    const glm::dvec3 x = out[0], y = glm::cross(axis, x);
     std::vector<double> angles;
     for (const glm::dvec3& o : out) {
       double angle = std::atan2(glm::dot(o, y), glm::dot(o, x));
@@ -79,13 +79,13 @@ class Splitter {
     return angles;
   }
 
-  // Pairs those among `candidates` (indices into edge, by angle) whose backs face each other. A triangle that runs from
-  // low to high has its back toward smaller angles: it closes a bracket that the other kind opens.
-  // matched: one an index, set for those paired.
+  // Pairs `candidates` (indices into edge, by angle) whose backs face each other. A triangle that traverses the edge
+  // from low to high has its back toward smaller angles: it closes a bracket that the other kind opens. Sets matched[i]
+  // for paired ones.
   static void matchBrackets(std::span<const EdgeUse> edge, std::span<const std::size_t> candidates,
                             std::vector<char>& matched, std::vector<Pair>& pairs) {
     std::vector<std::size_t> open;
-    for (int turn = 0; turn < 2; ++turn)  // twice around: the first bracket may close one that opens last
+    for (int turn = 0; turn < 2; ++turn)  // two turns: the first bracket may close the last one
       for (const std::size_t i : candidates) {
         if (matched[i] != 0) continue;
         if (!edge[i].forward) {
@@ -98,9 +98,9 @@ class Splitter {
       }
   }
 
-  std::vector<Pair> pairsOf(std::span<const EdgeUse> edge) const {
-    // Step 1: in the order around the edge; of those at the same angle, first what closes, and inside of the others
-    // the one of the smallest apex: so the halves of a cut edge, whichever way they run, are paired as each other.
+  std::vector<Pair> pairUses(std::span<const EdgeUse> edge) const {
+    // Sort by angle. At equal angles, closing triangles come first, and others are nested by their apex, so that the
+    // halves of a cut edge are paired consistently in both directions.
     std::vector<double> angles = anglesAround(edge);
     std::vector<std::size_t> order(edge.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -109,7 +109,7 @@ class Splitter {
     for (std::size_t i = 1; i < order.size(); ++i)
       if (angles[order[i]] - angles[order[i - 1]] <= kSameAngle) angles[order[i]] = angles[order[i - 1]];
     const auto inner = [&](std::size_t a, std::size_t b) {
-      const glm::dvec3 &p = mesh_.positions[apexOf(edge[a])], &q = mesh_.positions[apexOf(edge[b])];
+      const glm::dvec3 &p = mesh_.positions[apex(edge[a])], &q = mesh_.positions[apex(edge[b])];
       return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -118,15 +118,16 @@ class Splitter {
       return edge[a].forward ? inner(a, b) : inner(b, a);
     });
 
-    // Step 2: first within a part, then among all that are left.
+    // Pair within components, then among the rest.
     std::vector<Pair> pairs;
     std::vector<char> matched(edge.size(), 0);
-    std::vector<std::size_t> byPart = order;
-    const auto partOf = [&](std::size_t i) { return partOf_[edge[i].triangle]; };
-    std::stable_sort(byPart.begin(), byPart.end(), [&](std::size_t a, std::size_t b) { return partOf(a) < partOf(b); });
-    for (std::size_t begin = 0, end = 0; begin < byPart.size(); begin = end) {
-      while (end < byPart.size() && partOf(byPart[end]) == partOf(byPart[begin])) ++end;
-      matchBrackets(edge, std::span(byPart).subspan(begin, end - begin), matched, pairs);
+    std::vector<std::size_t> byComponent = order;
+    const auto component = [&](std::size_t i) { return component_[edge[i].triangle]; };
+    std::stable_sort(byComponent.begin(), byComponent.end(),
+                     [&](std::size_t a, std::size_t b) { return component(a) < component(b); });
+    for (std::size_t begin = 0, end = 0; begin < byComponent.size(); begin = end) {
+      while (end < byComponent.size() && component(byComponent[end]) == component(byComponent[begin])) ++end;
+      matchBrackets(edge, std::span(byComponent).subspan(begin, end - begin), matched, pairs);
     }
     std::vector<std::size_t> rest = order;
     std::erase_if(rest, [&](std::size_t i) { return matched[i] != 0; });
@@ -136,34 +137,34 @@ class Splitter {
     return pairs;
   }
 
-  // The two sides of a wall without thickness are two sheets, not a fold.
-  bool backToBack(const EdgeUse& a, const EdgeUse& b) const { return a.forward != b.forward && apexOf(a) == apexOf(b); }
-  std::uint32_t apexOf(const EdgeUse& use) const { return mesh_.triangles[use.triangle][(use.corner + 2) % 3]; }
+  // Returns true for the two sides of a wall without thickness, which are not connected.
+  bool areBackToBack(const EdgeUse& a, const EdgeUse& b) const { return a.forward != b.forward && apex(a) == apex(b); }
+  std::uint32_t apex(const EdgeUse& use) const { return mesh_.triangles[use.triangle][(use.corner + 2) % 3]; }
 
   void pairUp() {
     const std::vector<EdgeUse> uses = edgeUses(mesh_.triangles);
-    bool crowded = false;
-    forEachEdge(uses, [&](std::span<const EdgeUse> edge) { crowded = crowded || edge.size() > 2; });
-    if (crowded) findParts(uses);
+    bool nonManifold = false;
+    forEachEdge(uses, [&](std::span<const EdgeUse> edge) { nonManifold = nonManifold || edge.size() > 2; });
+    if (nonManifold) findComponents(uses);
     forEachEdge(uses, [&](std::span<const EdgeUse> edge) {
       if (edge.size() == 1) return;
       if (edge.size() == 2) {
-        if (!backToBack(edge[0], edge[1])) pairs_.push_back({edge[0], edge[1], false});
+        if (!areBackToBack(edge[0], edge[1])) pairs_.push_back({edge[0], edge[1], false});
         return;
       }
       fans_.edges.add([&] {
         return findingAt(mesh_, (mesh_.positions[edge[0].low] + mesh_.positions[edge[0].high]) * 0.5,
                          {edge[0].triangle, edge[1].triangle, edge[2].triangle}, {edge[0].low, edge[0].high});
       });
-      const std::vector<Pair> pairs = pairsOf(edge);
+      const std::vector<Pair> pairs = pairUses(edge);
       pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
     });
   }
 
   void splitVertices() {
-    // Step 1: fans.
+    // Find the fans.
     const auto cornerCount = static_cast<std::uint32_t>(3 * mesh_.triangles.size());
-    Pieces fans(cornerCount);
+    DisjointSets fans(cornerCount);
     for (const Pair& pair : pairs_) {
       if (pair.single) continue;
       fans.merge(lowCorner(pair.first), lowCorner(pair.second));
@@ -172,65 +173,65 @@ class Splitter {
     const auto vertexAt = [&](std::uint32_t corner) {
       return mesh_.triangles[corner / 3][static_cast<int>(corner % 3)];
     };
-    std::vector<std::uint32_t> fansOf(mesh_.positions.size(), 0);
+    std::vector<std::uint32_t> fanCounts(mesh_.positions.size(), 0);
     std::size_t fanCount = 0;
     for (std::uint32_t corner = 0; corner < cornerCount; ++corner) {
       if (fans.find(corner) != corner) continue;
-      ++fansOf[vertexAt(corner)];
+      ++fanCounts[vertexAt(corner)];
       ++fanCount;
     }
-    const std::size_t most = kFansOfAnyMesh + kFansPerVertex * mesh_.positions.size();
+    const std::size_t most = kMinFanLimit + kFansPerVertex * mesh_.positions.size();
     if (fanCount > most)
-      throw Error(where_, "the faces form no surface",
+      throw Error(where_, "faces do not form a surface",
                   fmt::format("at most {} fans around {} vertices", most, mesh_.positions.size()),
                   fmt::to_string(fanCount));
-    for (std::size_t v = 0; v < fansOf.size(); ++v)
-      if (fansOf[v] > 1) fans_.vertices.add([&] { return findingAt(mesh_, mesh_.positions[v], {}, {v}); });
+    for (std::size_t v = 0; v < fanCounts.size(); ++v)
+      if (fanCounts[v] > 1) fans_.vertices.add([&] { return findingAt(mesh_, mesh_.positions[v], {}, {v}); });
     if (fans_.vertices.count == 0) return;
 
-    // Step 2: the vertex of the file that each fan of a split vertex names, the smallest of its corners.
-    std::vector<std::uint32_t> nameOf(cornerCount, kNoSource);
+    // Find the smallest source vertex of each fan of a split vertex.
+    std::vector<std::uint32_t> sourceByFan(cornerCount, kNoSource);
     for (std::uint32_t corner = 0; corner < cornerCount; ++corner) {
-      if (fansOf[vertexAt(corner)] < 2) continue;
+      if (fanCounts[vertexAt(corner)] < 2) continue;
       const std::uint32_t name = mesh_.sourceCorners.empty()
                                      ? sourceVertex(mesh_, vertexAt(corner))
                                      : mesh_.sourceCorners[corner / 3][static_cast<int>(corner % 3)];
-      std::uint32_t& smallest = nameOf[fans.find(corner)];
+      std::uint32_t& smallest = sourceByFan[fans.find(corner)];
       smallest = std::min(smallest, name);
     }
 
-    // Step 3: vertices in the order of the file, the fans of one vertex by their first corners.
+    // Order vertices by the file, and the fans of a vertex by their first corners.
     struct NewVertex {
       std::uint32_t name, old, firstCorner;
     };
     std::vector<NewVertex> vertices;
-    for (std::uint32_t v = 0; v < fansOf.size(); ++v)
-      if (fansOf[v] < 2) vertices.push_back({sourceVertex(mesh_, v), v, kNoSource});
+    for (std::uint32_t v = 0; v < fanCounts.size(); ++v)
+      if (fanCounts[v] < 2) vertices.push_back({sourceVertex(mesh_, v), v, kNoSource});
     for (std::uint32_t corner = 0; corner < cornerCount; ++corner)
-      if (fansOf[vertexAt(corner)] > 1 && fans.find(corner) == corner)
-        vertices.push_back({nameOf[corner], vertexAt(corner), corner});
+      if (fanCounts[vertexAt(corner)] > 1 && fans.find(corner) == corner)
+        vertices.push_back({sourceByFan[corner], vertexAt(corner), corner});
     std::stable_sort(vertices.begin(), vertices.end(), [](const NewVertex& a, const NewVertex& b) {
       return std::tie(a.name, a.old, a.firstCorner) < std::tie(b.name, b.old, b.firstCorner);
     });
 
-    // Step 4: put them in.
-    std::vector<std::uint32_t> from, indexOf(mesh_.positions.size(), 0), indexOfFan(cornerCount, 0);
+    // Replace the vertices.
+    std::vector<std::uint32_t> from, newIndex(mesh_.positions.size(), 0), fanIndex(cornerCount, 0);
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
       from.push_back(vertices[i].old);
-      (vertices[i].firstCorner == kNoSource ? indexOf[vertices[i].old] : indexOfFan[vertices[i].firstCorner]) = i;
+      (vertices[i].firstCorner == kNoSource ? newIndex[vertices[i].old] : fanIndex[vertices[i].firstCorner]) = i;
     }
     std::vector<glm::uvec3> triangles = mesh_.triangles;
     for (std::uint32_t corner = 0; corner < cornerCount; ++corner)
       triangles[corner / 3][static_cast<int>(corner % 3)] =
-          fansOf[vertexAt(corner)] > 1 ? indexOfFan[fans.find(corner)] : indexOf[vertexAt(corner)];
+          fanCounts[vertexAt(corner)] > 1 ? fanIndex[fans.find(corner)] : newIndex[vertexAt(corner)];
     mesh_.normals.clear();
-    takeVertices(mesh_, from, indexOf);
+    selectVertices(mesh_, from, newIndex);
     mesh_.triangles = std::move(triangles);
     for (std::size_t i = 0; i < vertices.size(); ++i)
       if (!mesh_.sourceVertices.empty()) mesh_.sourceVertices[i] = vertices[i].name;
   }
 
-  // The triangle becomes two at vertex m of its edge; the second half goes to the end.
+  // Cuts a triangle in two at vertex m of its edge. The second half is appended.
   void cutTriangle(const EdgeUse& use, std::uint32_t m) {
     const glm::uvec3 t = mesh_.triangles[use.triangle];
     const std::uint32_t to = t[(use.corner + 1) % 3], apex = t[(use.corner + 2) % 3];
@@ -252,8 +253,8 @@ class Splitter {
     }
   }
 
-  void cutCrowdedEdges() {
-    // Cutting an edge changes its triangles, so the next crowded edge is looked for anew; there are hardly ever any.
+  void cutNonManifoldEdges() {
+    // Search again after each cut, because it changes triangles. Such edges are rare.
     for (bool again = true; again;) {
       again = false;
       const std::vector<EdgeUse> uses = edgeUses(mesh_.triangles);
@@ -265,10 +266,10 @@ class Splitter {
           again = true;
           return;
         }
-        if (!std::exchange(known, true)) findParts(uses);
+        if (!std::exchange(known, true)) findComponents(uses);
         ++fans_.cutEdges;
         for (const EdgeUse& use : edge) touched[use.triangle] = 1;
-        for (const Pair& pair : pairsOf(edge)) {
+        for (const Pair& pair : pairUses(edge)) {
           const auto m = static_cast<std::uint32_t>(mesh_.positions.size());
           mesh_.positions.push_back((mesh_.positions[edge[0].low] + mesh_.positions[edge[0].high]) * 0.5);
           if (!mesh_.sourceVertices.empty()) mesh_.sourceVertices.push_back(kNoSource);
@@ -282,7 +283,7 @@ class Splitter {
 
   Mesh& mesh_;
   std::string_view where_;
-  std::vector<std::uint32_t> partOf_;
+  std::vector<std::uint32_t> component_;
   std::vector<Pair> pairs_;
   Fans fans_;
 };

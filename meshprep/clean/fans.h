@@ -1,14 +1,13 @@
-// Splits what touches itself: afterwards no edge has more than two triangles and every vertex has one fan, the
-// triangles around it that hang together through edges. Positions and triangles stay where they are.
+// Splitting of non-manifold edges and vertices: afterwards every edge has at most two triangles, and every vertex one
+// fan of triangles that are connected through edges. Positions and triangles do not move.
 //
-// On an edge of more than two triangles, those that enclose something between their backs stay together (taken around
-// the edge like brackets, first within what hangs together elsewhere, then among the rest); one that is left over
-// gets an edge of its own. Two triangles of the same three vertices, back to back, are two sheets. Then every fan of a
-// vertex gets a vertex of its own: the fan with the smallest vertex of the file keeps the old one, so that a file whose
-// vertices were apart, and were welded, gets them back in its order. An edge that is still crowded, because its pairs
-// hang together around both ends, is cut in the middle, each pair with a vertex of its own there. Source: A. Gueziec,
-// G. Taubin, F. Lazarus, W. Horn, "Cutting and stitching: converting sets of polygons to manifold surfaces", IEEE TVCG
-// 7(2), 2001.
+// At an edge of more than two triangles, those that enclose a volume between their backs stay together: they are paired
+// like brackets in angular order, first within components, then among the rest. An unpaired triangle gets a separate
+// edge. Two triangles of the same vertices, back to back, are separated. Then every fan gets a separate vertex. The fan
+// with the smallest source vertex keeps the old one, so that welded vertices of a file are restored in order. An edge
+// that is still non-manifold, because its pairs are connected around both ends, is cut in the middle with a vertex per
+// pair. Source: A. Gueziec, G. Taubin, F. Lazarus, W. Horn, "Cutting and stitching: converting sets of polygons to
+// manifold surfaces", IEEE TVCG 7(2), 2001.
 #pragma once
 
 #include <string_view>
@@ -18,14 +17,15 @@
 namespace malus::prep {
 
 struct Fans {
-  Findings edges;              // of more than two triangles, taken apart
-  Findings vertices;           // of more than one fan, split
-  std::uint64_t cutEdges = 0;  // edges that were cut in the middle
+  Findings edges;              // of more than two triangles, separated
+  Findings vertices;           // of several fans, split
+  std::uint64_t cutEdges = 0;  // edges cut in the middle
   bool changed() const { return vertices.count > 0 || cutEdges > 0; }
 };
 
-// Sides should agree (orient.h). Triangles must have three different vertices and area. Drops mesh.normals where it
-// changes anything. Throws Error that names `where` for what is no surface: more than four fans a vertex, and 65536.
+// Triangles should be oriented (orient.h) and must have three different vertices and area. Drops mesh.normals if it
+// changes the mesh. Throws Error at `where` if there are more than 65536 fans and four per vertex: the faces are
+// random.
 Fans splitFans(Mesh& mesh, std::string_view where = "mesh");
 
 }  // namespace malus::prep

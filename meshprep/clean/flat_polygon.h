@@ -1,5 +1,5 @@
-// A polygon in a plane of its own, counter-clockwise, for the two ways to cut it into triangles. Corners are numbers
-// from 0 in the order of the boundary.
+// Polygon projected to its plane, counter-clockwise, for both triangulations (convex_polygon.h, ears.h). Corners are
+// indices from 0 in boundary order.
 #pragma once
 
 #include <cmath>
@@ -13,24 +13,24 @@ namespace malus::prep {
 
 struct FlatPolygon {
   std::vector<glm::dvec2> points;
-  double size = 0;  // the farthest corner from the first
-  bool planar = true;
+  double size = 0;     // largest distance of a corner from the first
+  bool planar = true;  // all corners are within 1e-4 of the size of the plane
 };
 
 inline double cross2(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-// Twice the signed area of a triangle of the polygon.
+// Returns twice the signed area of a triangle of corners.
 inline double area2(const FlatPolygon& flat, std::size_t a, std::size_t b, std::size_t c) {
   return cross2(flat.points[b] - flat.points[a], flat.points[c] - flat.points[a]);
 }
 
-// What a cross product of two differences of points may be off by: their coordinates are rounded in double, relative to
-// the polygon's size, however short the differences are.
+// Returns a bound of the rounding error of cross2(a, b) for differences of points, whose coordinates have rounding
+// errors relative to the polygon's size.
 inline double rounding(const FlatPolygon& flat, const glm::dvec2& a, const glm::dvec2& b) {
   return 4e-15 * flat.size * (std::abs(a.x) + std::abs(a.y) + std::abs(b.x) + std::abs(b.y));
 }
 
-// Whether a triangle of the polygon goes around counter-clockwise and has an area beyond rounding.
+// Returns true if a triangle of corners is counter-clockwise and has an area above rounding errors.
 inline bool hasArea(const FlatPolygon& flat, std::size_t a, std::size_t b, std::size_t c) {
   const glm::dvec2 u = flat.points[b] - flat.points[a], v = flat.points[c] - flat.points[a];
   return cross2(u, v) > rounding(flat, u, v);

@@ -13,7 +13,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/clean/degenerate_faces.h"
 #include "meshprep/clean/edges.h"
-#include "meshprep/clean/places.h"
+#include "meshprep/clean/position_ids.h"
 #include "meshprep/clean/select.h"
 #include "meshprep/clean/triangulate.h"
 
@@ -21,7 +21,7 @@ namespace malus::prep {
 
 namespace {
 
-Finding describeHole(const Mesh& mesh, const Loop& loop, std::string_view also) {
+Finding describeHole(const Mesh& mesh, const Loop& loop, std::string_view remark) {
   Finding finding;
   double around = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -29,14 +29,14 @@ Finding describeHole(const Mesh& mesh, const Loop& loop, std::string_view also) 
     around += glm::distance(mesh.positions[loop[i]], mesh.positions[loop[(i + 1) % loop.size()]]);
     if (sourceVertex(mesh, loop[i]) != kNoSource) finding.vertices.push_back(sourceVertex(mesh, loop[i]));
   }
-  finding.what = fmt::format("{} edges, {:.4g} m around{}", loop.size(), around, also);
+  finding.what = fmt::format("{} edges, {:.4g} m around{}", loop.size(), around, remark);
   return finding;
 }
 
 }  // namespace
 
 std::vector<Loop> findHoles(const Mesh& mesh) {
-  // Step 1: where each boundary edge leads, against the way that its triangle runs along it.
+  // Collect boundary edges, opposite to the direction of their triangles.
   std::unordered_multimap<std::uint32_t, std::uint32_t> next;
   std::vector<std::uint32_t> starts;
   forEachEdge(edgeUses(mesh.triangles), [&](std::span<const EdgeUse> edge) {
@@ -46,7 +46,7 @@ std::vector<Loop> findHoles(const Mesh& mesh) {
     starts.push_back(from);
   });
 
-  // Step 2: follow them from the smallest vertex on.
+  // Follow them from the smallest vertex on.
   std::sort(starts.begin(), starts.end());
   std::vector<Loop> loops;
   for (const std::uint32_t start : starts) {
@@ -71,46 +71,46 @@ Findings describeHoles(const Mesh& mesh, const std::vector<Loop>& loops) {
 FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t maxEdges) {
   if (loops.empty()) return {};
 
-  // Step 1: a face beside each hole, by the hole's first vertex.
+  // Find a face beside each hole, by the first vertex of the hole.
   std::unordered_map<std::uint32_t, std::size_t> beside;
   for (const Loop& loop : loops) beside.emplace(loop.front(), 0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k)
       if (const auto found = beside.find(mesh.triangles[i][k]); found != beside.end()) found->second = i;
 
-  // Step 2: the edges and faces that are there, by place: a lid must not lie on a face, nor have one of its inner edges
-  // where there is one.
-  const std::vector<std::uint32_t> place = placeOfVertices(mesh);
+  // Collect existing edges and faces by position: a cap must not coincide with a face, nor share an inner edge with
+  // one.
+  const std::vector<std::uint32_t> position = positionIds(mesh);
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   std::set<std::array<std::uint32_t, 3>> faces;
-  const auto faceLocations = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    std::array<std::uint32_t, 3> places{place[a], place[b], place[c]};
-    std::sort(places.begin(), places.end());
-    return places;
+  const auto faceIds = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    std::array<std::uint32_t, 3> ids{position[a], position[b], position[c]};
+    std::sort(ids.begin(), ids.end());
+    return ids;
   };
   for (const glm::uvec3& t : mesh.triangles) {
-    faces.insert(faceLocations(t.x, t.y, t.z));
+    faces.insert(faceIds(t.x, t.y, t.z));
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t from = place[t[k]], to = place[t[(k + 1) % 3]];
+      const std::uint32_t from = position[t[k]], to = position[t[(k + 1) % 3]];
       edges.emplace(std::min(from, to), std::max(from, to));
     }
   }
-  const auto isFree = [&](const Loop& loop, const Mesh& lid) {
+  const auto isFree = [&](const Loop& loop, const Mesh& cap) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> inner;
-    forEachEdge(edgeUses(lid.triangles), [&](std::span<const EdgeUse> edge) {
-      const std::uint32_t low = place[loop[edge[0].low]], high = place[loop[edge[0].high]];
+    forEachEdge(edgeUses(cap.triangles), [&](std::span<const EdgeUse> edge) {
+      const std::uint32_t low = position[loop[edge[0].low]], high = position[loop[edge[0].high]];
       if (edge.size() == 2) inner.emplace_back(std::min(low, high), std::max(low, high));
     });
     for (const auto& edge : inner)
       if (edges.contains(edge)) return false;
-    for (const glm::uvec3& t : lid.triangles)
-      if (faces.contains(faceLocations(loop[t.x], loop[t.y], loop[t.z]))) return false;
+    for (const glm::uvec3& t : cap.triangles)
+      if (faces.contains(faceIds(loop[t.x], loop[t.y], loop[t.z]))) return false;
     edges.insert(inner.begin(), inner.end());
-    for (const glm::uvec3& t : lid.triangles) faces.insert(faceLocations(loop[t.x], loop[t.y], loop[t.z]));
+    for (const glm::uvec3& t : cap.triangles) faces.insert(faceIds(loop[t.x], loop[t.y], loop[t.z]));
     return true;
   };
 
-  // Step 3: triangles of each loop, as of a polygon.
+  // Triangulate each loop as a polygon.
   FilledHoles result;
   for (const Loop& loop : loops) {
     Polygons polygon;
@@ -120,23 +120,23 @@ FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t 
     }
     polygon.closeFace();
     TriangulateCounts counts;
-    Mesh lid;
+    Mesh cap;
     bool simple = loop.size() <= maxEdges;
     if (simple) try {
-        lid = triangulate(polygon, counts);
-      } catch (const Error&) {  // more corners than triangulate() takes
+        cap = triangulate(polygon, counts);
+      } catch (const Error&) {  // too complex to triangulate
         simple = false;
       }
-    const bool flat = std::any_of(lid.triangles.begin(), lid.triangles.end(), [&](const glm::uvec3& t) {
-      return isWithoutArea(lid.positions[t.x], lid.positions[t.y], lid.positions[t.z]);
+    const bool flat = std::any_of(cap.triangles.begin(), cap.triangles.end(), [&](const glm::uvec3& t) {
+      return isWithoutArea(cap.positions[t.x], cap.positions[t.y], cap.positions[t.z]);
     });
-    const bool free = simple && counts.crossing == 0 && counts.repeatedCorners == 0 && !flat && isFree(loop, lid);
+    const bool free = simple && counts.crossing == 0 && counts.repeatedCorners == 0 && !flat && isFree(loop, cap);
     if (!free) {
       result.left.add([&] { return describeHole(mesh, loop, loop.size() > maxEdges ? "" : ", cannot be filled"); });
       continue;
     }
     result.filled.add([&] { return describeHole(mesh, loop, ""); });
-    for (const glm::uvec3& t : lid.triangles)
+    for (const glm::uvec3& t : cap.triangles)
       addTriangle(mesh, {loop[t.x], loop[t.y], loop[t.z]}, beside.at(loop.front()));
   }
   return result;

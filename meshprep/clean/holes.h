@@ -1,5 +1,5 @@
-// The holes of a surface: loops of edges that only one triangle has. They are told; they are filled only where that is
-// asked for, with triangles of the loop's own vertices (triangulate.h).
+// Holes of a surface: loops of edges with one triangle. They are reported, and filled on request with triangles of the
+// loop's vertices (triangulate.h).
 #pragma once
 
 #include <vector>
@@ -8,22 +8,22 @@
 
 namespace malus::prep {
 
-// The vertices around a hole, one after the other, the way around that a face filling it has.
+// Vertices around a hole, in the orientation of a face that fills it.
 using Loop = std::vector<std::uint32_t>;
 
-// In the order of their smallest vertices. Every vertex must have one fan (fans.h); edges whose loop does not close,
-// on a surface whose sides do not agree, are left out.
+// Returns the holes in the order of their smallest vertices. Every vertex must have one fan (fans.h). Ignores edges
+// whose loop does not close, because the surface is not oriented consistently.
 std::vector<Loop> findHoles(const Mesh& mesh);
 
-// Tells the holes: vertices, middle, number of edges and length around.
+// Returns a finding per hole: vertices, centre, number of edges and length.
 Findings describeHoles(const Mesh& mesh, const std::vector<Loop>& loops);
 
 struct FilledHoles {
   Findings filled;
-  Findings left;  // too long, crossing themselves, along a line, or on a face or over an edge that is there already
+  Findings left;  // too long, self-crossing, without area, or in conflict with an existing face or edge
 };
 
-// Fills those of at most maxEdges edges. Triangles are added at the end, as if cut from a face beside the hole.
+// Fills holes of at most maxEdges edges. Appends the triangles with the source face of a neighbour of the hole.
 FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t maxEdges);
 
 }  // namespace malus::prep

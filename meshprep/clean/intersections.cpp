@@ -4,14 +4,14 @@
 #include <array>
 #include <mutex>
 
-#ifdef __clang_analyzer__  // which takes the stepping stone in CGAL's exact numbers for a leak
+#ifdef __clang_analyzer__  // it reports a false leak in CGAL's exact numbers
 #define CGAL_DO_NOT_USE_MPZF
 #endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <glm/common.hpp>
 
 #include "meshprep/clean/box_pairs.h"
-#include "meshprep/clean/places.h"
+#include "meshprep/clean/position_ids.h"
 #include "meshprep/clean/select.h"
 
 namespace malus::prep {
@@ -20,47 +20,47 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr std::uint64_t kTestsEach = 32;         // of a triangle, on average; a fine mesh has about 7
-constexpr std::uint64_t kTestsMore = 1u << 23u;  // a fan of 4000 triangles around a corner has as many
+constexpr std::uint64_t kTestsPerTriangle = 32;  // average; a fine mesh has about 7
+constexpr std::uint64_t kMinTests = 1u << 23u;   // a fan of 4000 triangles around a vertex needs as many
 
-// A triangle with the numbers of its places, turned as its test needs it.
+// Corners of a triangle with their position ids.
 struct Corners {
   std::array<Kernel::Point_3, 3> point;
-  std::array<std::uint32_t, 3> place{};
+  std::array<std::uint32_t, 3> positionId{};
   Kernel::Triangle_3 triangle() const { return {point[0], point[1], point[2]}; }
   Kernel::Segment_3 acrossFrom(std::size_t corner) const { return {point[(corner + 1) % 3], point[(corner + 2) % 3]}; }
 };
 
-Corners cornersOf(const Mesh& mesh, const std::vector<std::uint32_t>& place, std::uint32_t i) {
+Corners makeCorners(const Mesh& mesh, const std::vector<std::uint32_t>& ids, std::uint32_t i) {
   Corners corners;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t v = mesh.triangles[i][static_cast<int>(k)];
     const glm::dvec3& p = mesh.positions[v];
     corners.point[k] = {p.x, p.y, p.z};
-    corners.place[k] = place[v];
+    corners.positionId[k] = ids[v];
   }
   return corners;
 }
 
 enum class Contact { none, crossing, coincident };
 
-Contact contactOf(const Corners& a, const Corners& b) {
-  // Step 1: corners that both have.
+Contact classifyContact(const Corners& a, const Corners& b) {
+  // Find shared corners.
   std::array<std::size_t, 3> ofA{}, ofB{};
   std::size_t shared = 0;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
-      if (a.place[i] == b.place[j]) {
+      if (a.positionId[i] == b.positionId[j]) {
         ofA[shared] = i;
         ofB[shared] = j;
         ++shared;
       }
 
-  // Step 2: the test for each case.
+  // Test by the number of shared corners.
   bool crosses = false;
   if (shared == 3) return Contact::coincident;
   if (shared == 2) {
-    // Over their common edge they only meet again where one is folded onto the other.
+    // Triangles with a common edge meet elsewhere only if one is folded onto the other.
     const Kernel::Point_3 &p = a.point[ofA[0]], &q = a.point[ofA[1]];
     const Kernel::Point_3 &r = a.point[3 - ofA[0] - ofA[1]], &s = b.point[3 - ofB[0] - ofB[1]];
     crosses = CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
@@ -76,7 +76,7 @@ Contact contactOf(const Corners& a, const Corners& b) {
 }  // namespace
 
 Intersections findIntersections(const Mesh& mesh) {
-  // Step 1: boxes.
+  // Compute bounding boxes.
   std::vector<Box> boxes;
   boxes.reserve(mesh.triangles.size());
   for (const glm::uvec3& t : mesh.triangles) {
@@ -84,21 +84,21 @@ Intersections findIntersections(const Mesh& mesh) {
     boxes.push_back({glm::min(p, glm::min(q, r)), glm::max(p, glm::max(q, r))});
   }
 
-  // Step 2: what has no area intersects nothing.
+  // Mark triangles without area.
   std::vector<char> flat(mesh.triangles.size(), 0);
-  const std::vector<std::uint32_t> place = placeOfVertices(mesh);
+  const std::vector<std::uint32_t> ids = positionIds(mesh);
   for (std::uint32_t i = 0; i < flat.size(); ++i) {
-    const Corners c = cornersOf(mesh, place, i);
+    const Corners c = makeCorners(mesh, ids, i);
     flat[i] = CGAL::collinear(c.point[0], c.point[1], c.point[2]) ? 1 : 0;
   }
 
-  // Step 3: the exact test where boxes meet.
+  // Test pairs with overlapping boxes exactly.
   Intersections result;
   std::mutex lock;
-  result.complete =
-      forOverlappingBoxes(boxes, boxes, kTestsEach * boxes.size() + kTestsMore, [&](std::uint32_t i, std::uint32_t j) {
+  result.complete = forOverlappingBoxes(
+      boxes, boxes, kTestsPerTriangle * boxes.size() + kMinTests, [&](std::uint32_t i, std::uint32_t j) {
         if (i >= j || flat[i] != 0 || flat[j] != 0) return false;
-        const Contact contact = contactOf(cornersOf(mesh, place, i), cornersOf(mesh, place, j));
+        const Contact contact = classifyContact(makeCorners(mesh, ids, i), makeCorners(mesh, ids, j));
         if (contact == Contact::none) return true;
         const std::lock_guard guard(lock);
         (contact == Contact::crossing ? result.crossing : result.coincident).emplace_back(i, j);
@@ -106,7 +106,7 @@ Intersections findIntersections(const Mesh& mesh) {
       });
   if (!result.complete) return {{}, {}, false};
 
-  // Step 4: in an order that does not depend on the threads.
+  // Sort, because the order of the threads varies.
   std::sort(result.crossing.begin(), result.crossing.end());
   std::sort(result.coincident.begin(), result.coincident.end());
   return result;

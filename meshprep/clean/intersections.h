@@ -1,9 +1,8 @@
-// Triangles that run through each other, lie on each other or touch where they are not joined, as pairs. They are told
-// and left: what is inside of such a surface is not defined.
+// Detection of pairs of triangles that cross, coincide, or touch outside of shared corners. They are reported and not
+// repaired. The inside of such a surface is not defined.
 //
-// Triangles that share corners (by position) are joined there; one of them must then touch the other nowhere else. The
-// tests are exact for the coordinates as doubles (CGAL's kernel with exact predicates); what an R-tree of their boxes
-// keeps apart is not tested.
+// Triangles that share corners (by position) must not touch elsewhere. The tests are exact for the double coordinates
+// (CGAL's kernel with exact predicates). An R-tree of bounding boxes (box_pairs.h) finds the pairs to test.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +16,14 @@ namespace malus::prep {
 struct Intersections {
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  // triangles of the mesh, the smaller first
   std::vector<Pair> crossing;                            // sorted
-  std::vector<Pair> coincident;                          // the same three places; sorted
-  bool complete = true;                                  // false, and the lists empty, where there are too many to test
+  std::vector<Pair> coincident;                          // the same three positions; sorted
+  bool complete = true;                                  // false: too many pairs to test, and the lists are empty
 };
 
-// Triangles without area are left out.
+// Ignores triangles without area.
 Intersections findIntersections(const Mesh& mesh);
 
+// Returns a finding per pair, halfway between the triangles.
 Findings describePairs(const Mesh& mesh, const std::vector<Intersections::Pair>& pairs);
 
 }  // namespace malus::prep

@@ -11,19 +11,19 @@
 
 #include "meshprep/clean/box_pairs.h"
 #include "meshprep/clean/edges.h"
-#include "meshprep/clean/places.h"
+#include "meshprep/clean/position_ids.h"
 
 namespace malus::prep {
 
 namespace {
 
-constexpr std::uint64_t kCandidatesEach = 8;  // of an edge, on average; its own ends are two
-constexpr std::uint64_t kCandidatesMore = 1u << 20u;
+constexpr std::uint64_t kCandidatesPerEdge = 8;  // average, including the two ends
+constexpr std::uint64_t kMinCandidates = 1u << 20u;
 
 }  // namespace
 
 Junctions findJunctions(const Mesh& mesh) {
-  // Step 1: boundary edges and their vertices.
+  // Find boundary edges and their vertices.
   std::vector<EdgeUse> edges;
   std::vector<std::uint32_t> vertices;
   forEachEdge(edgeUses(mesh.triangles), [&](std::span<const EdgeUse> edge) {
@@ -37,34 +37,35 @@ Junctions findJunctions(const Mesh& mesh) {
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 
-  // Step 2: those that may meet.
+  // Find vertices near edges.
   std::vector<Box> edgeBoxes, vertexBoxes;
   for (const EdgeUse& edge : edges) {
     const glm::dvec3 a = mesh.positions[edge.low], b = mesh.positions[edge.high];
-    const glm::dvec3 room(kJunctionTolerance * glm::distance(a, b));
-    edgeBoxes.push_back({glm::min(a, b) - room, glm::max(a, b) + room});
+    const glm::dvec3 margin(kJunctionTolerance * glm::distance(a, b));
+    edgeBoxes.push_back({glm::min(a, b) - margin, glm::max(a, b) + margin});
   }
   for (const std::uint32_t v : vertices) vertexBoxes.push_back({mesh.positions[v], mesh.positions[v]});
-  const std::vector<std::uint32_t> place = placeOfVertices(mesh);
+  const std::vector<std::uint32_t> ids = positionIds(mesh);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   std::mutex lock;
   result.complete = forOverlappingBoxes(
-      edgeBoxes, vertexBoxes, kCandidatesEach * edges.size() + kCandidatesMore, [&](std::uint32_t e, std::uint32_t i) {
+      edgeBoxes, vertexBoxes, kCandidatesPerEdge * edges.size() + kMinCandidates,
+      [&](std::uint32_t e, std::uint32_t i) {
         const EdgeUse& edge = edges[e];
         const std::uint32_t v = vertices[i];
-        if (place[v] == place[edge.low] || place[v] == place[edge.high]) return true;
-        const glm::dvec3 along = mesh.positions[edge.high] - mesh.positions[edge.low];
+        if (ids[v] == ids[edge.low] || ids[v] == ids[edge.high]) return true;
+        const glm::dvec3 direction = mesh.positions[edge.high] - mesh.positions[edge.low];
         const glm::dvec3 toVertex = mesh.positions[v] - mesh.positions[edge.low];
-        const double share = glm::dot(toVertex, along) / glm::dot(along, along);
-        const double off = glm::distance(toVertex, share * along);
-        if (!(share > 0 && share < 1 && off <= kJunctionTolerance * glm::length(along))) return true;
+        const double fraction = glm::dot(toVertex, direction) / glm::dot(direction, direction);
+        const double distance = glm::distance(toVertex, fraction * direction);
+        if (!(fraction > 0 && fraction < 1 && distance <= kJunctionTolerance * glm::length(direction))) return true;
         const std::lock_guard guard(lock);
         pairs.emplace_back(v, e);
         return true;
       });
   if (!result.complete) return result;
 
-  // Step 3: in an order that does not depend on the threads.
+  // Sort, because the order of the threads varies.
   std::sort(pairs.begin(), pairs.end());
   for (const auto& [v, e] : pairs)
     result.found.add([&, vertex = v, edge = edges[e]] {

@@ -1,17 +1,17 @@
-// T-junctions: a vertex of a boundary that lies on another boundary edge, between its ends. Along it light can leak,
-// and the surface is open where it looks closed. They are told as pairs of a vertex and an edge, and left.
+// Detection of T-junctions: vertices of a boundary that are on another boundary edge, between its ends. Light can leak
+// there, and the surface is open although it looks closed. They are reported and not repaired.
 #pragma once
 
 #include "meshprep/findings.h"
 
 namespace malus::prep {
 
-// Of the edge's length: what a vertex may be off and still lie on it, as coordinates of few decimals are.
+// Largest distance between vertex and edge, relative to the edge's length; covers coordinates with few decimals.
 inline constexpr double kJunctionTolerance = 1e-6;
 
 struct Junctions {
-  Findings found;        // vertices: the one on the edge, then the edge's; faces: the edge's
-  bool complete = true;  // false, and nothing found, where there are too many candidates to look at
+  Findings found;        // vertices: the junction, then the ends of the edge; faces: that of the edge
+  bool complete = true;  // false: too many candidates to test, and nothing is found
 };
 
 Junctions findJunctions(const Mesh& mesh);

@@ -18,31 +18,31 @@ namespace malus::prep {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr double kVolumeTolerance = 1e-12;  // of the area times the box's diagonal: rounding, no side to tell by
+constexpr double kVolumeTolerance = 1e-12;  // relative to area times diagonal of the bounding box: rounding errors
 
-// A neighbour through an edge of two triangles.
+// Neighbour through an edge of two triangles.
 struct Link {
   std::uint32_t triangle = kNone;
-  bool agrees = false;  // both run along the edge in opposite ways, as neighbours should
+  bool agrees = false;  // they traverse the edge in opposite directions
 };
 
 struct Part {
   std::vector<std::uint32_t> triangles;
   bool orientable = true;
   bool closed = true;
-  bool hasVolume = false;  // closed, orientable, and with an inside
+  bool hasVolume = false;  // closed, orientable, and encloses a volume
 };
 
 class Orienter {
  public:
-  Orienter(Mesh& mesh, bool sheet) : mesh_(mesh), sheet_(sheet), uses_(edgeUses(mesh.triangles)) {}
+  Orienter(Mesh& mesh, bool openSurface) : mesh_(mesh), openSurface_(openSurface), uses_(edgeUses(mesh.triangles)) {}
 
   OrientResult run() {
     linkTriangles();
     findParts();
     findClosed();
-    takeMajority();
-    if (!sheet_) turnOutward();
+    followMajority();
+    if (!openSurface_) orientOutward();
     return finish();
   }
 
@@ -59,26 +59,26 @@ class Orienter {
     });
   }
 
-  // Walks from triangle to triangle, turning those that do not agree with where the walk came from.
+  // Traverses components and flips triangles that disagree with their predecessor.
   void findParts() {
-    partOf_.assign(mesh_.triangles.size(), kNone);
-    turned_.assign(mesh_.triangles.size(), 0);
-    for (std::uint32_t first = 0; first < partOf_.size(); ++first) {
-      if (partOf_[first] != kNone) continue;
+    part_.assign(mesh_.triangles.size(), kNone);
+    flipped_.assign(mesh_.triangles.size(), 0);
+    for (std::uint32_t first = 0; first < part_.size(); ++first) {
+      if (part_[first] != kNone) continue;
       const auto id = static_cast<std::uint32_t>(parts_.size());
       Part part;
       part.triangles.push_back(first);
-      partOf_[first] = id;
+      part_[first] = id;
       for (std::size_t next = 0; next < part.triangles.size(); ++next) {
         const std::uint32_t here = part.triangles[next];
         for (const Link& link : links_[here]) {
           if (link.triangle == kNone) continue;
-          const char turn = static_cast<char>(link.agrees ? turned_[here] : 1 - turned_[here]);
-          if (partOf_[link.triangle] == kNone) {
-            partOf_[link.triangle] = id;
-            turned_[link.triangle] = turn;
+          const char flip = static_cast<char>(link.agrees ? flipped_[here] : 1 - flipped_[here]);
+          if (part_[link.triangle] == kNone) {
+            part_[link.triangle] = id;
+            flipped_[link.triangle] = flip;
             part.triangles.push_back(link.triangle);
-          } else if (turned_[link.triangle] != turn) {
+          } else if (flipped_[link.triangle] != flip) {
             part.orientable = false;
           }
         }
@@ -87,46 +87,47 @@ class Orienter {
     }
   }
 
-  // A part is closed where each edge is run along as often one way as the other: it has no boundary, even
-  // where it touches itself or other parts along an edge.
+  // Finds closed parts: each edge is traversed equally often in both directions. They have no boundary even if they
+  // touch themselves or other parts at an edge.
   void findClosed() {
     forEachEdge(uses_, [&](std::span<const EdgeUse> edge) {
-      std::vector<std::pair<std::uint32_t, int>> ways;  // of each use: part, and 1 or -1 as it runs
+      std::vector<std::pair<std::uint32_t, int>> directions;  // per use: part, and 1 or -1
       for (const EdgeUse& use : edge)
-        ways.emplace_back(partOf_[use.triangle], use.forward != (turned_[use.triangle] != 0) ? 1 : -1);
-      std::sort(ways.begin(), ways.end());
-      for (std::size_t begin = 0, end = 0; begin < ways.size(); begin = end) {
+        directions.emplace_back(part_[use.triangle], use.forward != (flipped_[use.triangle] != 0) ? 1 : -1);
+      std::sort(directions.begin(), directions.end());
+      for (std::size_t begin = 0, end = 0; begin < directions.size(); begin = end) {
         int balance = 0;
-        for (; end < ways.size() && ways[end].first == ways[begin].first; ++end) balance += ways[end].second;
-        Part& part = parts_[ways[begin].first];
+        for (; end < directions.size() && directions[end].first == directions[begin].first; ++end)
+          balance += directions[end].second;
+        Part& part = parts_[directions[begin].first];
         if (part.orientable ? balance != 0 : (end - begin) % 2 != 0) part.closed = false;
       }
     });
   }
 
-  void turnWhole(const Part& part) {
-    for (const std::uint32_t t : part.triangles) turned_[t] = static_cast<char>(1 - turned_[t]);
+  void flipPart(const Part& part) {
+    for (const std::uint32_t t : part.triangles) flipped_[t] = static_cast<char>(1 - flipped_[t]);
   }
 
-  void takeMajority() {
+  void followMajority() {
     for (const Part& part : parts_) {
       if (!part.orientable) {
-        for (const std::uint32_t t : part.triangles) turned_[t] = 0;
+        for (const std::uint32_t t : part.triangles) flipped_[t] = 0;
         continue;
       }
-      const auto turns = static_cast<std::size_t>(std::count_if(part.triangles.begin(), part.triangles.end(),
-                                                                [&](std::uint32_t t) { return turned_[t] != 0; }));
-      if (2 * turns > part.triangles.size()) turnWhole(part);
+      const auto flips = static_cast<std::size_t>(std::count_if(part.triangles.begin(), part.triangles.end(),
+                                                                [&](std::uint32_t t) { return flipped_[t] != 0; }));
+      if (2 * flips > part.triangles.size()) flipPart(part);
     }
   }
 
-  // The triangle as it will be.
+  // Returns the triangle after flipping.
   glm::uvec3 triangle(std::uint32_t t) const {
     const glm::uvec3 v = mesh_.triangles[t];
-    return turned_[t] != 0 ? glm::uvec3(v.x, v.z, v.y) : v;
+    return flipped_[t] != 0 ? glm::uvec3(v.x, v.z, v.y) : v;
   }
 
-  // About the part's own first corner: far from the origin, tetrahedra to the origin would cancel badly.
+  // Uses the part's first corner as origin, because tetrahedra to a far origin cancel.
   double signedVolume(const Part& part) const {
     const glm::dvec3 origin = mesh_.positions[triangle(part.triangles.front()).x];
     double volume = 0;
@@ -152,10 +153,10 @@ class Orienter {
     return std::abs(volume) > kVolumeTolerance * area * glm::length(high - low);
   }
 
-  void turnOutward() {
-    // Step 1: the shells, in the orientation that the majority gave them.
+  void orientOutward() {
+    // Collect the shells in the orientation of the majority.
     std::vector<Shell> shells;
-    std::vector<std::size_t> partOfShell;
+    std::vector<std::size_t> shellPart;
     std::vector<double> volumes;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       Part& part = parts_[i];
@@ -170,21 +171,21 @@ class Orienter {
       shell.volume = std::abs(volume);
       for (const std::uint32_t t : part.triangles) shell.triangles.push_back(triangle(t));
       shells.push_back(std::move(shell));
-      partOfShell.push_back(i);
+      shellPart.push_back(i);
       volumes.push_back(volume);
     }
 
-    // Step 2: what lies inside what.
+    // Find their nesting.
     std::vector<Nesting> nesting(shells.size());
     if (shells.size() > kMaxShells || !nestShells(shells, mesh_.positions, nesting))
       result_.nestingUnchecked = shells.size();
 
-    // Step 3: turn. A parent is at an even depth where its child is at an odd one, so it decides alone.
+    // Flip. The parent of a shell at odd depth is at even depth and decides for both.
     for (std::size_t i = 0; i < shells.size(); ++i) {
       const bool follows = nesting[i].depth % 2 == 1;
       if (follows) ++result_.nested;
       const double deciding = follows ? volumes[*nesting[i].parent] : volumes[i];
-      if (deciding < 0) turnWhole(parts_[partOfShell[i]]);
+      if (deciding < 0) flipPart(parts_[shellPart[i]]);
     }
   }
 
@@ -197,32 +198,32 @@ class Orienter {
       component.hasVolume = part.hasVolume;
       component.at = mesh_.positions[mesh_.triangles[part.triangles.front()].x];
       component.firstFace = sourceFace(mesh_, part.triangles.front());
-      for (const std::uint32_t t : part.triangles) component.flipped += turned_[t] != 0 ? 1u : 0u;
+      for (const std::uint32_t t : part.triangles) component.flipped += flipped_[t] != 0 ? 1u : 0u;
       if (part.closed && part.orientable) component.signedVolume = signedVolume(part);
       result_.notOrientable += part.orientable ? 0u : 1u;
       result_.components.push_back(component);
     }
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (turned_[t] == 0) continue;
+      if (flipped_[t] == 0) continue;
       result_.flipped.add([&] { return findingAt(mesh_, centroid(mesh_, t), {t}); });
-      turnOver(mesh_, t);
+      flipTriangle(mesh_, t);
     }
-    result_.componentOf = std::move(partOf_);
+    result_.componentOf = std::move(part_);
     return std::move(result_);
   }
 
   Mesh& mesh_;
-  bool sheet_;
+  bool openSurface_;
   std::vector<EdgeUse> uses_;
   std::vector<std::array<Link, 3>> links_;
-  std::vector<std::uint32_t> partOf_;
-  std::vector<char> turned_;  // 1 where the triangle is to be turned over
+  std::vector<std::uint32_t> part_;
+  std::vector<char> flipped_;  // 1: the triangle is to be flipped
   std::vector<Part> parts_;
   OrientResult result_;
 };
 
 }  // namespace
 
-OrientResult orient(Mesh& mesh, bool sheet) { return Orienter(mesh, sheet).run(); }
+OrientResult orient(Mesh& mesh, bool openSurface) { return Orienter(mesh, openSurface).run(); }
 
 }  // namespace malus::prep

@@ -1,18 +1,16 @@
-// Turns triangles over so that the sides of a surface agree.
+// Consistent orientation of the faces of a surface.
 //
-// A component is what hangs together through edges of exactly two triangles. Inside a component all
-// triangles are made to agree; the majority (by number of triangles, the first one on a tie) keeps its side.
-// Then, unless the mesh is a sheet:
-// - a closed component is turned as a whole where its signed volume is negative: normals point outward;
-// - but one that lies inside an odd number of other closed components (a cavity, or a body within a body:
-//   the file alone knows) is turned if and only if the smallest component around it was: the two keep the
-//   sides that they had to each other.
-// Open components, components without volume and all of a sheet keep the majority's side. Components that
-// have no two sides (a Moebius strip) stay as they are.
+// Components are connected through edges of exactly two triangles. The triangles of a component are made consistent;
+// the majority keeps its orientation (by number; with equal numbers, that of the first triangle). Then, unless the mesh
+// is an open surface:
+// - a closed component with a negative signed volume is flipped as a whole, so that its normals point outward;
+// - a closed component inside an odd number of others (a cavity, or a body in a body; only the file knows which) is
+//   flipped if and only if the smallest component around it is, so that their relative orientation is kept.
+// Open components, components without volume and open surfaces keep the orientation of the majority. Components that
+// are not orientable (Moebius strip) are not changed.
 //
-// Source: signed volume as the sum of tetrahedra, C. Zhang and T. Chen, "Efficient feature extraction for
-// 2D/3D objects in mesh representation", ICIP 2001; inside by winding number with the solid angle of
-// A. van Oosterom and J. Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983.
+// Source: signed volume as a sum of tetrahedra: C. Zhang and T. Chen, "Efficient feature extraction for 2D/3D objects
+// in mesh representation", ICIP 2001. Inside by winding number (shell_nesting.h).
 #pragma once
 
 #include <cstdint>
@@ -25,18 +23,18 @@ namespace malus::prep {
 
 struct OrientResult {
   std::vector<Component> components;       // in the order of their first triangles
-  std::vector<std::uint32_t> componentOf;  // of every triangle
-  Findings flipped;                        // triangles turned over
-  bool applied = true;                     // false where the mesh was left as it is, and this tells what would be done
-  std::uint64_t nested = 0;                // components kept with the one around them
-  std::uint64_t notOrientable = 0;         // components without two sides
-  std::uint64_t withoutVolume = 0;         // closed components whose outside cannot be told
+  std::vector<std::uint32_t> componentOf;  // index into components, per triangle
+  Findings flipped;                        // flipped triangles
+  bool applied = true;                     // false: the mesh is unchanged, and this is what orient() would do
+  std::uint64_t nested = 0;                // components oriented relative to the one around them
+  std::uint64_t notOrientable = 0;         // components that are not orientable
+  std::uint64_t withoutVolume = 0;         // closed components without volume, which have no outside
   std::uint64_t boundaryEdges = 0;         // edges of one triangle
-  std::uint64_t nonManifoldEdges = 0;      // edges of three or more
-  std::uint64_t nestingUnchecked = 0;      // closed components where there are too many to compare
+  std::uint64_t nonManifoldEdges = 0;      // edges of three or more triangles
+  std::uint64_t nestingUnchecked = 0;      // closed components, if they are too many to compare; else 0
 };
 
-// Triangles must have three different vertices. Order is kept; a turned triangle keeps its first vertex.
-OrientResult orient(Mesh& mesh, bool sheet);
+// Triangles must have three different vertices. Keeps the order of triangles and the first vertex of each.
+OrientResult orient(Mesh& mesh, bool openSurface);
 
 }  // namespace malus::prep

@@ -1,4 +1,4 @@
-// Keeps some of a mesh's triangles or vertices, in their order, with everything that is kept beside them.
+// Edits of a mesh's lists of triangles and vertices that keep all attributes consistent.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ inline glm::dvec3 centroid(const Mesh& mesh, std::size_t triangle) {
   return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0;
 }
 
-// keep(i) tells whether triangle i stays; it is asked once for each, in order.
+// Removes the triangles for which keep(i) returns false. Calls it once per triangle, in order.
 template <class Keep>
 void keepTriangles(Mesh& mesh, Keep keep) {
   std::size_t kept = 0;
@@ -24,7 +24,7 @@ void keepTriangles(Mesh& mesh, Keep keep) {
     mesh.triangles[kept] = mesh.triangles[i];
     if (!mesh.sourceFaces.empty()) mesh.sourceFaces[kept] = mesh.sourceFaces[i];
     if (!mesh.sourceCorners.empty()) mesh.sourceCorners[kept] = mesh.sourceCorners[i];
-    if (!mesh.turned.empty()) mesh.turned[kept] = mesh.turned[i];
+    if (!mesh.flipped.empty()) mesh.flipped[kept] = mesh.flipped[i];
     if (!mesh.smoothingGroups.empty()) mesh.smoothingGroups[kept] = mesh.smoothingGroups[i];
     if (!mesh.cornerNormals.empty())
       for (std::size_t corner = 0; corner < 3; ++corner)
@@ -34,12 +34,12 @@ void keepTriangles(Mesh& mesh, Keep keep) {
   mesh.triangles.resize(kept);
   if (!mesh.sourceFaces.empty()) mesh.sourceFaces.resize(kept);
   if (!mesh.sourceCorners.empty()) mesh.sourceCorners.resize(kept);
-  if (!mesh.turned.empty()) mesh.turned.resize(kept);
+  if (!mesh.flipped.empty()) mesh.flipped.resize(kept);
   if (!mesh.smoothingGroups.empty()) mesh.smoothingGroups.resize(kept);
   if (!mesh.cornerNormals.empty()) mesh.cornerNormals.resize(3 * kept);
 }
 
-// A triangle more, cut from the face that triangle `like` is cut from. Its corners have no normals of their own.
+// Appends a triangle of the same source face as triangle `like`. Its corners have no normals.
 inline void addTriangle(Mesh& mesh, const glm::uvec3& triangle, std::size_t like) {
   const glm::uvec3 corners = mesh.sourceVertices.empty()
                                  ? triangle
@@ -48,23 +48,23 @@ inline void addTriangle(Mesh& mesh, const glm::uvec3& triangle, std::size_t like
   mesh.triangles.push_back(triangle);
   if (!mesh.sourceFaces.empty()) mesh.sourceFaces.push_back(mesh.sourceFaces[like]);
   if (!mesh.sourceCorners.empty()) mesh.sourceCorners.push_back(corners);
-  if (!mesh.turned.empty()) mesh.turned.push_back(mesh.turned[like]);
+  if (!mesh.flipped.empty()) mesh.flipped.push_back(mesh.flipped[like]);
   if (!mesh.smoothingGroups.empty()) mesh.smoothingGroups.push_back(mesh.smoothingGroups[like]);
   if (!mesh.cornerNormals.empty()) mesh.cornerNormals.insert(mesh.cornerNormals.end(), 3, glm::vec3(0));
 }
 
-// Turns a triangle over; its first vertex stays first.
-inline void turnOver(Mesh& mesh, std::size_t i) {
+// Flips a triangle and keeps its first vertex.
+inline void flipTriangle(Mesh& mesh, std::size_t i) {
   std::swap(mesh.triangles[i].y, mesh.triangles[i].z);
-  if (!mesh.turned.empty()) mesh.turned[i] = mesh.turned[i] == 0 ? 1 : 0;
+  if (!mesh.flipped.empty()) mesh.flipped[i] = mesh.flipped[i] == 0 ? 1 : 0;
   if (!mesh.sourceCorners.empty()) std::swap(mesh.sourceCorners[i].y, mesh.sourceCorners[i].z);
   if (!mesh.cornerNormals.empty()) std::swap(mesh.cornerNormals[3 * i + 1], mesh.cornerNormals[3 * i + 2]);
 }
 
-// newIndex[i] is the vertex that i becomes, or the number of vertices left for one that goes; `from` are the vertices
-// that stay, one for each new index.
-inline void takeVertices(Mesh& mesh, const std::vector<std::uint32_t>& from,
-                         const std::vector<std::uint32_t>& newIndex) {
+// Replaces the vertices by those of `from`, one old index per new vertex, and old indices i of triangles by
+// newIndex[i].
+inline void selectVertices(Mesh& mesh, const std::vector<std::uint32_t>& from,
+                           const std::vector<std::uint32_t>& newIndex) {
   const auto take = [&](auto& values) {
     if (values.empty()) return;
     auto kept = values;

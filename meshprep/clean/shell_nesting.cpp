@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::size_t kSamples = 16;
 constexpr double kInside = 0.75;
-constexpr std::uint64_t kMaxWork = 1u << 28u;  // angles of triangles: some seconds
+constexpr std::uint64_t kMaxWork = 1u << 28u;  // solid angles: some seconds
 
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
 };
 
-Box boxOf(const Shell& shell, std::span<const glm::dvec3> positions) {
+Box boundingBox(const Shell& shell, std::span<const glm::dvec3> positions) {
   Box box;
   for (const glm::uvec3& t : shell.triangles)
     for (int corner = 0; corner < 3; ++corner) {
@@ -63,9 +63,9 @@ double windingNumber(const Shell& shell, std::span<const glm::dvec3> positions, 
 
 bool nestShells(std::span<const Shell> shells, std::span<const glm::dvec3> positions, std::vector<Nesting>& nesting) {
   std::vector<Box> boxes;
-  for (const Shell& shell : shells) boxes.push_back(boxOf(shell, positions));
+  for (const Shell& shell : shells) boxes.push_back(boundingBox(shell, positions));
 
-  // From the largest to the smallest, so that a parent's depth is known before its children's.
+  // Process shells by decreasing volume, so that parents come before their children.
   std::vector<std::size_t> order(shells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

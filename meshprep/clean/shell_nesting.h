@@ -1,4 +1,4 @@
-// Which closed shells lie inside which.
+// Nesting of closed shells.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +11,25 @@
 namespace malus::prep {
 
 struct Shell {
-  std::vector<glm::uvec3> triangles;  // closed and consistently oriented, to either side
-  double volume = 0;                  // without sign
+  std::vector<glm::uvec3> triangles;  // closed and consistently oriented, outward or inward
+  double volume = 0;                  // absolute value
 };
 
 struct Nesting {
-  std::optional<std::size_t> parent;  // the smallest shell around it
-  std::size_t depth = 0;              // how many shells are around it, counted along the parents
+  std::optional<std::size_t> parent;  // smallest shell around it
+  std::size_t depth = 0;              // number of ancestors
 };
 
-// More shells than this are not compared with each other.
+// Largest number of shells that are compared.
 inline constexpr std::size_t kMaxShells = 4096;
 
-// A shell is inside another where its box lies within the other's (or touches it from inside) and 16 of its vertices,
-// evenly chosen, have a winding number of more than 3/4. Shells that only poke into each other are not nested. Returns
-// false, having told nothing, where that takes more than 2^28 angles of triangles. nesting: one a shell.
+// A shell is inside another if its bounding box is inside the other's and 16 of its vertices, evenly chosen, have a
+// winding number above 3/4. Shells that intersect are not nested. nesting: one per shell. Returns false, and resets
+// nesting, if more than 2^28 solid angles have to be computed.
 bool nestShells(std::span<const Shell> shells, std::span<const glm::dvec3> positions, std::vector<Nesting>& nesting);
 
-// How often the shell winds around p: 1 or -1 inside, 0 outside, about 1/2 on the surface.
+// Returns the winding number of the shell around p: 1 or -1 inside, 0 outside, about 1/2 on the surface.
+// Source: A. van Oosterom and J. Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983.
 double windingNumber(const Shell& shell, std::span<const glm::dvec3> positions, const glm::dvec3& p);
 
 }  // namespace malus::prep

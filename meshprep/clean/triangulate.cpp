@@ -19,7 +19,7 @@ namespace malus::prep {
 
 namespace {
 
-constexpr double kPlanarTolerance = 1e-4;  // of the polygon's size
+constexpr double kPlanarTolerance = 1e-4;  // relative to the polygon's size
 
 // Projects along Newell's normal so that the polygon runs counter-clockwise.
 FlatPolygon flatten(const std::vector<glm::dvec3>& corners) {
@@ -35,7 +35,7 @@ FlatPolygon flatten(const std::vector<glm::dvec3>& corners) {
   const double length = glm::length(normal);
   const glm::dvec3 n = length > 0 ? normal / length : glm::dvec3(0, 0, 1);
 
-  // Any two axes at right angles to n, right-handed.
+  // Choose axes u, v perpendicular to n, right-handed.
   const glm::dvec3 helper = std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 u = glm::normalize(glm::cross(helper, n));
   const glm::dvec3 v = glm::cross(n, u);
@@ -83,13 +83,13 @@ class Triangulation {
   EarCutter ears_;
   std::uint64_t tests_;
 
-  // Of the polygon at hand: which of its corners are kept, and where they are; its triangles, as numbers of these.
+  // Current polygon: kept corners, their positions, and triangles of indices into these.
   std::vector<std::uint32_t> kept_;
-  std::vector<glm::dvec3> places_;
+  std::vector<glm::dvec3> positions_;
   std::vector<glm::uvec3> triangles_;
 };
 
-// Room for all triangles, which are never more than corners less two a face.
+// Reserves memory for all triangles: at most corners - 2 per face.
 void Triangulation::reserve() {
   const std::size_t most = polygons_.corners.size() - 2 * polygons_.faceCount();
   mesh_.triangles.reserve(most);
@@ -98,7 +98,7 @@ void Triangulation::reserve() {
   if (!polygons_.smoothingGroups.empty()) mesh_.smoothingGroups.reserve(most);
 }
 
-// A triangle of a face, by three of the face's corners, with all that the file says about them.
+// Appends a triangle of three corners of a face, with their attributes.
 void Triangulation::add(std::size_t face, const glm::uvec3& corners) {
   const std::size_t first = polygons_.firstCorner[face];
   glm::uvec3 triangle(0);
@@ -119,30 +119,30 @@ void Triangulation::add(std::size_t face, const glm::uvec3& corners) {
 void Triangulation::addPolygon(std::size_t face) {
   ++counts_.polygons;
 
-  // Step 1: leave out corners that repeat the one before.
+  // Drop corners at the position of the previous one.
   const std::span<const std::uint32_t> corners = polygons_.face(face);
   kept_.clear();
-  places_.clear();
+  positions_.clear();
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const glm::dvec3& place = polygons_.positions[corners[i]];
-    if (!places_.empty() && place == places_.back()) continue;
+    const glm::dvec3& position = polygons_.positions[corners[i]];
+    if (!positions_.empty() && position == positions_.back()) continue;
     kept_.push_back(static_cast<std::uint32_t>(i));
-    places_.push_back(place);
+    positions_.push_back(position);
   }
-  while (places_.size() > 1 && places_.back() == places_.front()) {
+  while (positions_.size() > 1 && positions_.back() == positions_.front()) {
     kept_.pop_back();
-    places_.pop_back();
+    positions_.pop_back();
   }
   counts_.repeatedCorners += corners.size() - kept_.size();
 
-  // Step 2: triangles. Without area at all there is one degenerate triangle, for the next step to count.
+  // Append the triangles. A face without area becomes one degenerate triangle, which cleaning counts.
   if (kept_.size() < 3) return add(face, {0, 1, 2});
   if (kept_.size() == 3) return add(face, {kept_[0], kept_[1], kept_[2]});
-  cut(face, flatten(places_));
+  cut(face, flatten(positions_));
   for (const glm::uvec3& t : triangles_) add(face, {kept_[t.x], kept_[t.y], kept_[t.z]});
 }
 
-// By the corners' order where the polygon is convex, else ear by ear, else a fan after all.
+// Triangulates as a convex polygon, by ears, or, if both fail, as a fan.
 void Triangulation::cut(std::size_t face, const FlatPolygon& flat) {
   triangles_.clear();
   if (!flat.planar) ++counts_.nonPlanar;
@@ -162,7 +162,7 @@ void Triangulation::failTooComplex(std::size_t face) const {
   std::string where = fmt::format("face {}", face);
   if (!polygons_.faceLocations.empty())
     where += fmt::format(", {} {}", polygons_.locationsAreBytes ? "byte" : "line", polygons_.faceLocations[face]);
-  throw Error(where, "is too intricate to be cut into triangles", "faces of fewer corners",
+  throw Error(where, "face is too complex to triangulate", "faces with fewer corners",
               fmt::format("{} corners", polygons_.face(face).size()));
 }
 

@@ -20,7 +20,7 @@ Findings dropUnreferencedVertices(Mesh& mesh) {
     newIndex[i] = static_cast<std::uint32_t>(kept.size());
     kept.push_back(i);
   }
-  if (dropped.count > 0) takeVertices(mesh, kept, newIndex);
+  if (dropped.count > 0) selectVertices(mesh, kept, newIndex);
   return dropped;
 }
 

@@ -1,11 +1,11 @@
-// Drops vertices that no triangle names. Order of the others is kept.
+// Removal of vertices without triangles. Keeps the order of the others.
 #pragma once
 
 #include "meshprep/findings.h"
 
 namespace malus::prep {
 
-// Returns those that were dropped.
+// Returns the dropped vertices.
 Findings dropUnreferencedVertices(Mesh& mesh);
 
 }  // namespace malus::prep

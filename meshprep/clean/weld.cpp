@@ -20,8 +20,8 @@ namespace malus::prep {
 
 namespace {
 
-constexpr double kMaxCell = 9007199254740992.0;  // 2^53: whole numbers that a double holds
-constexpr int kRounds = 32;                      // of taking vertices apart again; then all of them
+constexpr double kMaxCell = 9007199254740992.0;  // 2^53: larger integers are not exact in double
+constexpr int kMaxRounds = 32;                   // of separating vertices; then all are separated
 
 using Cell = std::array<std::int64_t, 3>;
 
@@ -37,7 +37,7 @@ struct CellHash {
   }
 };
 
-// Equal positions share a cell: their bits, with one zero.
+// Returns the bits of the coordinates, with negative zero replaced by zero.
 Cell exactCell(const glm::dvec3& p) {
   const glm::dvec3 oneZero = p + 0.0;
   return {std::bit_cast<std::int64_t>(oneZero.x), std::bit_cast<std::int64_t>(oneZero.y),
@@ -49,17 +49,17 @@ Cell gridCell(const glm::dvec3& p, double size) {
   for (int axis = 0; axis < 3; ++axis) {
     const double index = std::floor(p[axis] / size);
     if (!(std::abs(index) < kMaxCell))
-      throw Error("weld", "the tolerance is too small for the coordinates",
+      throw Error("weld", "tolerance is too small for the coordinates",
                   fmt::format("more than {}", std::abs(p[axis]) / kMaxCell), fmt::to_string(size));
     cell[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(index);
   }
   return cell;
 }
 
-// The kept vertices, found by place. Returns an earlier vertex to join, or `none`.
-class Places {
+// Kept vertices by position. find() returns an earlier vertex to join, or kNone.
+class VertexGrid {
  public:
-  explicit Places(double tolerance) : tolerance_(tolerance) {}
+  explicit VertexGrid(double tolerance) : tolerance_(tolerance) {}
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   std::uint32_t find(const glm::dvec3& p, const std::vector<glm::dvec3>& kept) const {
@@ -95,32 +95,32 @@ class Places {
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
 };
 
-// The first vertex of every place, for each vertex.
-std::vector<std::uint32_t> firstOfPlace(const Mesh& mesh, double tolerance, const std::vector<char>& counts) {
-  Places places(tolerance);
+// Returns for each vertex the kept vertex that it joins. counts[i] == 0: vertex i joins none.
+std::vector<std::uint32_t> findRepresentatives(const Mesh& mesh, double tolerance, const std::vector<char>& counts) {
+  VertexGrid grid(tolerance);
   std::vector<glm::dvec3> kept;
   std::vector<std::uint32_t> keptVertex, first(mesh.positions.size());
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     first[i] = i;
     if (counts[i] == 0) continue;
-    const std::uint32_t index = places.find(mesh.positions[i], kept);
-    if (index != Places::kNone) {
+    const std::uint32_t index = grid.find(mesh.positions[i], kept);
+    if (index != VertexGrid::kNone) {
       first[i] = keptVertex[index];
       continue;
     }
-    places.add(mesh.positions[i], static_cast<std::uint32_t>(kept.size()));
+    grid.add(mesh.positions[i], static_cast<std::uint32_t>(kept.size()));
     kept.push_back(mesh.positions[i]);
     keptVertex.push_back(i);
   }
   return first;
 }
 
-// The vertices of edges that became one of several, and have more than two triangles by that. Copies of faces and faces
-// without area, which later steps take away, do not count.
-std::vector<char> onCrowdedEdges(const Mesh& mesh, const std::vector<std::uint32_t>& same,
-                                 const std::vector<std::uint32_t>& become) {
-  // Step 1: faces, once each.
-  std::vector<std::array<std::uint32_t, 6>> faces;  // as they become, sorted; as they are
+// Returns the vertices of edges that were merged from several and have more than two triangles. Duplicate faces and
+// faces without area are ignored, because later steps remove them.
+std::vector<char> findNonManifoldVertices(const Mesh& mesh, const std::vector<std::uint32_t>& same,
+                                          const std::vector<std::uint32_t>& become) {
+  // List faces without duplicates.
+  std::vector<std::array<std::uint32_t, 6>> faces;  // sorted new vertices, and their old ones
   for (const glm::uvec3& t : mesh.triangles) {
     std::array<std::pair<std::uint32_t, std::uint32_t>, 3> v;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -137,46 +137,46 @@ std::vector<char> onCrowdedEdges(const Mesh& mesh, const std::vector<std::uint32
                           [](const auto& a, const auto& b) { return std::equal(a.begin(), a.begin() + 3, b.begin()); }),
               faces.end());
 
-  // Step 2: their edges, as they become and as they are.
+  // List their edges by new and old vertices.
   std::vector<std::array<std::uint32_t, 4>> edges;
   for (const auto& f : faces)
     for (const auto& [i, j] : {std::pair(0u, 1u), std::pair(0u, 2u), std::pair(1u, 2u)})
       edges.push_back({f[i], f[j], std::min(f[3 + i], f[3 + j]), std::max(f[3 + i], f[3 + j])});
   std::sort(edges.begin(), edges.end());
 
-  // Step 3: crowded by joining.
-  std::vector<char> crowded(mesh.positions.size(), 0);
+  // Find merged edges with more than two triangles.
+  std::vector<char> nonManifold(mesh.positions.size(), 0);
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     bool several = false;
     for (; end < edges.size() && edges[end][0] == edges[begin][0] && edges[end][1] == edges[begin][1]; ++end)
       several = several || edges[end][2] != edges[begin][2] || edges[end][3] != edges[begin][3];
-    if (several && end - begin > 2) crowded[edges[begin][0]] = crowded[edges[begin][1]] = 1;
+    if (several && end - begin > 2) nonManifold[edges[begin][0]] = nonManifold[edges[begin][1]] = 1;
   }
-  return crowded;
+  return nonManifold;
 }
 
 }  // namespace
 
 Weld weld(Mesh& mesh, double tolerance) {
-  // Step 1: what is at the same place, then what is near.
+  // Join vertices at equal positions, then those within the tolerance.
   const std::size_t count = mesh.positions.size();
-  const std::vector<std::uint32_t> same = firstOfPlace(mesh, 0, std::vector<char>(count, 1));
+  const std::vector<std::uint32_t> same = findRepresentatives(mesh, 0, std::vector<char>(count, 1));
   std::vector<std::uint32_t> become = same;
   Weld result;
   if (tolerance > 0) {
-    std::vector<char> isFirst(count, 0);  // and named by a face: what nobody names pulls nothing to it
+    std::vector<char> isFirst(count, 0);  // and used by a face: unused vertices attract no others
     for (const glm::uvec3& t : mesh.triangles) isFirst[same[t.x]] = isFirst[same[t.y]] = isFirst[same[t.z]] = 1;
-    std::vector<std::uint32_t> near = firstOfPlace(mesh, tolerance, isFirst);
+    std::vector<std::uint32_t> near = findRepresentatives(mesh, tolerance, isFirst);
 
-    // Step 2: apart again where an edge got a third triangle by it. What stays apart may free or crowd other edges.
+    // Separate vertices at non-manifold edges again. This may change other edges, so repeat.
     bool changed = true;
     for (int round = 0; changed; ++round) {
       changed = false;
       for (std::uint32_t i = 0; i < count; ++i) become[i] = near[same[i]];
-      const std::vector<char> crowded = onCrowdedEdges(mesh, same, become);
+      const std::vector<char> nonManifold = findNonManifoldVertices(mesh, same, become);
       for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t to = near[i];
-        if (isFirst[i] == 0 || to == i || !(crowded[to] != 0 || round == kRounds)) continue;
+        if (isFirst[i] == 0 || to == i || !(nonManifold[to] != 0 || round == kMaxRounds)) continue;
         result.refused.add([&] { return findingAt(mesh, mesh.positions[i], {}, {i, to}); });
         near[i] = i;
         changed = true;
@@ -184,7 +184,7 @@ Weld weld(Mesh& mesh, double tolerance) {
     }
   }
 
-  // Step 3: let the triangles name the kept ones. Normals belong to the old vertices.
+  // Select the kept vertices. Normals belong to the old vertices and are dropped.
   std::vector<std::uint32_t> kept, newIndex(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (become[i] == i) {
@@ -193,11 +193,11 @@ Weld weld(Mesh& mesh, double tolerance) {
       continue;
     }
     result.joined.add([&] { return findingAt(mesh, mesh.positions[i], {}, {i, become[i]}); });
-    newIndex[i] = newIndex[become[i]];  // an earlier vertex
+    newIndex[i] = newIndex[become[i]];  // an earlier vertex, whose index is known
   }
   if (kept.size() < count) {
     mesh.normals.clear();
-    takeVertices(mesh, kept, newIndex);
+    selectVertices(mesh, kept, newIndex);
   }
   return result;
 }

@@ -1,13 +1,12 @@
-// Makes vertices at the same place one vertex. With a tolerance, a vertex joins the nearest kept vertex that
-// is no farther than the tolerance (metres), the earlier one where two are as near; kept vertices are then
-// farther than the tolerance from each other (but for those left apart, below), so chains of close vertices do not
-// collapse into one point. The first vertex of a place stays and keeps its position; order is kept.
+// Welding of vertices. Vertices with equal positions become one. With a tolerance, a vertex joins the nearest kept
+// vertex within the tolerance (metres), the earlier one of two at equal distances; kept vertices are then farther apart
+// than the tolerance, so chains of close vertices do not collapse to a point. The first vertex keeps its position, and
+// the order is kept.
 //
-// Vertices that only the tolerance joins are left apart where joining them would make one edge of several and put a
-// third triangle on it: the surface there is thinner than the tolerance. Vertices that no triangle names join only what
-// is at their very place.
-// Source: spatial hashing after M. Teschner et al., "Optimized spatial hashing for collision detection of
-// deformable objects", VMV 2003.
+// Vertices at different positions are not joined if that merges several edges into one with more than two triangles:
+// the surface is thinner there than the tolerance. Vertices without triangles join only those with an equal position.
+// Source: spatial hashing after M. Teschner et al., "Optimized spatial hashing for collision detection of deformable
+// objects", VMV 2003.
 #pragma once
 
 #include "meshprep/findings.h"
@@ -15,12 +14,12 @@
 namespace malus::prep {
 
 struct Weld {
-  Findings joined;   // vertices that became another
-  Findings refused;  // vertices left apart, though the tolerance would join them
+  Findings joined;   // vertices joined to another
+  Findings refused;  // vertices within the tolerance that were not joined
 };
 
-// Positive and negative zero are equal. tolerance 0: equal positions only. Throws Error where the tolerance is too
-// small against the coordinates to divide space by.
+// tolerance: 0 for equal positions only; positive and negative zero are equal. Throws Error if a positive tolerance is
+// too small for the coordinates (below 2^-53 of them).
 Weld weld(Mesh& mesh, double tolerance);
 
 }  // namespace malus::prep

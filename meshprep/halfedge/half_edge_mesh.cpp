@@ -57,7 +57,7 @@ Mesh fromHalfEdges(const HalfEdgeMesh& halfEdges, const Mesh& source) {
     if (!halfEdges.status(OpenMesh::VertexHandle(static_cast<int>(i))).deleted())
       kept.push_back(static_cast<std::uint32_t>(i));
   }
-  takeVertices(mesh, kept, newIndex);
+  selectVertices(mesh, kept, newIndex);
   return mesh;
 }
 

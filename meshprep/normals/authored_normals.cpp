@@ -59,7 +59,7 @@ AuthoredNormals addAuthoredNormals(Mesh& mesh, double creaseDegrees) {
                            normals.begin() + static_cast<std::ptrdiff_t>(3 * i + 3),
                            [&](const glm::vec3& n) { return glm::dot(glm::dvec3(n), face) < 0; });
     };
-    if (!mesh.turned.empty() && mesh.turned[i] != 0 && behind() == 3)
+    if (!mesh.flipped.empty() && mesh.flipped[i] != 0 && behind() == 3)
       for (std::size_t corner = 3 * i; corner < 3 * i + 3; ++corner) normals[corner] = -normals[corner];
     if (behind() > 0) result.against.add([&] { return findingAt(mesh, centroid(mesh, i), {i}, {t.x, t.y, t.z}); });
   }
@@ -90,7 +90,7 @@ AuthoredNormals addAuthoredNormals(Mesh& mesh, double creaseDegrees) {
   std::vector<glm::uvec3> triangles(mesh.triangles.size());
   for (std::uint32_t corner = 0; corner < normals.size(); ++corner)
     triangles[corner / 3][static_cast<int>(corner % 3)] = vertexOf[leader[corner]];
-  takeVertices(mesh, from, std::vector<std::uint32_t>(mesh.positions.size(), 0));
+  selectVertices(mesh, from, std::vector<std::uint32_t>(mesh.positions.size(), 0));
   mesh.triangles = std::move(triangles);
   mesh.normals = std::move(vertexNormals);
   return result;

@@ -15,7 +15,7 @@ struct AuthoredNormals {
   Findings against;           // triangles with a normal that points to their back
 };
 
-// mesh.cornerNormals must be there. Where a triangle was turned over (mesh.turned), its normals turn with it if all of
+// mesh.cornerNormals must be there. Where a triangle was turned over (mesh.flipped), its normals turn with it if all of
 // them would point to its back. Vertices keep their order, those of one vertex by their first corners; one of no
 // triangle stays, with any normal.
 AuthoredNormals addAuthoredNormals(Mesh& mesh, double creaseDegrees);

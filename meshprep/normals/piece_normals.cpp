@@ -8,8 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "meshprep/clean/disjoint_sets.h"
 #include "meshprep/clean/edges.h"
-#include "meshprep/clean/pieces.h"
 
 namespace malus::prep {
 
@@ -46,7 +46,7 @@ NormalCounts addPieceNormals(Mesh& mesh, const IsSmooth& isSmooth) {
   }
 
   // Step 2: merge the corners at both ends of every smooth edge.
-  Pieces pieces(3 * triangleCount);
+  DisjointSets pieces(3 * triangleCount);
   forEachEdge(edgeUses(mesh.triangles), [&](std::span<const EdgeUse> edge) {
     if (edge.size() != 2 || edge[0].forward == edge[1].forward) return;
     const std::uint32_t a = edge[0].triangle, b = edge[1].triangle;

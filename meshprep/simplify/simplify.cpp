@@ -17,7 +17,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "meshprep/base/error.h"
-#include "meshprep/clean/places.h"
+#include "meshprep/clean/position_ids.h"
 #include "meshprep/halfedge/half_edge_mesh.h"
 #include "meshprep/simplify/keep_creases.h"
 #include "meshprep/simplify/surface.h"
@@ -60,7 +60,7 @@ class Marks {
 
   void apply() {
     for (const OpenMesh::EdgeHandle e : halfEdges_.edges()) markEdge(e);
-    const std::vector<std::uint32_t> position = placeOfVertices(mesh_);
+    const std::vector<std::uint32_t> position = positionIds(mesh_);
     for (std::uint32_t i = 0; i < position.size(); ++i) {
       const OpenMesh::VertexHandle v(static_cast<int>(i));
       if (position[i] != i) {

@@ -190,7 +190,7 @@ TEST_F(Bake, GlassMustBeCertified) {
 
 TEST_F(Bake, ASheetOfGlassNeedsItsOtherSide) {
   scene_["meshes"][0] = {{"name", "pane"}, {"file", "square.obj"}, {"material", "glass"}, {"openSurface", true}};
-  EXPECT_TRUE(contains(error(), "nothing to leave by")) << error();
+  EXPECT_TRUE(contains(error(), "without an opposite face")) << error();
   folder_.write("slab.obj", std::string(test::kSquareObj) +
                                 "v -0.5 -0.1 -0.5\nv 0.5 -0.1 -0.5\nv 0.5 -0.1 0.5\nv -0.5 -0.1 0.5\nf 5 6 7 8\n");
   scene_["meshes"][0]["file"] = "slab.obj";

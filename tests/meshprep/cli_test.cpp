@@ -161,7 +161,7 @@ TEST_F(PrepCommand, UsageErrorsAreThoseOfCli11) {
 
 TEST_F(PrepCommand, CertifiesGlassOrFailsAndDeliversNothing) {
   const std::string printed = run({input_.path().string(), "-o", output_.string(), "--certify", "glass", "--json"});
-  EXPECT_EQ(nlohmann::json::parse(printed)["certificate"]["holds"], true);
+  EXPECT_EQ(nlohmann::json::parse(printed)["certificate"]["granted"], true);
 
   Mesh open = test::cube();
   open.triangles.pop_back();
@@ -173,7 +173,7 @@ TEST_F(PrepCommand, CertifiesGlassOrFailsAndDeliversNothing) {
   EXPECT_TRUE(contains(error, "is not certified as glass: component 0: 3 open edges")) << error;
   EXPECT_FALSE(std::filesystem::exists(output_));
   const nlohmann::json report = nlohmann::json::parse(readTextFile(report_));
-  EXPECT_EQ(report["certificate"]["holds"], false);
+  EXPECT_EQ(report["certificate"]["granted"], false);
   EXPECT_EQ(report["certificate"]["problems"].size(), 1u);
   EXPECT_NO_THROW(run({file.path().string(), "-o", output_.string(), "--certify", "glass", "--fill-holes", "3"}));
 }

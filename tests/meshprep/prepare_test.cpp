@@ -15,9 +15,8 @@ using test::contains;
 using test::errorMessage;
 using test::TemporaryFile;
 
-// A cube as a careless modeller leaves it: corners not shared, a copy, two degenerate faces, a loose vertex,
-// one side inside out.
-std::string messyCube() {
+// Cube with defects: separate corners, a duplicate face, two degenerate faces, an unused vertex, one flipped side.
+std::string defectiveCube() {
   const Mesh cube = test::cube();
   std::string text = "v 9 9 9\n";
   int corner = 2;
@@ -38,8 +37,8 @@ std::string messyCube() {
   return text;
 }
 
-TEST(Prepare, MessyCubeBecomesACube) {
-  const TemporaryFile file(".obj", messyCube());
+TEST(Prepare, RepairsACube) {
+  const TemporaryFile file(".obj", defectiveCube());
   Report report;
   const Mesh mesh = prepare(file.path(), {}, report);
   EXPECT_EQ(report.source, file.path().string());
@@ -49,7 +48,7 @@ TEST(Prepare, MessyCubeBecomesACube) {
   EXPECT_EQ(report.count("faces-dropped-repeated-corner"), 2u);
   EXPECT_EQ(report.count("faces-dropped-duplicate"), 1u);
   EXPECT_EQ(report.count("vertices-dropped-unreferenced"), 1u);
-  EXPECT_EQ(report.count("faces-turned-over"), 2u);
+  EXPECT_EQ(report.count("faces-flipped"), 2u);
   EXPECT_EQ(report.count("vertices-added-at-creases"), 16u);
   EXPECT_EQ(report.output.vertices, 24u);
   EXPECT_EQ(report.output.triangles, 12u);
@@ -59,7 +58,7 @@ TEST(Prepare, MessyCubeBecomesACube) {
   EXPECT_TRUE(report.components[0].closed);
   EXPECT_EQ(report.components[0].flipped, 2u);
   EXPECT_NEAR(report.components[0].signedVolume, 1, 1e-12);
-  // Nothing is dropped uncounted.
+  // All dropped faces and vertices are counted.
   EXPECT_EQ(report.input.faces - report.count("faces-dropped-repeated-corner") -
                 report.count("faces-dropped-zero-area") - report.count("faces-dropped-duplicate") -
                 report.count("faces-dropped-opposite"),
@@ -69,8 +68,8 @@ TEST(Prepare, MessyCubeBecomesACube) {
             report.output.vertices);
 }
 
-TEST(Prepare, FlatKeepsEightCornersAndStoresNoNormals) {
-  const TemporaryFile file(".obj", messyCube());
+TEST(Prepare, KeepsEightVerticesOfAFlatCube) {
+  const TemporaryFile file(".obj", defectiveCube());
   Report report;
   Options options;
   options.flat = true;
@@ -80,7 +79,7 @@ TEST(Prepare, FlatKeepsEightCornersAndStoresNoNormals) {
   EXPECT_EQ(report.output.vertices, 8u);
 }
 
-TEST(Prepare, CleanMeshPassesUntouched) {
+TEST(Prepare, KeepsACleanMesh) {
   const Mesh sphere = test::sphere(9, 16);
   const TemporaryFile file(".obj", test::objText(sphere));
   Report report;
@@ -90,8 +89,8 @@ TEST(Prepare, CleanMeshPassesUntouched) {
   for (const Step& step : report.steps) EXPECT_EQ(step.count, 0u) << step.name;
 }
 
-TEST(Prepare, TwiceIsOnce) {
-  const TemporaryFile file(".obj", messyCube());
+TEST(Prepare, IsIdempotent) {
+  const TemporaryFile file(".obj", defectiveCube());
   Report report;
   const Mesh once = prepare(file.path(), {}, report);
   const TemporaryFile again(".obj", test::objText(once));
@@ -101,14 +100,14 @@ TEST(Prepare, TwiceIsOnce) {
   EXPECT_EQ(once.normals, twice.normals);
 }
 
-// Boxes and loose triangles on a small grid, so that places, edges and faces coincide in every way; no two draws alike.
-Mesh rubble(std::uint32_t seed) {
+// Random boxes and triangles on a small grid, so that vertices, edges and faces coincide.
+Mesh randomFaces(std::uint32_t seed) {
   std::mt19937 random(seed);
   const auto draw = [&](int most) { return static_cast<int>(random() % static_cast<unsigned>(most)); };
   Mesh mesh;
   for (int i = 0; i < 3; ++i) {
     Mesh box = test::cube(1, glm::dvec3(draw(3), draw(3), draw(2)));
-    if (draw(2) == 0) box = test::turnedOver(box);
+    if (draw(2) == 0) box = test::flipped(box);
     if (draw(3) == 0) box.triangles.resize(10);
     mesh = test::joined(std::move(mesh), box);
   }
@@ -123,7 +122,7 @@ Mesh rubble(std::uint32_t seed) {
     std::swap(mesh.triangles[t].x, mesh.triangles[t].y);
     if (draw(2) == 0) mesh.triangles.push_back(mesh.triangles[random() % mesh.triangles.size()]);
   }
-  // Edges with a vertex on them, some at their end up to rounding, and faces without area that join it to the rest.
+  // Vertices on edges, some at an end within rounding, connected by faces without area.
   for (int i = 0; seed % 4 > 1 && i < 6; ++i) {
     const std::size_t t = random() % mesh.triangles.size();
     const glm::uvec3 v = mesh.triangles[t];
@@ -139,7 +138,7 @@ Mesh rubble(std::uint32_t seed) {
   return mesh;
 }
 
-TEST(Prepare, CleaningTwiceIsCleaningOnceWhateverTheMess) {
+TEST(Prepare, IsIdempotentForRandomFaces) {
   std::uint64_t changes = 0;
   for (std::uint32_t seed = 0; seed < 2000; ++seed) {
     Options options;
@@ -147,10 +146,10 @@ TEST(Prepare, CleaningTwiceIsCleaningOnceWhateverTheMess) {
     options.steps.weldTolerance = seed % 3 == 0 ? 1e-6 : 0;
     options.steps.fillHoles = seed % 5 == 0 ? 8 : 0;
     Report report;
-    Mesh once = clean(rubble(seed), options, report);
+    Mesh once = clean(randomFaces(seed), options, report);
     for (const Step& step : report.steps) changes += step.count;
     EXPECT_EQ(report.count("edges-non-manifold"), 0u) << seed;
-    EXPECT_EQ(report.count("rounds-ran-out"), 0u) << seed;
+    EXPECT_EQ(report.count("cleaning-not-converged"), 0u) << seed;
     Mesh again;
     again.positions = once.positions;
     again.triangles = once.triangles;
@@ -161,15 +160,14 @@ TEST(Prepare, CleaningTwiceIsCleaningOnceWhateverTheMess) {
     EXPECT_TRUE(twice.normals == once.normals) << seed;
     for (const char* step :
          {"faces-dropped-repeated-corner", "faces-dropped-zero-area", "faces-dropped-duplicate",
-          "vertices-dropped-unreferenced", "faces-turned-over", "holes-filled", "edges-cut", "edges-collapsed"})
+          "vertices-dropped-unreferenced", "faces-flipped", "holes-filled", "edges-cut", "edges-collapsed"})
       EXPECT_EQ(second.count(step), 0u) << seed << ' ' << step;
   }
   EXPECT_GT(changes, 20000u);
 }
 
-TEST(Prepare, NonManifoldInputStaysUncracked) {
-  // A cube with a fin: OpenMesh would give the fin vertices of its own by chance; here it is the fin that gets them, at
-  // the same places.
+TEST(Prepare, DoesNotCrackNonManifoldMeshes) {
+  // Cube with a fin: the fin gets separate vertices at the same positions.
   Mesh mesh = test::cube();
   mesh.positions.emplace_back(2, 2, 0.5);
   mesh.triangles.emplace_back(3, 7, 8);
@@ -183,7 +181,7 @@ TEST(Prepare, NonManifoldInputStaysUncracked) {
     for (int k = 0; k < 3; ++k)
       EXPECT_EQ(result.positions[result.triangles[i][k]], mesh.positions[mesh.triangles[i][k]]);
   EXPECT_EQ(result.positions.size(), 11u);
-  EXPECT_EQ(report.count("edges-taken-apart"), 1u);
+  EXPECT_EQ(report.count("edges-separated"), 1u);
   EXPECT_EQ(report.count("vertices-split"), 2u);
   EXPECT_EQ(report.count("edges-non-manifold"), 0u);
   EXPECT_EQ(report.count("edges-boundary"), 3u);
@@ -193,8 +191,8 @@ TEST(Prepare, NonManifoldInputStaysUncracked) {
   EXPECT_EQ(report.count("edges-non-manifold"), 1u);
 }
 
-TEST(Prepare, FindingsNameWhatTheyTouchedAndWhere) {
-  const TemporaryFile file(".obj", messyCube());
+TEST(Prepare, LocatesFindings) {
+  const TemporaryFile file(".obj", defectiveCube());
   Report report;
   prepare(file.path(), {}, report);
   const auto step = [&](std::string_view name) -> const Step& {
@@ -207,12 +205,12 @@ TEST(Prepare, FindingsNameWhatTheyTouchedAndWhere) {
   EXPECT_EQ(unreferenced.findings.at(0).vertices, std::vector<std::uint32_t>{0});
   EXPECT_EQ(unreferenced.findings.at(0).at, glm::dvec3(9));
   EXPECT_EQ(step("vertices-welded").findings.size(), 34u);
-  EXPECT_EQ(step("faces-turned-over").findings.size(), 2u);
-  EXPECT_EQ(step("faces-turned-over").findings[0].faces, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(step("faces-flipped").findings.size(), 2u);
+  EXPECT_EQ(step("faces-flipped").findings[0].faces, std::vector<std::uint32_t>{0});
 }
 
-TEST(Prepare, EveryStepCanBeLeftOut) {
-  const TemporaryFile file(".obj", messyCube());
+TEST(Prepare, SkipsSteps) {
+  const TemporaryFile file(".obj", defectiveCube());
   const auto count = [&](bool Cleaning::*left, std::string_view step) {
     Options options;
     options.flat = true;
@@ -228,20 +226,20 @@ TEST(Prepare, EveryStepCanBeLeftOut) {
                                                              {&Cleaning::degenerate, "faces-dropped-repeated-corner"},
                                                              {&Cleaning::duplicates, "faces-dropped-duplicate"},
                                                              {&Cleaning::unreferenced, "vertices-dropped-unreferenced"},
-                                                             {&Cleaning::orient, "faces-turned-over"}}) {
+                                                             {&Cleaning::orient, "faces-flipped"}}) {
     EXPECT_GT(all.count(step), 0u) << step;
     EXPECT_EQ(count(left, step), 0u) << step;
   }
 }
 
-TEST(Prepare, AVertexOfNoFaceMayStay) {
+TEST(Prepare, KeepsUnusedVerticesOnRequest) {
   Mesh mesh = test::cube();
   mesh.positions.insert(mesh.positions.begin() + 3, glm::dvec3(1e6, 0, 0));
   for (glm::uvec3& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) t[k] += t[k] >= 3 ? 1 : 0;
   Options options;
   options.steps.unreferenced = false;
-  options.weldRelative = 1e-7;  // of the cube, not of the vertex out there
+  options.weldRelative = 1e-7;  // relative to the cube without the unused vertex
   Report report;
   const Mesh cleaned = clean(mesh, options, report);
   EXPECT_EQ(report.count("vertices-dropped-unreferenced"), 0u);
@@ -251,7 +249,7 @@ TEST(Prepare, AVertexOfNoFaceMayStay) {
   ASSERT_EQ(cleaned.normals.size(), 25u);
 }
 
-TEST(Prepare, StlWeldsToTheSameTetrahedronAsPly) {
+TEST(Prepare, WeldsStl) {
   const TemporaryFile stl(".stl", test::binaryStl(test::tetrahedronTriangles()));
   const TemporaryFile ply(".ply", test::binaryPly());
   Report report;
@@ -264,7 +262,7 @@ TEST(Prepare, StlWeldsToTheSameTetrahedronAsPly) {
   EXPECT_NEAR(report.components[0].signedVolume, 0.1 / 6, 1e-8);
 }
 
-TEST(Prepare, SheetKeepsItsBackAndItsSide) {
+TEST(Prepare, KeepsTheBackOfAnOpenSurface) {
   const TemporaryFile file(".obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 3 2 1\n");
   Report report;
   Options options;
@@ -274,12 +272,12 @@ TEST(Prepare, SheetKeepsItsBackAndItsSide) {
   options.steps.dropOpposite = true;
   EXPECT_LT(prepare(file.path(), options, report).triangles.size(), 2u);
   options.steps.dropOpposite = false;
-  options.sheet = true;
+  options.openSurface = true;
   EXPECT_EQ(prepare(file.path(), options, report).triangles.size(), 2u);
-  EXPECT_EQ(report.count("faces-turned-over"), 0u);
+  EXPECT_EQ(report.count("faces-flipped"), 0u);
 }
 
-TEST(Prepare, QuadsAreCounted) {
+TEST(Prepare, CountsQuads) {
   const TemporaryFile file(".obj", "v 0 0 0\nv 2 -1 0\nv 0.5 0 0\nv 2 1 0\nf 1 2 3 4\n");
   Report report;
   EXPECT_EQ(prepare(file.path(), {}, report).triangles.size(), 2u);
@@ -287,10 +285,10 @@ TEST(Prepare, QuadsAreCounted) {
   EXPECT_EQ(report.count("polygons-concave"), 1u);
 }
 
-TEST(Prepare, BadOptionsAndNothingLeft) {
+TEST(Prepare, RefusesInvalidOptionsAndEmptyResults) {
   const TemporaryFile file(".obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   Report report;
-  EXPECT_TRUE(contains(errorMessage([&] { prepare(file.path(), {}, report); }), "nothing is left"));
+  EXPECT_TRUE(contains(errorMessage([&] { prepare(file.path(), {}, report); }), "no triangle is left"));
   Options options;
   options.creaseDegrees = 200;
   EXPECT_TRUE(contains(errorMessage([&] { prepare(file.path(), options, report); }), "0 to 180"));
@@ -299,15 +297,15 @@ TEST(Prepare, BadOptionsAndNothingLeft) {
   EXPECT_TRUE(contains(errorMessage([&] { prepare(file.path(), options, report); }), "weld tolerance"));
 }
 
-// A face without area, a copy of a face, a vertex that nothing uses, normals of any length.
-constexpr const char* kBadOnPurpose =
+// A face without area, a duplicate face, an unused vertex, normals of any length.
+constexpr const char* kDefectiveMesh =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
     "property float nx\nproperty float ny\nproperty float nz\nelement face 3\n"
     "property list uchar int vertex_indices\nend_header\n"
     "0 0 0 0 0 2\n1 0 0 0 0 -1\n0 1 0 1 0 0\n9 9 9 0 3 4\n3 0 1 2\n3 0 1 2\n3 0 1 0\n";
 
-TEST(Prepare, AsItIsCleansNothing) {
-  const TemporaryFile file(".ply", kBadOnPurpose);
+TEST(Prepare, KeepsDefectsWithAsIs) {
+  const TemporaryFile file(".ply", kDefectiveMesh);
   Options options;
   options.asIs = true;
   Report report;
@@ -324,13 +322,13 @@ TEST(Prepare, AsItIsCleansNothing) {
   EXPECT_TRUE(prepare(file.path(), options, report).normals.empty());
 }
 
-TEST(Prepare, AsItIsNeedsNormals) {
+TEST(Prepare, RequiresNormalsWithAsIs) {
   Options options;
   options.asIs = true;
   Report report;
   const TemporaryFile without(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  EXPECT_TRUE(contains(errorMessage([&] { prepare(without.path(), options, report); }), "has no normals"));
-  std::string text = kBadOnPurpose;
+  EXPECT_TRUE(contains(errorMessage([&] { prepare(without.path(), options, report); }), "no normals"));
+  std::string text = kDefectiveMesh;
   text.replace(text.find("0 0 2\n"), 5, "0 0 0");
   const TemporaryFile zero(".ply", text);
   EXPECT_TRUE(contains(errorMessage([&] { prepare(zero.path(), options, report); }), "vertex 0 has no length"));

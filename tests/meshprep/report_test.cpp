@@ -17,12 +17,12 @@ Report example() {
   report.output.triangles = 11;
   report.steps = {{"vertices-welded", 28, {}},
                   {"faces-dropped-duplicate", 1, {{{}, {7, 3}, {1, 2, 3}, "", "a.obj:9"}}},
-                  {"faces-turned-over", 0, {}}};
+                  {"faces-flipped", 0, {}}};
   report.components = {{12, true, true, 0, 1.5, true, {}, 0}};
   return report;
 }
 
-TEST(Report, JsonHasEveryField) {
+TEST(Report, WritesAllFieldsAsJson) {
   Report report = example();
   nlohmann::json json = toJson(report);
   EXPECT_EQ(json["input"]["vertices"], 36);
@@ -40,11 +40,11 @@ TEST(Report, JsonHasEveryField) {
   const nlohmann::json finding = json["steps"][1]["findings"][0];
   EXPECT_EQ(finding["faces"], (std::vector<int>{7, 3}));
   EXPECT_EQ(finding["at"], (std::vector<double>{1, 2, 3}));
-  EXPECT_EQ(finding["place"], "a.obj:9");
+  EXPECT_EQ(finding["sourceLocation"], "a.obj:9");
 
   report.certificate = {true, {{2, "3 open edges", "first at a", "close it"}}};
   json = toJson(report);
-  EXPECT_EQ(json["certificate"]["holds"], false);
+  EXPECT_EQ(json["certificate"]["granted"], false);
   EXPECT_EQ(json["certificate"]["problems"][0]["component"], 2);
   EXPECT_TRUE(test::contains(toText(report), "component 2: 3 open edges; first at a; close it"));
 
@@ -65,23 +65,23 @@ TEST(Report, JsonHasEveryField) {
   EXPECT_EQ(json["compression"]["bytesPerTriangle"], 30);
   EXPECT_EQ(json["compression"]["positionBits"], 21);
   const std::string text = toText(report);
-  EXPECT_TRUE(test::contains(text, "330 bytes, 30.00 a triangle")) << text;
+  EXPECT_TRUE(test::contains(text, "30.00 per triangle")) << text;
   EXPECT_TRUE(test::contains(text, "sequential: edgebreaker is no smaller")) << text;
   EXPECT_TRUE(test::contains(text, "21 positions, 13 normals")) << text;
   EXPECT_TRUE(test::contains(text, "tilt of a face, at most                   0.25 degrees")) << text;
   EXPECT_TRUE(test::contains(text, "warning: faces are tilted")) << text;
 }
 
-TEST(Report, TextShowsBeforeAndAfterAndLeavesOutWhatWasNotFound) {
+TEST(Report, PrintsStepsWithFindings) {
   const std::string text = toText(example());
   EXPECT_TRUE(test::contains(text, "vertices                                    36          24"));
   EXPECT_TRUE(test::contains(text, "faces-dropped-duplicate"));
-  EXPECT_FALSE(test::contains(text, "faces-turned-over"));
+  EXPECT_FALSE(test::contains(text, "faces-flipped"));
   EXPECT_TRUE(test::contains(text, "faces 7, 3 at (1, 2, 3), a.obj:9"));
   EXPECT_EQ(text.back(), '\n');
 }
 
-TEST(Report, CountOfAStep) {
+TEST(Report, CountsAStep) {
   EXPECT_EQ(example().count("vertices-welded"), 28u);
   EXPECT_EQ(example().count("no-such-step"), 0u);
 }

@@ -1,4 +1,4 @@
-// Small meshes and files that the tests share.
+// Meshes and files for the tests.
 #pragma once
 
 #include <unistd.h>
@@ -19,18 +19,18 @@
 
 namespace malus::prep::test {
 
-// A file of its own for every call, with this extension.
+// Returns a new path with this extension.
 inline std::filesystem::path temporaryPath(std::string_view extension) {
   static std::atomic<int> counter{0};
   return std::filesystem::path(testing::TempDir()) /
          fmt::format("malus-meshprep-{}-{}{}", ::getpid(), counter++, extension);
 }
 
-// A file that is removed again.
+// File that is removed by the destructor.
 class TemporaryFile {
  public:
   TemporaryFile(std::string_view extension, std::string_view text) : path_(temporaryPath(extension)) {
-    std::ofstream file(path_, std::ios::binary);  // not writeFile, which waits for the disk
+    std::ofstream file(path_, std::ios::binary);  // writeFile would flush to disk
     file.write(text.data(), static_cast<std::streamsize>(text.size()));
     if (!file.flush()) throw Error(path_.string(), "cannot write");
   }
@@ -59,7 +59,7 @@ std::string errorMessage(Act act) {
 
 inline bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 
-// A cube from (0,0,0) to (size,size,size), shifted, 8 vertices and 12 triangles, outward.
+// Cube from shift to shift + size, with 8 vertices and 12 triangles, outward.
 inline Mesh cube(double size = 1, const glm::dvec3& shift = glm::dvec3(0)) {
   Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.push_back(shift + size * glm::dvec3(i & 1, (i >> 1) & 1, (i >> 2) & 1));
@@ -68,7 +68,7 @@ inline Mesh cube(double size = 1, const glm::dvec3& shift = glm::dvec3(0)) {
   return mesh;
 }
 
-// A closed sphere of radius 1: a pole each, `rings` rings of `columns` vertices, outward.
+// Sphere of radius 1 with two poles and `rings` rings of `columns` vertices, outward.
 inline Mesh sphere(std::uint32_t rings, std::uint32_t columns) {
   constexpr double kPi = 3.14159265358979323846;
   Mesh mesh;
@@ -92,7 +92,7 @@ inline Mesh sphere(std::uint32_t rings, std::uint32_t columns) {
   return mesh;
 }
 
-// Both in one mesh.
+// Both meshes in one.
 inline Mesh joined(Mesh a, const Mesh& b) {
   const auto offset = static_cast<std::uint32_t>(a.positions.size());
   a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
@@ -100,7 +100,7 @@ inline Mesh joined(Mesh a, const Mesh& b) {
   return a;
 }
 
-inline Mesh turnedOver(Mesh mesh) {
+inline Mesh flipped(Mesh mesh) {
   for (glm::uvec3& t : mesh.triangles) t = {t.x, t.z, t.y};
   return mesh;
 }

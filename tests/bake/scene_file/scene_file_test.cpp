@@ -73,7 +73,7 @@ TEST(SceneFile, DefaultsAreThoseOfTheDocument) {
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].file, scene.file.parent_path() / "floor.obj");
   EXPECT_FALSE(scene.meshes[0].preparation.flat);
-  EXPECT_FALSE(scene.meshes[0].preparation.sheet);
+  EXPECT_FALSE(scene.meshes[0].preparation.openSurface);
   EXPECT_EQ(scene.meshes[0].preparation.creaseDegrees, 40);
   EXPECT_EQ(scene.meshes[0].preparation.steps.weldTolerance, 0);
   ASSERT_EQ(scene.meshes[0].instances.size(), 1u);
@@ -135,7 +135,7 @@ TEST(SceneFile, EveryKeyIsRead) {
   const MeshDescription& mesh = scene.meshes[0];
   EXPECT_EQ(mesh.file, scene.file.parent_path() / "sub/one.ply");
   EXPECT_TRUE(mesh.preparation.flat);
-  EXPECT_TRUE(mesh.preparation.sheet);
+  EXPECT_TRUE(mesh.preparation.openSurface);
   EXPECT_EQ(mesh.preparation.creaseDegrees, 30);
   EXPECT_EQ(mesh.preparation.steps.weldTolerance, 0.001);
   ASSERT_EQ(mesh.instances.size(), 3u);
@@ -364,7 +364,7 @@ TEST(SceneFile, DeprecatedKeys) {
   EXPECT_EQ(read.ambientIrradiance, 0.5);
   EXPECT_EQ(read.materials[0].transmittanceParallel, glm::dvec3(0.9));
   EXPECT_EQ(read.materials[0].transmittanceCrossed, glm::dvec3(0.1));
-  EXPECT_TRUE(read.meshes[0].preparation.sheet);
+  EXPECT_TRUE(read.meshes[0].preparation.openSurface);
   EXPECT_EQ(read.imports[0].openSurfaces, std::vector<std::string>{"pane"});
   ASSERT_EQ(read.deprecations.size(), 5u);
   for (const auto& [name, expected] :

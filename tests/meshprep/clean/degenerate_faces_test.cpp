@@ -8,7 +8,7 @@
 namespace malus::prep {
 namespace {
 
-TEST(DegenerateFaces, CountsBothKindsAndKeepsTheRestInOrder) {
+TEST(DegenerateFaces, CountsBothKindsAndKeepsTheOrder) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 0}};
   mesh.triangles = {{0, 1, 3}, {0, 0, 3}, {0, 1, 2}, {1, 2, 3}, {3, 1, 3}, {0, 4, 3}};
@@ -23,7 +23,7 @@ TEST(DegenerateFaces, CountsBothKindsAndKeepsTheRestInOrder) {
   EXPECT_EQ(mesh.positions.size(), 5u);
 }
 
-TEST(DegenerateFaces, SliversAndTinyOrHugeTrianglesStay) {
+TEST(DegenerateFaces, KeepsSliversAndTinyOrHugeTriangles) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 1e-9, 0}, {1e-200, 0, 0}, {0, 1e-200, 0}, {1e30, 0, 0}, {0, 1e30, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 3, 4}, {0, 5, 6}};
@@ -31,19 +31,19 @@ TEST(DegenerateFaces, SliversAndTinyOrHugeTrianglesStay) {
   EXPECT_EQ(mesh.triangles.size(), 3u);
 }
 
-TEST(DegenerateFaces, CollinearUpToRounding) {
+TEST(DegenerateFaces, DropsCollinearCornersWithinRounding) {
   Mesh mesh;
   mesh.positions = {{0.1, 0.2, 0.3}, {0.1 + 1.0 / 3, 0.2 + 2.0 / 3, 0.3 + 1}, {0.1 + 2.0 / 3, 0.2 + 4.0 / 3, 2.3}};
   mesh.triangles = {{0, 1, 2}};
   EXPECT_EQ(dropDegenerateFaces(mesh).zeroArea.count, 1u);
 }
 
-// A cube whose edge 0-1 has two more vertices on it, that only faces without area join to the rest on one side.
+// Cube with two more vertices on edge 0-1; on one side only faces without area connect them.
 Mesh cubeWithFlatFaces() {
   Mesh mesh = test::cube();
   mesh.positions.emplace_back(0.25, 0, 0);  // 8
   mesh.positions.emplace_back(0.5, 0, 0);   // 9
-  // {0, 1, 5} becomes a fan from 5 over both; the face below, {0, 3, 1}, still has the whole edge.
+  // {0, 1, 5} becomes a fan from 5 over both; the face below, {0, 3, 1}, keeps the whole edge.
   mesh.triangles[4] = {0, 8, 5};
   mesh.triangles.emplace_back(8, 9, 5);
   mesh.triangles.emplace_back(9, 1, 5);
@@ -66,7 +66,7 @@ void expectClosed(const Mesh& mesh) {
   });
 }
 
-TEST(DegenerateFaces, ASurfaceThatTheyCloseStaysClosed) {
+TEST(DegenerateFaces, KeepsSurfacesClosed) {
   Mesh mesh = cubeWithFlatFaces();
   ASSERT_EQ(mesh.triangles.size(), 16u);
   const DegenerateFaces result = dropDegenerateFaces(mesh);
@@ -85,7 +85,7 @@ TEST(DegenerateFaces, ASurfaceThatTheyCloseStaysClosed) {
   EXPECT_EQ(dropDegenerateFaces(mesh).zeroArea.count, 0u);
 }
 
-// A cube whose edge 0-1 has `count` more vertices on it, closed by a fan of triangles without area from vertex 0.
+// Cube with `count` more vertices on edge 0-1, closed by a fan of triangles without area from vertex 0.
 Mesh cubeWithFanOfFlats(std::uint32_t count) {
   Mesh mesh = test::cube();
   std::vector<std::uint32_t> line = {0};
@@ -102,7 +102,7 @@ Mesh cubeWithFanOfFlats(std::uint32_t count) {
   return mesh;
 }
 
-TEST(DegenerateFaces, ChainsOfThemAreWorkedOffFromTheirEnds) {
+TEST(DegenerateFaces, ProcessesChainsFromTheirEnds) {
   for (const std::uint32_t count : {1u, 2u, 16u, 300u}) {
     Mesh mesh = cubeWithFanOfFlats(count);
     expectClosed(mesh);
@@ -116,8 +116,8 @@ TEST(DegenerateFaces, ChainsOfThemAreWorkedOffFromTheirEnds) {
   }
 }
 
-TEST(DegenerateFaces, ANeedleGoesWithItsShortEdge) {
-  // One corner of a tetrahedron split in two, closer than any rounding shows: two needles, and a face each.
+TEST(DegenerateFaces, CollapsesShortEdges) {
+  // Tetrahedron with a corner split in two within rounding: two needles.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1e-13, 0, 0}};
   mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 1, 3}, {1, 2, 3}, {0, 1, 4}, {0, 4, 3}};
@@ -131,7 +131,7 @@ TEST(DegenerateFaces, ANeedleGoesWithItsShortEdge) {
   EXPECT_NEAR(signedVolume(mesh), 1.0 / 6, 1e-12);
 }
 
-TEST(DegenerateFaces, WhatIsKnownOfCornersStaysWithThem) {
+TEST(DegenerateFaces, KeepsAttributesOfCorners) {
   Mesh mesh = cubeWithFlatFaces();
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) mesh.sourceVertices.push_back(100 + v);
   for (const glm::uvec3& t : mesh.triangles) mesh.sourceCorners.push_back(t + 100u);

@@ -13,7 +13,7 @@ Mesh copies() {
   return mesh;
 }
 
-TEST(DuplicateFaces, EveryTurnIsACopyAndTheBackStays) {
+TEST(DuplicateFaces, DropsCopiesAndKeepsTheBack) {
   Mesh mesh = copies();
   const DuplicateFaces result = dropDuplicateFaces(mesh, false);
   EXPECT_EQ(result.same.count, 3u);
@@ -23,7 +23,7 @@ TEST(DuplicateFaces, EveryTurnIsACopyAndTheBackStays) {
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 1}, {1, 2, 3}}));
 }
 
-TEST(DuplicateFaces, TheBackGoesWhereThatIsAskedFor) {
+TEST(DuplicateFaces, DropsTheBackOnRequest) {
   Mesh mesh = copies();
   const DuplicateFaces result = dropDuplicateFaces(mesh, true);
   EXPECT_EQ(result.same.count, 3u);
@@ -31,7 +31,7 @@ TEST(DuplicateFaces, TheBackGoesWhereThatIsAskedFor) {
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {1, 2, 3}}));
 }
 
-TEST(DuplicateFaces, ACubeHasNone) {
+TEST(DuplicateFaces, FindsNoneInACube) {
   Mesh mesh = test::cube();
   const DuplicateFaces counts = dropDuplicateFaces(mesh, false);
   EXPECT_EQ(counts.same.count + counts.opposite.count, 0u);

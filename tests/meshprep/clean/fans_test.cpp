@@ -29,7 +29,7 @@ std::size_t openEdges(const Mesh& mesh) {
   return count;
 }
 
-// The triangles as positions: what a renderer sees.
+// Returns the positions of all corners.
 std::vector<std::array<glm::dvec3, 3>> soup(const Mesh& mesh) {
   std::vector<std::array<glm::dvec3, 3>> result;
   for (const glm::uvec3& t : mesh.triangles)
@@ -37,7 +37,7 @@ std::vector<std::array<glm::dvec3, 3>> soup(const Mesh& mesh) {
   return result;
 }
 
-TEST(Fans, ACubeAndASphereAreUntouched) {
+TEST(Fans, KeepsACubeAndASphere) {
   for (const Mesh& before : {cube(), test::sphere(7, 12)}) {
     Mesh mesh = before;
     const Fans fans = splitFans(mesh);
@@ -47,7 +47,7 @@ TEST(Fans, ACubeAndASphereAreUntouched) {
   }
 }
 
-TEST(Fans, CubesThatShareAnEdgeGetOneEach) {
+TEST(Fans, SeparatesCubesAtASharedEdge) {
   Mesh mesh = joined(cube(), cube(1, {1, 1, 0}));
   const Mesh before = mesh;
   EXPECT_EQ(weld(mesh, 0).joined.count, 2u);
@@ -64,7 +64,7 @@ TEST(Fans, CubesThatShareAnEdgeGetOneEach) {
   EXPECT_NEAR(sides.components[1].signedVolume, 1, 1e-12);
 }
 
-TEST(Fans, VerticesThatWereApartInTheFileGetTheirOrderBack) {
+TEST(Fans, RestoresTheOrderOfWeldedVertices) {
   Mesh mesh = joined(cube(), cube(1, {1, 1, 0}));
   for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) mesh.sourceVertices.push_back(i);
   mesh.sourceCorners = mesh.triangles;
@@ -76,7 +76,7 @@ TEST(Fans, VerticesThatWereApartInTheFileGetTheirOrderBack) {
   EXPECT_EQ(mesh.sourceVertices, before.sourceVertices);
 }
 
-TEST(Fans, CubesThatShareAFaceKeepBothWalls) {
+TEST(Fans, KeepsBothWallsOfASharedFace) {
   Mesh mesh = joined(cube(), cube(1, {1, 0, 0}));
   weld(mesh, 0);
   EXPECT_EQ(mesh.positions.size(), 12u);
@@ -87,7 +87,7 @@ TEST(Fans, CubesThatShareAFaceKeepBothWalls) {
   EXPECT_EQ(orient(mesh, false).components.size(), 2u);
 }
 
-TEST(Fans, AFinLosesTheCubeAndNotTheCubeItsSkin) {
+TEST(Fans, SeparatesAFinFromACube) {
   for (const glm::dvec3& tip : {glm::dvec3(2, 2, 0.5), glm::dvec3(0.5, 0.5, 0.5)}) {  // outside and inside
     Mesh mesh = cube();
     mesh.positions.push_back(tip);
@@ -103,13 +103,13 @@ TEST(Fans, AFinLosesTheCubeAndNotTheCubeItsSkin) {
   }
 }
 
-TEST(Fans, ADoubleSidedQuadBecomesTwoSheets) {
+TEST(Fans, SeparatesTheSidesOfADoubleSidedQuad) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}};
   splitFans(mesh);
   EXPECT_EQ(crowdedEdges(mesh), 0u);
-  // Fronts stay with fronts: the two triangles of each side share the diagonal.
+  // The two triangles of each side share the diagonal.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> edges;
   forEachEdge(edgeUses(mesh.triangles), [&](std::span<const EdgeUse> edge) {
     for (const EdgeUse& use : edge) edges[{edge[0].low, edge[0].high}].push_back(use.triangle);
@@ -123,7 +123,7 @@ TEST(Fans, ADoubleSidedQuadBecomesTwoSheets) {
   EXPECT_TRUE(together(2, 3));
 }
 
-TEST(Fans, ConesThatTouchInAPointAreTwo) {
+TEST(Fans, SeparatesConesAtTheirCommonApex) {
   Mesh mesh = joined(cube(), cube(1, {1, 1, 1}));
   weld(mesh, 0);
   EXPECT_EQ(mesh.positions.size(), 15u);
@@ -134,7 +134,7 @@ TEST(Fans, ConesThatTouchInAPointAreTwo) {
   EXPECT_EQ(mesh.positions.size(), 16u);
 }
 
-// A body of unit cells, as the faces between a filled and an empty cell.
+// Solid of unit cells: the faces between filled and empty cells.
 Mesh cells(const std::vector<glm::ivec3>& filled) {
   Mesh mesh;
   const auto isFilled = [&](const glm::ivec3& c) { return std::find(filled.begin(), filled.end(), c) != filled.end(); };
@@ -159,9 +159,9 @@ Mesh cells(const std::vector<glm::ivec3>& filled) {
   return mesh;
 }
 
-TEST(Fans, ABodyThatTouchesItselfAlongAnEdgeIsCutThere) {
-  // A ring of cells that bends back to touch its own first cell along one edge, joined to it around both of its ends:
-  // splitting vertices alone cannot take the edge apart.
+TEST(Fans, CutsEdgesAtWhichASolidTouchesItself) {
+  // A ring of cells that touches its first cell along an edge, and is connected to it around both ends: splitting
+  // vertices cannot separate the edge.
   std::vector<glm::ivec3> ring;
   for (int z = 0; z < 3; ++z)
     for (int x = 0; x < 2; ++x)
@@ -181,7 +181,7 @@ TEST(Fans, ABodyThatTouchesItselfAlongAnEdgeIsCutThere) {
   EXPECT_NEAR(sides.components[0].signedVolume, 10, 1e-12);
 }
 
-TEST(Fans, FacesThatJoinVerticesAtRandomAreNoSurface) {
+TEST(Fans, RefusesRandomFaces) {
   Mesh mesh;
   std::mt19937 random(7);
   for (int i = 0; i < 3000; ++i) mesh.positions.emplace_back(random() % 97, random() % 89, random() % 83);
@@ -190,7 +190,7 @@ TEST(Fans, FacesThatJoinVerticesAtRandomAreNoSurface) {
     if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);
   }
   EXPECT_TRUE(
-      test::contains(test::errorMessage([&] { splitFans(mesh, "a.ply"); }), "a.ply: the faces form no surface"));
+      test::contains(test::errorMessage([&] { splitFans(mesh, "a.ply"); }), "a.ply: faces do not form a surface"));
 }
 
 }  // namespace

@@ -10,16 +10,16 @@
 namespace malus::prep {
 namespace {
 
-// A cube without its two faces at y = 1 and without one triangle at z = 0.
+// Cube without its two faces at y = 1 and one triangle at z = 0.
 Mesh openCube() {
   Mesh mesh = test::cube();
   mesh.triangles.erase(mesh.triangles.begin() + 6, mesh.triangles.begin() + 8);
   return mesh;
 }
 
-TEST(Holes, AClosedMeshHasNone) { EXPECT_TRUE(findHoles(test::sphere(5, 8)).empty()); }
+TEST(Holes, FindsNoneInAClosedMesh) { EXPECT_TRUE(findHoles(test::sphere(5, 8)).empty()); }
 
-TEST(Holes, ALoopIsToldWithItsVerticesAndLength) {
+TEST(Holes, ReportsVerticesAndLength) {
   const Mesh mesh = openCube();
   const std::vector<Loop> loops = findHoles(mesh);
   ASSERT_EQ(loops.size(), 1u);
@@ -30,7 +30,7 @@ TEST(Holes, ALoopIsToldWithItsVerticesAndLength) {
   EXPECT_EQ(holes.first[0].what, "4 edges, 4 m around");
 }
 
-TEST(Holes, FillingClosesWhatItIsAskedFor) {
+TEST(Holes, FillsHolesUpToTheLimit) {
   Mesh mesh = openCube();
   EXPECT_EQ(fillHoles(mesh, findHoles(mesh), 3).left.count, 1u);
   EXPECT_EQ(mesh.triangles.size(), 10u);
@@ -43,8 +43,8 @@ TEST(Holes, FillingClosesWhatItIsAskedFor) {
   EXPECT_NEAR(sides.components[0].signedVolume, 1, 1e-12);
 }
 
-TEST(Holes, ALidHasNoTriangleWithoutArea) {
-  // A cube without its side at y = 0, whose rim has more corners along the edge 0-1: the lid is made of good triangles.
+TEST(Holes, FillsWithoutTrianglesOfZeroArea) {
+  // Cube without its side at y = 0, with more vertices on edge 0-1 of the rim.
   Mesh mesh = test::cube();
   mesh.triangles.erase(mesh.triangles.begin() + 4, mesh.triangles.begin() + 6);
   mesh.positions.emplace_back(0.25, 0, 0);  // 8
@@ -58,7 +58,7 @@ TEST(Holes, ALidHasNoTriangleWithoutArea) {
   for (const glm::uvec3& t : mesh.triangles)
     EXPECT_FALSE(isWithoutArea(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]));
 
-  // A slit along a line has no area to fill.
+  // A slit along a line has no area.
   Mesh slit = test::cube();
   slit.positions.emplace_back(0.5, 0, 0);
   slit.triangles[1] = {0, 3, 8};
@@ -68,7 +68,7 @@ TEST(Holes, ALidHasNoTriangleWithoutArea) {
   EXPECT_EQ(left.left.count, 1u);
 }
 
-TEST(Holes, TwoHolesAreTwoLoops) {
+TEST(Holes, FindsTwoLoops) {
   Mesh mesh = test::sphere(9, 16);
   mesh.triangles.erase(mesh.triangles.begin() + 100);
   mesh.triangles.erase(mesh.triangles.begin() + 19, mesh.triangles.begin() + 21);
@@ -77,8 +77,8 @@ TEST(Holes, TwoHolesAreTwoLoops) {
   EXPECT_EQ(loops[0].size() + loops[1].size(), 7u);
 }
 
-TEST(Holes, OneThatCrossesItselfIsLeft) {
-  // A strip around a bow tie: its loop, seen along its normal, crosses itself.
+TEST(Holes, LeavesLoopsThatCrossThemselves) {
+  // A strip around a bow tie, whose projected loop crosses itself.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 1}, {2, 2, 1}, {2, 0, 1}, {0, 2, 1}};
   for (std::uint32_t i = 0; i < 4; ++i) {
@@ -91,8 +91,8 @@ TEST(Holes, OneThatCrossesItselfIsLeft) {
   EXPECT_EQ(mesh.triangles.size(), 8u);
 }
 
-TEST(Holes, ALidThatWouldPutAThirdTriangleOnAnEdgeIsLeft) {
-  // A tetrahedron without two faces, and its last edge twice on another surface: the lid of the hole would need it.
+TEST(Holes, LeavesHolesWhoseCapWouldBeNonManifold) {
+  // Tetrahedron without two faces, whose last edge is used twice by another surface.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}, {0.5, 0.5, -2}};
   mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 2, 5}, {2, 0, 6}, {1, 3, 5}, {3, 1, 6}};

@@ -21,7 +21,7 @@ Mesh two(const std::vector<glm::dvec3>& positions) {
   return mesh;
 }
 
-TEST(Intersections, CleanBodiesHaveNone) {
+TEST(Intersections, FindsNoneInValidSolids) {
   for (const Mesh& mesh : {test::cube(), test::sphere(15, 32), test::joined(test::cube(), test::cube(1, {3, 0, 0}))}) {
     const Intersections found = findIntersections(mesh);
     EXPECT_TRUE(found.crossing.empty());
@@ -30,7 +30,7 @@ TEST(Intersections, CleanBodiesHaveNone) {
   }
 }
 
-TEST(Intersections, TrianglesThatCrossOrTouchAreTold) {
+TEST(Intersections, FindsCrossingAndTouchingTriangles) {
   const std::vector<glm::dvec3> base = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
   const auto with = [&](std::vector<glm::dvec3> other) {
     std::vector<glm::dvec3> all = base;
@@ -45,7 +45,7 @@ TEST(Intersections, TrianglesThatCrossOrTouchAreTold) {
   EXPECT_EQ(with({{2, 0, 0}, {2, -1, 0}, {3, -1, 0}}), 1u);    // a corner on its edge
 }
 
-TEST(Intersections, TrianglesThatShareCornersMayOnlyMeetThere) {
+TEST(Intersections, AcceptsSharedCornersOnly) {
   const auto count = [](const std::vector<glm::dvec3>& other) {
     std::vector<glm::dvec3> all = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
     all.insert(all.end(), other.begin(), other.end());
@@ -62,7 +62,7 @@ TEST(Intersections, TrianglesThatShareCornersMayOnlyMeetThere) {
   EXPECT_EQ(count({{4, 0, 0}, {0, 0, 0}, {0, 4, 0}}), Counts(0, 1));    // the same three
 }
 
-TEST(Intersections, SpheresThroughEachOtherMatchEveryPairTestedAlone) {
+TEST(Intersections, MatchesTheTestOfAllPairs) {
   const Mesh mesh = test::joined(test::sphere(6, 9), [] {
     Mesh other = test::sphere(5, 8);
     for (glm::dvec3& p : other.positions) p = p * 0.9 + glm::dvec3(0.61, 0.37, 0.23);
@@ -79,12 +79,12 @@ TEST(Intersections, SpheresThroughEachOtherMatchEveryPairTestedAlone) {
     }
   EXPECT_GT(all.crossing.size(), 10u);
   EXPECT_EQ(all.crossing, alone);
-  // One of each pair is of each sphere.
+  // Each pair has a triangle of each sphere.
   for (const auto& [a, b] : all.crossing) EXPECT_TRUE(a < 108 && b >= 108) << a << ' ' << b;
 }
 
-TEST(Intersections, GivesUpOnTooManyPairsAndSaysSo) {
-  // Long thin triangles through one point: every box overlaps every other.
+TEST(Intersections, IsIncompleteForTooManyPairs) {
+  // Long thin triangles through one point: all boxes overlap.
   Mesh mesh;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> draw(-1, 1);
@@ -99,7 +99,7 @@ TEST(Intersections, GivesUpOnTooManyPairsAndSaysSo) {
   EXPECT_FALSE(findIntersections(mesh).complete);
 }
 
-TEST(BoxPairs, FindsWhatOverlapsOrTouchesOnce) {
+TEST(BoxPairs, FindsOverlappingAndTouchingBoxesOnce) {
   const std::vector<Box> a = {{{0, 0, 0}, {1, 1, 1}}, {{5, 5, 5}, {6, 6, 6}}};
   const std::vector<Box> b = {{{1, 1, 1}, {2, 2, 2}}, {{1.001, 0, 0}, {2, 1, 1}}, {{-9, -9, -9}, {9, 9, 9}}};
   std::array<std::atomic<int>, 6> seen{};

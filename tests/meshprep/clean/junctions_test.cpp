@@ -7,7 +7,7 @@
 namespace malus::prep {
 namespace {
 
-// A large triangle over two small ones whose common corner lies in the middle of its edge.
+// A large triangle beside two small ones whose common corner is in the middle of its edge.
 Mesh junction(double off) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {3, 0, 0}, {1.5, 1, 0}, {1, off, 0}, {0, -1, 0}, {3, -1, 0}};
@@ -15,7 +15,7 @@ Mesh junction(double off) {
   return mesh;
 }
 
-TEST(Junctions, AVertexInTheMiddleOfAnEdgeIsToldWithTheEdge) {
+TEST(Junctions, FindsAVertexInTheMiddleOfAnEdge) {
   const Junctions junctions = findJunctions(junction(0));
   ASSERT_EQ(junctions.found.count, 1u);
   EXPECT_EQ(junctions.found.first[0].vertices, (std::vector<std::uint32_t>{3, 0, 1}));
@@ -24,14 +24,14 @@ TEST(Junctions, AVertexInTheMiddleOfAnEdgeIsToldWithTheEdge) {
   EXPECT_TRUE(junctions.complete);
 }
 
-TEST(Junctions, RoundingOfDecimalsCountsAndARealGapDoesNot) {
+TEST(Junctions, ToleratesRoundingOfDecimals) {
   EXPECT_EQ(findJunctions(junction(-1e-6)).found.count, 1u);
   EXPECT_EQ(findJunctions(junction(-1e-4)).found.count, 0u);
 }
 
-TEST(Junctions, EndsOfEdgesAreNone) {
+TEST(Junctions, IgnoresEndsOfEdges) {
   EXPECT_EQ(findJunctions(test::cube()).found.count, 0u);
-  // Not shared, but at the same place.
+  // Separate vertices at the same position.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 0}, {0, -1, 0}};
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}};

@@ -12,8 +12,8 @@ namespace malus::prep {
 namespace {
 
 using test::cube;
+using test::flipped;
 using test::joined;
-using test::turnedOver;
 
 double signedVolume(const Mesh& mesh, std::size_t first, std::size_t count) {
   double volume = 0;
@@ -24,7 +24,7 @@ double signedVolume(const Mesh& mesh, std::size_t first, std::size_t count) {
   return volume;
 }
 
-TEST(Orient, OutwardCubeIsUntouched) {
+TEST(Orient, KeepsAnOutwardCube) {
   Mesh mesh = cube();
   const OrientResult result = orient(mesh, false);
   EXPECT_EQ(mesh.triangles, cube().triangles);
@@ -37,13 +37,13 @@ TEST(Orient, OutwardCubeIsUntouched) {
   EXPECT_EQ(result.boundaryEdges + result.nonManifoldEdges, 0u);
 }
 
-TEST(Orient, InwardCubeIsTurnedEvenFarFromTheOrigin) {
-  Mesh mesh = turnedOver(cube(1e-3, {1e4, -1e4, 1e4}));
+TEST(Orient, FlipsAnInwardCubeFarFromTheOrigin) {
+  Mesh mesh = flipped(cube(1e-3, {1e4, -1e4, 1e4}));
   EXPECT_EQ(orient(mesh, false).flipped.count, 12u);
   EXPECT_EQ(mesh.triangles, cube().triangles);
 }
 
-TEST(Orient, FewTurnedTrianglesFollowTheRest) {
+TEST(Orient, FlipsTheMinority) {
   Mesh mesh = cube();
   for (const std::size_t i : {0u, 5u, 9u})
     mesh.triangles[i] = {mesh.triangles[i].x, mesh.triangles[i].z, mesh.triangles[i].y};
@@ -51,14 +51,14 @@ TEST(Orient, FewTurnedTrianglesFollowTheRest) {
   EXPECT_EQ(mesh.triangles, cube().triangles);
 }
 
-TEST(Orient, OpenSurfaceTakesTheMajoritysSide) {
+TEST(Orient, FollowsTheMajorityOfOpenComponents) {
   Mesh mesh = cube();
   mesh.triangles.resize(10);  // one side off
   for (std::size_t i = 0; i < 7; ++i)
     mesh.triangles[i] = {mesh.triangles[i].x, mesh.triangles[i].z, mesh.triangles[i].y};
   Mesh expected = cube();
   expected.triangles.resize(10);
-  expected = turnedOver(expected);
+  expected = flipped(expected);
   const OrientResult result = orient(mesh, false);
   EXPECT_EQ(result.flipped.count, 3u);
   EXPECT_EQ(mesh.triangles, expected.triangles);
@@ -66,49 +66,49 @@ TEST(Orient, OpenSurfaceTakesTheMajoritysSide) {
   EXPECT_EQ(result.boundaryEdges, 4u);
 }
 
-TEST(Orient, TieKeepsTheFirstTriangle) {
+TEST(Orient, KeepsTheFirstTriangleOfATie) {
   Mesh mesh = cube();
   mesh.triangles = {{0, 2, 3}, {0, 1, 3}};
   orient(mesh, false);
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 2, 3}, {0, 3, 1}}));
 }
 
-TEST(Orient, ASheetIsNeverTurnedAsAWhole) {
-  Mesh mesh = turnedOver(cube());
+TEST(Orient, NeverFlipsAnOpenSurfaceAsAWhole) {
+  Mesh mesh = flipped(cube());
   mesh.triangles[3] = cube().triangles[3];
   EXPECT_EQ(orient(mesh, true).flipped.count, 1u);
-  EXPECT_EQ(mesh.triangles, turnedOver(cube()).triangles);
+  EXPECT_EQ(mesh.triangles, flipped(cube()).triangles);
 }
 
-TEST(Orient, CavityStaysACavity) {
-  Mesh mesh = joined(cube(4), turnedOver(cube(1, {1, 1, 1})));
+TEST(Orient, KeepsCavities) {
+  Mesh mesh = joined(cube(4), flipped(cube(1, {1, 1, 1})));
   const OrientResult result = orient(mesh, false);
   EXPECT_EQ(result.flipped.count, 0u);
   EXPECT_EQ(result.nested, 1u);
   EXPECT_LT(result.components[1].signedVolume, 0);
 }
 
-TEST(Orient, CavityOfATurnedBodyIsTurnedWithIt) {
-  Mesh mesh = joined(turnedOver(cube(4)), cube(1, {1, 1, 1}));
+TEST(Orient, FlipsCavitiesWithTheirSolid) {
+  Mesh mesh = joined(flipped(cube(4)), cube(1, {1, 1, 1}));
   EXPECT_EQ(orient(mesh, false).flipped.count, 24u);
   EXPECT_NEAR(signedVolume(mesh, 0, 12), 64, 1e-9);
   EXPECT_NEAR(signedVolume(mesh, 12, 12), -1, 1e-9);
 }
 
-TEST(Orient, BodyInACavityPointsOutward) {
-  Mesh mesh = joined(joined(cube(9), turnedOver(cube(5, {2, 2, 2}))), turnedOver(cube(1, {4, 4, 4})));
+TEST(Orient, OrientsASolidInACavityOutward) {
+  Mesh mesh = joined(joined(cube(9), flipped(cube(5, {2, 2, 2}))), flipped(cube(1, {4, 4, 4})));
   EXPECT_EQ(orient(mesh, false).flipped.count, 12u);
   EXPECT_GT(signedVolume(mesh, 24, 12), 0);
 }
 
-TEST(Orient, BodiesThatPokeIntoEachOtherAreNotNested) {
-  Mesh mesh = joined(cube(4), turnedOver(cube(2, {3, 1, 1})));
+TEST(Orient, DoesNotNestIntersectingSolids) {
+  Mesh mesh = joined(cube(4), flipped(cube(2, {3, 1, 1})));
   const OrientResult result = orient(mesh, false);
   EXPECT_EQ(result.flipped.count, 12u);
   EXPECT_EQ(result.nested, 0u);
 }
 
-TEST(Orient, MoebiusStripStaysAsItIs) {
+TEST(Orient, KeepsAMoebiusStrip) {
   Mesh mesh;
   constexpr std::uint32_t kSteps = 9;
   for (std::uint32_t i = 0; i < kSteps; ++i) {
@@ -132,9 +132,9 @@ TEST(Orient, MoebiusStripStaysAsItIs) {
   EXPECT_EQ(mesh.triangles, before);
 }
 
-TEST(Orient, CubesThatShareAnEdgeAreClosedEach) {
-  // Two cubes that touch along an edge: four triangles on it, and still two bodies with an outside.
-  Mesh mesh = joined(cube(), turnedOver(cube(1, {1, 1, 0})));
+TEST(Orient, ClosesCubesThatShareAnEdge) {
+  // Two cubes that touch along an edge, which has four triangles.
+  Mesh mesh = joined(cube(), flipped(cube(1, {1, 1, 0})));
   // Vertices 3 and 7 of the first are 8 and 12 of the second.
   for (glm::uvec3& t : mesh.triangles)
     for (int i = 0; i < 3; ++i) t[i] = t[i] == 8 ? 3 : t[i] == 12 ? 7 : t[i];
@@ -148,7 +148,7 @@ TEST(Orient, CubesThatShareAnEdgeAreClosedEach) {
   EXPECT_EQ(result.flipped.count, 12u);
 }
 
-TEST(Orient, FinOnACubeIsAComponentOfItsOwn) {
+TEST(Orient, MakesAFinASeparateComponent) {
   Mesh mesh = cube();
   mesh.positions.emplace_back(2, 2, 0.5);
   mesh.triangles.emplace_back(3, 7, 8);
@@ -159,13 +159,13 @@ TEST(Orient, FinOnACubeIsAComponentOfItsOwn) {
   EXPECT_FALSE(result.components[1].closed);
 }
 
-TEST(Orient, ClosedWithoutVolumeIsCounted) {
+TEST(Orient, CountsClosedComponentsWithoutVolume) {
   Mesh mesh = cube();
   mesh.triangles = {{0, 1, 2}, {0, 2, 1}};
   EXPECT_EQ(orient(mesh, false).withoutVolume, 1u);
 }
 
-TEST(EdgeUses, ListsEveryTriangleOfAnEdge) {
+TEST(EdgeUses, ListsAllTrianglesOfAnEdge) {
   const std::vector<glm::uvec3> triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
   std::size_t edges = 0, most = 0;
   forEachEdge(edgeUses(triangles), [&](std::span<const EdgeUse> edge) {

@@ -19,7 +19,7 @@ Polygons polygon(std::vector<glm::dvec3> positions) {
   return polygons;
 }
 
-// Area vector of all triangles: equals the polygon's where nothing is lost, doubled or turned.
+// Area vector of all triangles: equals that of the polygon if none is missing, duplicated or flipped.
 glm::dvec3 areaVector(const Mesh& mesh) {
   glm::dvec3 sum(0);
   for (const glm::uvec3& t : mesh.triangles)
@@ -35,7 +35,7 @@ double totalArea(const Mesh& mesh) {
   return sum;
 }
 
-TEST(Triangulate, ConvexQuadIsAFanFromItsFirstCorner) {
+TEST(Triangulate, MakesAFanOfAConvexQuad) {
   TriangulateCounts counts;
   const Mesh mesh = triangulate(polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}), counts);
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
@@ -43,8 +43,8 @@ TEST(Triangulate, ConvexQuadIsAFanFromItsFirstCorner) {
   EXPECT_EQ(counts.concave + counts.nonPlanar + counts.crossing + counts.repeatedCorners, 0u);
 }
 
-TEST(Triangulate, ArrowIsNotFannedAcrossItsNotch) {
-  // The reflex corner is the third: a fan from the first corner would cover ground outside of the polygon.
+TEST(Triangulate, ClipsEarsOfAnArrow) {
+  // The third corner is reflex: a fan from the first corner would leave the polygon.
   TriangulateCounts counts;
   const Mesh mesh = triangulate(polygon({{0, 0, 0}, {2, -1, 0}, {0.5, 0, 0}, {2, 1, 0}}), counts);
   EXPECT_EQ(counts.concave, 1u);
@@ -53,8 +53,8 @@ TEST(Triangulate, ArrowIsNotFannedAcrossItsNotch) {
   EXPECT_NEAR(totalArea(mesh), 0.5, 1e-12);
 }
 
-TEST(Triangulate, LongCombInAnyPlaneKeepsItsArea) {
-  // A comb with 8 teeth, tilted out of the axes' planes.
+TEST(Triangulate, KeepsTheAreaOfACombInAnyPlane) {
+  // A comb with 8 teeth in a tilted plane.
   std::vector<glm::dvec3> corners;
   const glm::dvec3 u = glm::normalize(glm::dvec3(1, 2, 2)), v = glm::normalize(glm::dvec3(2, 1, -2));
   const auto add = [&](double x, double y) { corners.push_back(glm::dvec3(5, -3, 7) + x * u + y * v); };
@@ -75,7 +75,7 @@ TEST(Triangulate, LongCombInAnyPlaneKeepsItsArea) {
   EXPECT_GT(glm::dot(areaVector(mesh), glm::cross(u, v)), 0);
 }
 
-TEST(Triangulate, CornerInTheMiddleOfASideLeavesNoTriangleWithoutArea) {
+TEST(Triangulate, AvoidsZeroAreaAtCollinearCorners) {
   TriangulateCounts counts;
   const Mesh mesh = triangulate(polygon({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}), counts);
   EXPECT_EQ(mesh.triangles.size(), 2u);
@@ -86,34 +86,34 @@ TEST(Triangulate, CornerInTheMiddleOfASideLeavesNoTriangleWithoutArea) {
   EXPECT_NEAR(areaVector(mesh).z, 2, 1e-12);
 }
 
-TEST(Triangulate, BentQuadIsCounted) {
+TEST(Triangulate, CountsNonPlanarQuads) {
   TriangulateCounts counts;
   triangulate(polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0.2}, {0, 1, 0}}), counts);
   EXPECT_EQ(counts.nonPlanar, 1u);
   EXPECT_EQ(counts.concave, 0u);
 }
 
-TEST(Triangulate, BowTieIsCounted) {
+TEST(Triangulate, CountsSelfCrossingPolygons) {
   TriangulateCounts counts;
   const Mesh mesh = triangulate(polygon({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}), counts);
   EXPECT_EQ(counts.concave, 1u);
   EXPECT_EQ(mesh.triangles.size(), 2u);
 }
 
-TEST(Triangulate, RepeatedCornersAreLeftOutAndCounted) {
+TEST(Triangulate, DropsAndCountsRepeatedCorners) {
   TriangulateCounts counts;
   const Mesh mesh = triangulate(polygon({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}}), counts);
   EXPECT_EQ(counts.repeatedCorners, 2u);
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 3}}));
 }
 
-TEST(Triangulate, PolygonWithoutAreaStaysAsOneDegenerateTriangle) {
+TEST(Triangulate, MakesOneDegenerateTriangleOfAPolygonWithoutArea) {
   TriangulateCounts counts;
   const Mesh mesh = triangulate(polygon({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 0, 0}}), counts);
   EXPECT_EQ(mesh.triangles.size(), 1u);
 }
 
-// Nothing lost, doubled or turned, and as many triangles as the polygon has.
+// Expects the area vector of the polygon, and its number of triangles.
 void expectWhole(const Polygons& polygons) {
   TriangulateCounts counts;
   const Mesh mesh = triangulate(polygons, counts);
@@ -126,7 +126,7 @@ void expectWhole(const Polygons& polygons) {
               glm::dvec3(0));
 }
 
-// The outline r(angle) in n corners.
+// Returns the outline r(angle) with n corners.
 template <class Radius>
 Polygons outline(int n, Radius radius) {
   std::vector<glm::dvec3> corners;
@@ -137,8 +137,8 @@ Polygons outline(int n, Radius radius) {
   return polygon(corners);
 }
 
-TEST(Triangulate, SidesWithManyCornersAreCutWithoutTrianglesWithoutArea) {
-  // Every corner ends a side with corners in it, so that no fan is good. Also with one bare side.
+TEST(Triangulate, ClipsSidesWithCollinearCorners) {
+  // Every corner ends a side with collinear corners, so that no fan is valid; also with one side without.
   for (const std::array<int, 3>& parts : {std::array{3, 3, 3}, {3, 4, 1}, {1, 3, 4}, {4, 1, 3}, {3000, 2000, 1000}}) {
     const std::array<glm::dvec3, 4> ends = {glm::dvec3(0), {4, 1, 2}, {1, 5, 3}, glm::dvec3(0)};
     std::vector<glm::dvec3> corners;
@@ -152,7 +152,7 @@ TEST(Triangulate, SidesWithManyCornersAreCutWithoutTrianglesWithoutArea) {
   }
 }
 
-TEST(Triangulate, ConvexFacesOfAnySizeAreFans) {
+TEST(Triangulate, MakesFansOfLargeConvexFaces) {
   for (const int n : {5, 100, 10000, 300000}) {
     const Polygons polygons = outline(n, [](double) { return 2.0; });
     expectWhole(polygons);
@@ -162,10 +162,10 @@ TEST(Triangulate, ConvexFacesOfAnySizeAreFans) {
   }
 }
 
-TEST(Triangulate, SmoothConcaveOutlinesOfManyCorners) {
-  // Each ear is smaller than the rounding of the polygon's whole area.
+TEST(Triangulate, ClipsSmoothConcaveOutlines) {
+  // Each ear is smaller than the rounding error of the polygon's area.
   expectWhole(outline(50000, [](double angle) { return 1 + 0.9 * std::cos(2 * angle); }));
-  // Two bows that nearly touch: no corner turns right by more than 4e-5, and a fan would cover what is outside.
+  // Two bows that nearly touch: no corner turns right by more than 4e-5, and a fan would leave the polygon.
   std::vector<glm::dvec3> corners;
   for (int i = 0; i < 10000; ++i) {
     const double x = -1 + i / 4999.5;
@@ -178,7 +178,7 @@ TEST(Triangulate, SmoothConcaveOutlinesOfManyCorners) {
   expectWhole(polygon(corners));
 }
 
-TEST(Triangulate, ManyConcaveFaces) {
+TEST(Triangulate, ClipsManyConcaveFaces) {
   Polygons polygons;
   const Polygons one = outline(70, [](double angle) { return 2 + std::sin(30 * angle); });
   for (int i = 0; i < 1000; ++i) {
@@ -195,8 +195,8 @@ TEST(Triangulate, ManyConcaveFaces) {
   EXPECT_NEAR(totalArea(mesh), 1000 * totalArea(triangulate(one, counts)), 1e-6);
 }
 
-TEST(Triangulate, FacesThatTakeTooLongAreNamed) {
-  // A comb: each ear that is not one holds another tooth.
+TEST(Triangulate, RefusesFacesThatTakeTooLong) {
+  // A comb: each candidate that is not an ear contains another tooth.
   std::vector<glm::dvec3> comb = {{0, 0, 0}, {400000, 0, 0}};
   for (int tooth = 200000 - 1; tooth >= 0; --tooth) {
     comb.emplace_back(2 * tooth + 2, 3, 0);
@@ -205,15 +205,15 @@ TEST(Triangulate, FacesThatTakeTooLongAreNamed) {
   comb.emplace_back(0, 3, 0);
   Polygons polygons = polygon(comb);
   TriangulateCounts counts;
-  EXPECT_EQ(test::errorMessage([&] { triangulate(polygons, counts); }),
-            "face 0: is too intricate to be cut into triangles; expected faces of fewer corners, found 400003 corners");
+  const std::string error = test::errorMessage([&] { triangulate(polygons, counts); });
+  EXPECT_TRUE(test::contains(error, "face 0: ") && test::contains(error, "400003 corners")) << error;
   polygons.faceLocations = {7};
   EXPECT_TRUE(test::contains(test::errorMessage([&] { triangulate(polygons, counts); }), "face 0, line 7: "));
   polygons.locationsAreBytes = true;
   EXPECT_TRUE(test::contains(test::errorMessage([&] { triangulate(polygons, counts); }), "face 0, byte 7: "));
 }
 
-TEST(Triangulate, TrianglesKnowWhatTheFileSays) {
+TEST(Triangulate, KeepsAttributes) {
   // A concave face whose first corner is repeated, and a triangle.
   Polygons polygons;
   polygons.positions = {{0, 0, 0}, {2, -1, 0}, {0.5, 0, 0}, {2, 1, 0}};
@@ -236,7 +236,7 @@ TEST(Triangulate, TrianglesKnowWhatTheFileSays) {
       EXPECT_EQ(normal >= 5, t == 2);
     }
 
-  // Normals of the vertices serve where corners have none of their own.
+  // Normals of vertices are used if corners have none.
   polygons.cornerNormals.clear();
   polygons.smoothingGroups.clear();
   polygons.normals = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}};

@@ -7,7 +7,7 @@
 namespace malus::prep {
 namespace {
 
-TEST(UnreferencedVertices, DropsThemAndKeepsTheOrder) {
+TEST(UnreferencedVertices, AreDroppedInOrder) {
   Mesh mesh;
   mesh.positions = {{9, 0, 0}, {0, 0, 0}, {8, 0, 0}, {1, 0, 0}, {0, 1, 0}, {7, 0, 0}};
   mesh.triangles = {{4, 1, 3}};

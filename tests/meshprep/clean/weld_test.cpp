@@ -11,7 +11,7 @@ namespace {
 
 using test::errorMessage;
 
-TEST(Weld, EqualPositionsBecomeTheFirstOfThem) {
+TEST(Weld, JoinsEqualPositions) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
@@ -20,13 +20,13 @@ TEST(Weld, EqualPositionsBecomeTheFirstOfThem) {
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {1, 3, 2}}));
 }
 
-TEST(Weld, NegativeZeroIsZero) {
+TEST(Weld, TreatsNegativeZeroAsZero) {
   Mesh mesh;
   mesh.positions = {{0.0, 1, 2}, {-0.0, 1, 2}};
   EXPECT_EQ(weld(mesh, 0).joined.count, 1u);
 }
 
-TEST(Weld, TheNextDoubleIsAnotherPlace) {
+TEST(Weld, SeparatesAdjacentDoubles) {
   Mesh mesh;
   mesh.positions = {{1, 0, 0}, {std::nextafter(1.0, 2.0), 0, 0}, {5, 0, 0}, {5, 5, 0}};
   mesh.triangles = {{0, 2, 3}, {1, 3, 2}};
@@ -34,17 +34,17 @@ TEST(Weld, TheNextDoubleIsAnotherPlace) {
   EXPECT_EQ(weld(mesh, 1e-12).joined.count, 1u);
 }
 
-TEST(Weld, ToleranceReachesAcrossCellsAndTakesTheNearest) {
+TEST(Weld, JoinsTheNearestAcrossCells) {
   Mesh mesh;
   mesh.positions = {{0.99, 0, 0}, {2.2, 0, 0}, {1.8, 0, 0}, {-1e-9, -1e-9, -1e-9}, {1e-9, 1e-9, 1e-9}};
   mesh.triangles = {{2, 3, 4}, {0, 1, 3}};
   EXPECT_EQ(weld(mesh, 0.98).joined.count, 2u);
-  // The third joined the second (0.4 away), not the first (0.81 away); the last two met over a cell's corner.
+  // The third joins the second (0.4 away), not the first (0.81 away); the last two join across the corner of a cell.
   EXPECT_EQ(mesh.positions.size(), 3u);
   EXPECT_EQ(mesh.triangles[0], glm::uvec3(1, 2, 2));
 }
 
-TEST(Weld, ChainsDoNotCollapse) {
+TEST(Weld, DoesNotCollapseChains) {
   Mesh mesh;
   for (int i = 0; i < 11; ++i) mesh.positions.emplace_back(i * 0.6, 0, 0);
   for (std::uint32_t i = 0; i + 2 < 11; ++i) mesh.triangles.emplace_back(i, i + 1, i + 2);
@@ -52,16 +52,15 @@ TEST(Weld, ChainsDoNotCollapse) {
   for (std::size_t i = 1; i < mesh.positions.size(); ++i) EXPECT_GT(mesh.positions[i].x - mesh.positions[i - 1].x, 1.0);
 }
 
-TEST(Weld, RefusesAToleranceBelowTheRoundingOfCoordinates) {
+TEST(Weld, RefusesATooSmallTolerance) {
   Mesh mesh;
   mesh.positions = {{1e10, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.triangles = {{0, 1, 2}};
   EXPECT_TRUE(test::contains(errorMessage([&] { weld(mesh, 1e-9); }), "too small"));
 }
 
-TEST(Weld, AThinWallIsNotWeldedIntoOne) {
-  // Two plates of two triangles, a nanometre apart, each with a neighbour that goes its own way: joined they would put
-  // four triangles on an edge.
+TEST(Weld, KeepsThinWalls) {
+  // Two plates of two triangles, a nanometre apart, with different neighbours: joined edges would have four triangles.
   Mesh mesh;
   for (const double z : {0.0, 1e-9}) {
     mesh.positions.emplace_back(0, 0, z);
@@ -79,8 +78,8 @@ TEST(Weld, AThinWallIsNotWeldedIntoOne) {
   EXPECT_EQ(mesh.positions, before.positions);
 }
 
-TEST(Weld, RefusesOnlyWhereItMust) {
-  // The same wall, and a seam of two other vertices that the tolerance may close.
+TEST(Weld, RefusesAtNonManifoldEdgesOnly) {
+  // The same wall, and a seam of two other vertices that is closed.
   Mesh mesh;
   mesh.positions = {{0, 0, 0},     {1, 0, 0}, {0.5, 1, 1}, {0.5, -1, 1}, {0, 0, 1e-9}, {1, 0, 1e-9}, {0.5, 1, -1},
                     {0.5, -1, -1}, {9, 0, 0}, {9, 1, 0},   {8, 0, 0},    {9, 0, 1e-9}, {9, 1, 1e-9}, {10, 0, 0}};
@@ -91,8 +90,8 @@ TEST(Weld, RefusesOnlyWhereItMust) {
   EXPECT_EQ(mesh.positions.size(), 12u);
 }
 
-TEST(Weld, ACopyOfASurfaceIsNoThirdTriangle) {
-  // Another cube in the same place up to a nanometre: every edge would have four triangles, two of them copies.
+TEST(Weld, JoinsCopiesOfASurface) {
+  // Another cube at the same position up to a nanometre: edges get four triangles, two of them duplicates.
   Mesh mesh = test::joined(test::cube(), test::cube(1, glm::dvec3(1e-9)));
   const Weld result = weld(mesh, 1e-6);
   EXPECT_EQ(result.joined.count, 8u);
@@ -100,8 +99,8 @@ TEST(Weld, ACopyOfASurfaceIsNoThirdTriangle) {
   EXPECT_EQ(mesh.positions, test::cube().positions);
 }
 
-TEST(Weld, AnEdgeThatWasCrowdedBeforeIsNoReasonToRefuse) {
-  // Three leaves of a book meet in an edge as they are; the tolerance closes a seam in one of them.
+TEST(Weld, JoinsAtEdgesThatWereNonManifoldBefore) {
+  // Three pages meet at an edge; the tolerance closes a seam in one of them.
   Mesh mesh;
   mesh.positions = {{0, 0, 0},   {1, 0, 0},      {0.5, 1, 0}, {0.5, -1, 0},
                     {0.5, 0, 1}, {0.5, 1, 1e-9}, {2, 2, 0},   {1, 1e-9, 0}};
@@ -111,7 +110,7 @@ TEST(Weld, AnEdgeThatWasCrowdedBeforeIsNoReasonToRefuse) {
   EXPECT_EQ(result.refused.count, 0u);
 }
 
-TEST(Weld, WhatNoFaceNamesPullsNothingToIt) {
+TEST(Weld, IgnoresUnusedVertices) {
   Mesh mesh = test::joined({}, test::cube());
   mesh.positions.insert(mesh.positions.begin(), glm::dvec3(1e-9, 0, 0));
   for (glm::uvec3& t : mesh.triangles) t += 1u;
@@ -120,7 +119,7 @@ TEST(Weld, WhatNoFaceNamesPullsNothingToIt) {
   EXPECT_EQ(mesh.positions.size(), 9u);
 }
 
-TEST(Weld, CleanMeshIsUntouched) {
+TEST(Weld, KeepsACleanMesh) {
   Mesh mesh = test::sphere(5, 8);
   const Mesh before = mesh;
   EXPECT_EQ(weld(mesh, 0).joined.count, 0u);

@@ -14,7 +14,7 @@ TEST(HalfEdgeMesh, RoundTripKeepsEverything) {
     mesh.sourceFaces.push_back(i / 2);
     mesh.sourceCorners.push_back(3u * mesh.triangles[i]);
     mesh.smoothingGroups.push_back(i % 3);
-    mesh.turned.push_back(static_cast<char>(i % 2));
+    mesh.flipped.push_back(static_cast<char>(i % 2));
   }
   const Mesh back = fromHalfEdges(toHalfEdges(mesh), mesh);
   EXPECT_EQ(back.positions, mesh.positions);
@@ -23,7 +23,7 @@ TEST(HalfEdgeMesh, RoundTripKeepsEverything) {
   EXPECT_EQ(back.sourceFaces, mesh.sourceFaces);
   EXPECT_EQ(back.sourceCorners, mesh.sourceCorners);
   EXPECT_EQ(back.smoothingGroups, mesh.smoothingGroups);
-  EXPECT_EQ(back.turned, mesh.turned);
+  EXPECT_EQ(back.flipped, mesh.flipped);
 }
 
 TEST(HalfEdgeMesh, LeavesOutWhatIsDeleted) {

@@ -48,9 +48,9 @@ TEST(AuthoredNormals, OnesThatContradictTheirFaceAreTold) {
 }
 
 TEST(AuthoredNormals, TheyTurnWithTheirFaceOnlyWhereTheyMust) {
-  // The first face was turned over, its normals with it; the second face was turned to where its normals point.
+  // The first face was flipped, its normals with it; the second face was turned to where its normals point.
   Mesh mesh = square({-kUp, -kUp, -kTilted, kUp, kUp, kUp});
-  mesh.turned = {1, 1};
+  mesh.flipped = {1, 1};
   const AuthoredNormals result = addAuthoredNormals(mesh, 40);
   EXPECT_EQ(result.against.count, 0u);
   EXPECT_EQ(mesh.normals[mesh.triangles[0].x], kUp);

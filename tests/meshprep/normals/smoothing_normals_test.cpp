@@ -18,7 +18,7 @@ TEST(SmoothingNormals, OneGroupIsSmoothWhateverTheAngle) {
 TEST(SmoothingNormals, GroupZeroIsFlatAndGroupsEndAtEachOther) {
   Mesh mesh = test::cube();
   mesh.smoothingGroups.assign(12, 0);
-  // Not even the two triangles of a side: 36 corners of their own.
+  // Not even the two triangles of a side share corners: 36 vertices.
   EXPECT_EQ(addSmoothingNormals(mesh).added, 28u);
 
   mesh = test::cube();

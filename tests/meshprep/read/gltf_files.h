@@ -1,4 +1,4 @@
-// glTF files made in a test: a document to change at will, and the bytes that its accessors lie in.
+// glTF files for tests: an editable document, and the bytes of its buffer.
 #pragma once
 
 #include <cstdint>

@@ -349,7 +349,7 @@ TEST(ReadGltf, FlipsFacesOfMirroredInstances) {
   EXPECT_NEAR(volumes[1], 1, 1e-12);
   Report report;
   EXPECT_EQ(prepare(file.path(), {}, report).triangles.size(), 24u);
-  EXPECT_EQ(report.count("faces-turned-over"), 0u);
+  EXPECT_EQ(report.count("faces-flipped"), 0u);
 }
 
 TEST(ReadGltf, ReadsUsedVerticesOfSharedAccessors) {

@@ -111,7 +111,7 @@ Mesh fineCube(std::uint32_t n) {
         q[axis] = high ? 1 : 0;
         p = q;
       }
-      cube = test::joined(std::move(cube), high ? side : test::turnedOver(std::move(side)));
+      cube = test::joined(std::move(cube), high ? side : test::flipped(std::move(side)));
     }
   return cube;
 }
@@ -147,7 +147,7 @@ TEST(Simplify, ATessellatedCubeBecomesTwelveTriangles) {
     options.certifyGlass = true;
     const Result result = run(fineCube(9), options);
     EXPECT_EQ(result.after.triangles.size(), 12u);
-    EXPECT_TRUE(result.report.certificate.holds());
+    EXPECT_TRUE(result.report.certificate.isGranted());
     ASSERT_EQ(result.report.components.size(), 1u);
     EXPECT_NEAR(result.report.components[0].signedVolume, 1, 1e-12);
   }
@@ -339,16 +339,16 @@ TEST(Simplify, SeveralComponentsAndACertificate) {
   options.certifyGlass = true;
   Mesh cavity = test::sphere(30, 40);
   for (glm::dvec3& p : cavity.positions) p *= 0.5;
-  const Result apart = run(test::joined(test::sphere(30, 40), test::turnedOver(cavity)), options);
+  const Result apart = run(test::joined(test::sphere(30, 40), test::flipped(cavity)), options);
   EXPECT_EQ(apart.report.components.size(), 2u);
-  EXPECT_TRUE(apart.report.certificate.holds());
+  EXPECT_TRUE(apart.report.certificate.isGranted());
   EXPECT_LT(apart.after.triangles.size(), apart.before.triangles.size() / 2);
 
   // Walls thinner than the bound cross each other: the certificate names the option.
   Mesh close = test::sphere(31, 43);
   for (glm::dvec3& p : close.positions) p *= 0.98;
   options.simplify.maxError = 0.2;
-  const Result thin = run(test::joined(test::sphere(30, 40), test::turnedOver(close)), options);
+  const Result thin = run(test::joined(test::sphere(30, 40), test::flipped(close)), options);
   ASSERT_FALSE(thin.report.certificate.problems.empty());
   EXPECT_TRUE(contains(thin.report.certificate.problems[0].repair, "--simplify-error"));
 }

@@ -1,4 +1,4 @@
-#include "meshprep/clean/rounds.h"
+#include "meshprep/clean/fixed_point.h"
 
 #include <numeric>
 #include <utility>
@@ -10,12 +10,12 @@ namespace malus::prep {
 
 namespace {
 
-constexpr int kRounds = 12;  // two or three are enough for all but the strangest heaps of faces
+constexpr int kMaxPasses = 12;  // two or three suffice except for random triangles
 
 Cleaned cleanOnce(Mesh& mesh, const Cleaning& steps) {
   Cleaned done;
 
-  // Step 1: one vertex a place, then triangles that cover something, once.
+  // Weld vertices, then drop duplicate and degenerate faces.
   if (steps.weld) done.welded = weld(mesh, steps.weldTolerance);
   if (steps.duplicates) done.duplicates = dropDuplicateFaces(mesh, steps.dropOpposite);
   if (steps.degenerate) done.degenerate = dropDegenerateFaces(mesh);
@@ -27,22 +27,23 @@ Cleaned cleanOnce(Mesh& mesh, const Cleaning& steps) {
   if (steps.unreferenced) done.unreferenced = dropUnreferencedVertices(mesh);
   if (mesh.triangles.empty()) return done;
 
-  // Step 2: sides, fans, lids, and sides again where those joined what was apart.
-  if (steps.orient) done.sides = orient(mesh, steps.sheet);
+  // Orient, split fans, fill holes, and orient again if these changed connectivity.
+  if (steps.orient) done.orientation = orient(mesh, steps.openSurface);
   if (steps.fans && steps.degenerate) done.fans = splitFans(mesh, steps.where);
   const std::vector<Loop> loops = findHoles(mesh);
   done.holes = describeHoles(mesh, loops);
   if (steps.fillHoles > 0) done.filled = fillHoles(mesh, loops, steps.fillHoles);
-  if (steps.orient && (done.fans.changed() || done.filled.filled.count > 0)) done.sides = orient(mesh, steps.sheet);
+  if (steps.orient && (done.fans.changed() || done.filled.filled.count > 0))
+    done.orientation = orient(mesh, steps.openSurface);
   if (!steps.orient) {
-    Mesh looked = mesh;
-    done.sides = orient(looked, steps.sheet);
-    done.sides.applied = false;
+    Mesh copy = mesh;
+    done.orientation = orient(copy, steps.openSurface);
+    done.orientation.applied = false;
   }
   return done;
 }
 
-// The same as a reader would find it: every vertex and face is its own source. Names are given back afterwards.
+// Cleans a mesh as if it was read from a file, in which every vertex and face is its own source. Restores the sources.
 Cleaned cleanAgain(Mesh& mesh, const Cleaning& steps) {
   const std::vector<std::uint32_t> vertices = mesh.sourceVertices, faces = mesh.sourceFaces;
   const std::vector<glm::uvec3> corners = mesh.sourceCorners;
@@ -51,19 +52,19 @@ Cleaned cleanAgain(Mesh& mesh, const Cleaning& steps) {
   mesh.sourceCorners = mesh.triangles;
   Cleaned done = cleanOnce(mesh, steps);
 
-  const auto vertexName = [&](std::uint32_t v) { return v == kNoSource ? v : vertices[v]; };
-  for (std::uint32_t& v : mesh.sourceVertices) v = vertexName(v);
+  const auto sourceName = [&](std::uint32_t v) { return v == kNoSource ? v : vertices[v]; };
+  for (std::uint32_t& v : mesh.sourceVertices) v = sourceName(v);
   for (std::uint32_t& f : mesh.sourceFaces) f = faces[f];
-  for (glm::uvec3& t : mesh.sourceCorners) t = {vertexName(t.x), vertexName(t.y), vertexName(t.z)};
+  for (glm::uvec3& t : mesh.sourceCorners) t = {sourceName(t.x), sourceName(t.y), sourceName(t.z)};
   for (Findings* findings : {&done.degenerate.repeatedCorner, &done.degenerate.zeroArea, &done.degenerate.neighboursCut,
                              &done.degenerate.edgesCollapsed, &done.duplicates.opposite, &done.duplicates.same,
                              &done.unreferenced, &done.filled.filled, &done.filled.left})
     for (Finding& finding : findings->first) {
-      for (std::uint32_t& v : finding.vertices) v = vertexName(v);
+      for (std::uint32_t& v : finding.vertices) v = sourceName(v);
       for (std::uint32_t& f : finding.faces) f = faces[f];
       std::erase(finding.vertices, kNoSource);
     }
-  for (Component& component : done.sides.components) component.firstFace = faces[component.firstFace];
+  for (Component& component : done.orientation.components) component.firstFace = faces[component.firstFace];
   return done;
 }
 
@@ -75,17 +76,17 @@ std::string cleaningStepNames() {
   return names;
 }
 
-Cleaned cleanInRounds(Mesh& mesh, const Cleaning& steps) {
+Cleaned cleanToFixedPoint(Mesh& mesh, const Cleaning& steps) {
   Cleaned first = cleanOnce(mesh, steps);
-  // Without one of the steps, what it would take away comes back in every round.
+  // If a step is skipped, its defects remain in every pass.
   const bool all = steps.weld && steps.degenerate && steps.duplicates && steps.orient && steps.fans;
-  first.settled = !all || !(first.fans.changed() || first.filled.filled.count > 0 || first.welded.refused.count > 0 ||
-                            first.degenerate.edgesCollapsed.count > 0);
-  for (int round = 0; round < kRounds && !first.settled && !mesh.triangles.empty(); ++round) {
+  first.converged = !all || !(first.fans.changed() || first.filled.filled.count > 0 || first.welded.refused.count > 0 ||
+                              first.degenerate.edgesCollapsed.count > 0);
+  for (int pass = 0; pass < kMaxPasses && !first.converged && !mesh.triangles.empty(); ++pass) {
     const std::vector<glm::dvec3> positions = mesh.positions;
     const std::vector<glm::uvec3> triangles = mesh.triangles;
     Cleaned again = cleanAgain(mesh, steps);
-    first.settled = mesh.positions == positions && mesh.triangles == triangles;
+    first.converged = mesh.positions == positions && mesh.triangles == triangles;
     first.degenerate.repeatedCorner.append(std::move(again.degenerate.repeatedCorner));
     first.degenerate.zeroArea.append(std::move(again.degenerate.zeroArea));
     first.degenerate.edgesCollapsed.append(std::move(again.degenerate.edgesCollapsed));
@@ -96,7 +97,7 @@ Cleaned cleanInRounds(Mesh& mesh, const Cleaning& steps) {
     first.fans.cutEdges += again.fans.cutEdges;
     first.filled.filled.append(std::move(again.filled.filled));
     first.filled.left = std::move(again.filled.left);
-    first.sides = std::move(again.sides);
+    first.orientation = std::move(again.orientation);
   }
   return first;
 }

@@ -20,6 +20,7 @@
 #include "bake/unpack.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/unfinished_files.h"
+#include "meshprep/deprecated_option.h"
 
 namespace malus::bake {
 
@@ -80,25 +81,31 @@ void addBakeCommand(CLI::App& app) {
   command->add_option("scene", arguments->input, "Scene description (bake/SCENE.md)")->required();
   command->add_option("-o,--output", arguments->output, "Pack to write")->required();
   command
-      ->add_option("--max-error", arguments->settings.bounds.positionError,
+      ->add_option("--position-error", arguments->settings.bounds.positionError,
                    "Largest distance of a vertex from its source [m]")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->type_name("METRES");
   command
-      ->add_option("--max-normal-error", arguments->settings.bounds.normalErrorDegrees,
-                   "Largest angle between a normal and its source [degrees]; 0.05 is tried by default")
-      ->check(CLI::PositiveNumber);
+      ->add_option("--normal-error", arguments->settings.bounds.normalErrorDegrees,
+                   "Largest angle of a normal from its source [degrees]; without it 0.05 is a goal")
+      ->check(CLI::PositiveNumber)
+      ->type_name("DEGREES");
+  command->add_option("--position-bits", arguments->settings.bounds.positionBits, "Exact number of bits per coordinate")
+      ->check(CLI::Range(1, compress::kMaxPositionBits))
+      ->type_name("N");
   command
-      ->add_option("--position-bits", arguments->settings.bounds.positionBits,
-                   "Bits of the scene's position grid, whatever the error")
-      ->check(CLI::Range(8, compress::kMaxPositionBits));
-  command->add_option("--normal-bits", arguments->settings.bounds.normalBits, "Bits of the normals, whatever the error")
-      ->check(CLI::Range(6, compress::kMaxNormalBits));
+      ->add_option("--normal-bits", arguments->settings.bounds.normalBits,
+                   "Exact number of bits per coordinate of a normal")
+      ->check(CLI::Range(compress::kMinNormalBits, compress::kMaxNormalBits))
+      ->type_name("N");
   command->add_flag("--keep-map", arguments->settings.keepMap,
                     "Write the map from packed vertices and triangles to those of the source files");
   command->add_flag("--allow-open-glass", arguments->options.allowOpenGlass,
                     "Bake glass that is not a certified body, with a warning");
   command->add_flag("--force", arguments->force, "Bake although the pack is up to date, and encode every mesh again");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
+  addFormerOption(*command, "--max-error", "--position-error");
+  addFormerOption(*command, "--max-normal-error", "--normal-error");
   command->callback([arguments] { runBake(*arguments); });
 }
 

@@ -1,13 +1,11 @@
-// The command line of preparation:
-//   malus prep INPUT -o OUTPUT.mesh.drc [--report FILE.json] [--json] [--flat] [--sheet] [--crease DEG]
-//              [--weld METRES] [--simplify-error METRES] [--position-bits N] [--normal-bits N]
+// Command `malus prep INPUT -o OUTPUT.mesh.drc [OPTIONS]`: prepares a mesh (prepare.h) and compresses it.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace malus::prep {
 
-// Adds the subcommand `prep`. Its callback throws malus::Error; a usage error is CLI11's.
+// Adds the subcommand. Its callback throws malus::Error; invalid arguments are CLI::ParseError.
 void addPrepCommand(CLI::App& app);
 
 }  // namespace malus::prep

@@ -1,0 +1,16 @@
+// Former names of command-line options. They stay accepted, print a note with -v, and are not shown in the help.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace malus {
+
+// Adds `former` as another name of option `name`, which must exist and take one value. Both exclude each other.
+void addFormerOption(CLI::App& app, const std::string& former, const std::string& name);
+
+// The same for a flag.
+void addFormerFlag(CLI::App& app, const std::string& former, const std::string& name);
+
+}  // namespace malus

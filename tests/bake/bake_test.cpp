@@ -1,4 +1,4 @@
-// From a description to a scene: transforms, sides, the origin, what is refused.
+// Baking a description into a scene: transforms, orientation, origin, rejected inputs.
 #include "bake/bake.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::TemporaryFolder;
 
 constexpr auto kSilent = [](std::string_view) {};
@@ -40,7 +40,7 @@ class Bake : public testing::Test {
     return bake(description, {}, kSilent).scene;
   }
   std::string error() {
-    return errorOf([&] { baked(); });
+    return errorMessage([&] { baked(); });
   }
   void instances(const char* list) { scene_["meshes"][0]["instances"] = json::parse(list); }
 
@@ -48,7 +48,7 @@ class Bake : public testing::Test {
   json scene_;
 };
 
-// Six times the volume that the triangles enclose; positive where outside is outside.
+// Six times the volume that the triangles enclose; positive if they face outward.
 double volume6(const pack::Mesh& mesh) {
   double sum = 0;
   for (const glm::uvec3& t : mesh.triangles)
@@ -77,7 +77,7 @@ void expectOutward(const pack::Mesh& mesh) {
     EXPECT_GT(glm::dot(mesh.normals[i], mesh.positions[i] - middle), 0) << mesh.name << ", vertex " << i;
     EXPECT_NEAR(glm::length(mesh.normals[i]), 1, 1e-6);
   }
-  // A vertex's normal is that of the faces about it: these are cubes.
+  // Each vertex normal is that of its faces, because the meshes are cubes.
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::vec3 face = glm::normalize(
         glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]));
@@ -85,7 +85,7 @@ void expectOutward(const pack::Mesh& mesh) {
   }
 }
 
-TEST_F(Bake, ACubeAsItIs) {
+TEST_F(Bake, UntransformedCube) {
   const pack::Scene scene = baked();
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].name, "cube");
@@ -111,7 +111,7 @@ TEST_F(Bake, InstancesBecomeMeshesInWorldSpace) {
   for (const pack::Mesh& mesh : scene.meshes) expectOutward(mesh);
 }
 
-TEST_F(Bake, MeshesHaveNamesOfTheirOwn) {
+TEST_F(Bake, MeshNamesAreUnique) {
   instances(R"([{}, {"translate": [3, 0, 0]}])");
   scene_["meshes"].push_back({{"name", "cube.1"}, {"file", "cube.obj"}, {"material", "gold"}});
   std::set<std::string> names;
@@ -120,7 +120,7 @@ TEST_F(Bake, MeshesHaveNamesOfTheirOwn) {
   EXPECT_EQ(names.count("cube.1"), 1u);
 }
 
-TEST_F(Bake, MirroringScalesKeepOutsideOutside) {
+TEST_F(Bake, MirroringScalesKeepOrientation) {
   instances(R"([{"scale": [-1, 1, 1]}, {"scale": [1, -2, 1], "translate": [5, 0, 0]},
                 {"scale": -1, "translate": [10, 0, 0]}, {"scale": [-1, -1, 1], "translate": [15, 0, 0]},
                 {"scale": [-1, 2, 3], "rotateDegrees": [20, 30, 40], "translate": [20, 0, 0]}])");
@@ -128,7 +128,7 @@ TEST_F(Bake, MirroringScalesKeepOutsideOutside) {
 }
 
 TEST_F(Bake, TransformsAreScaleThenRotationsAboutXYZThenTranslation) {
-  // The corner that was at (x, y, z) of a flat, lopsided mesh.
+  // Returns the transformed corners of a flat, asymmetric mesh.
   folder_.write("flag.obj", "v 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 2 3\n");
   scene_["meshes"][0] = {{"name", "flag"}, {"file", "flag.obj"}, {"material", "gold"}, {"flat", true}};
   scene_["origin"] = {0, 0, 0};
@@ -160,7 +160,7 @@ TEST_F(Bake, TheOriginIsTheCentreUnlessGiven) {
   EXPECT_EQ(scene.lights.at(0).position, glm::dvec3(0, 1, 0));
 }
 
-TEST_F(Bake, FarAwayNothingIsLost) {
+TEST_F(Bake, LargeTranslationsKeepPrecision) {
   // Floats at 1e5 m are 8 mm apart; the cube is 10 cm wide.
   instances(R"([{"scale": 0.1, "translate": [100000.37, -70000.11, 50000.73]}])");
   scene_["camera"]["position"] = {100000.37, -70000.11, 50001.73};
@@ -180,7 +180,7 @@ TEST_F(Bake, GlassMustBeCertified) {
   EXPECT_TRUE(contains(message, "square.obj: mesh 'pane' is not certified as glass: component 0: 4 open edges"))
       << message;
   EXPECT_TRUE(contains(message, "openSurface")) << message;
-  scene_["meshes"][0]["fillHoles"] = 4;  // a fold without thickness is no body either
+  scene_["meshes"][0]["fillHoles"] = 4;  // a fold without thickness is not a closed solid
   EXPECT_TRUE(contains(error(), "not certified as glass")) << error();
   scene_["meshes"][0] = {{"name", "cube"}, {"file", "cube.obj"}, {"material", "glass"}};
   EXPECT_EQ(error(), "");
@@ -188,7 +188,7 @@ TEST_F(Bake, GlassMustBeCertified) {
   EXPECT_EQ(error(), "");
 }
 
-TEST_F(Bake, ASheetOfGlassNeedsItsOtherSide) {
+TEST_F(Bake, SingleSidedGlassIsRejected) {
   scene_["meshes"][0] = {{"name", "pane"}, {"file", "square.obj"}, {"material", "glass"}, {"openSurface", true}};
   EXPECT_TRUE(contains(error(), "without an opposite face")) << error();
   folder_.write("slab.obj", std::string(test::kSquareObj) +
@@ -198,18 +198,18 @@ TEST_F(Bake, ASheetOfGlassNeedsItsOtherSide) {
   EXPECT_TRUE(baked().meshes[0].openSurface);
 }
 
-TEST_F(Bake, OpenGlassCanBeAllowedAndIsTold) {
+TEST_F(Bake, AllowedOpenGlassIsReported) {
   scene_["meshes"][0] = {{"name", "pane"}, {"file", "square.obj"}, {"material", "glass"}};
   const SceneDescription description = readSceneFile(folder_.write("scene.json", scene_.dump()));
   const Baked result = bake(description, {}, kSilent, {true});
   EXPECT_EQ(result.scene.meshes.size(), 1u);
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_TRUE(contains(result.notes[0], "mesh 'pane' is not certified as glass")) << result.notes[0];
-  // A pack that was allowed is not up to date where it is not.
+  // A pack baked with open glass allowed is out of date when it is not allowed.
   EXPECT_NE(makeProvenance(description, {}, {true}), makeProvenance(description, {}, {false}));
 }
 
-TEST_F(Bake, CleaningIsTheScenesToChoose) {
+TEST_F(Bake, SceneSelectsCleaningSteps) {
   folder_.write("groups.obj",
                 "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nvn 0 0 1\ns 1\nf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
   const auto vertices = [&](const json& more) {
@@ -259,14 +259,14 @@ TEST_F(Bake, CameraAxes) {
   EXPECT_TRUE(contains(error(), "camera.up"));
 }
 
-TEST_F(Bake, EnvironmentPicture) {
+TEST_F(Bake, EnvironmentImage) {
   image::Image sky;
   sky.width = 8;
   sky.height = 4;
   sky.channels = {"R", "G", "B"};
   sky.pixels.assign(8 * 4 * 3, 0.5f);
   image::writeExr(folder_.path() / "sky.exr", sky);
-  scene_["environment"] = {{"image", "sky.exr"}, {"scale", 3}, {"diffuseFill", 0.5}};
+  scene_["environment"] = {{"image", "sky.exr"}, {"scale", 3}, {"ambientIrradiance", 0.5}};
   const pack::Scene scene = baked();
   EXPECT_EQ(scene.environment.size, 4u);
   EXPECT_EQ(scene.environment.texels.at(0), glm::vec3(1.5f));
@@ -288,7 +288,7 @@ TEST_F(Bake, BadMeshesNameTheirFile) {
   EXPECT_TRUE(contains(error(), "empty.obj")) << error();
 }
 
-TEST_F(Bake, ProvenanceTellsSourcesAndSettings) {
+TEST_F(Bake, ProvenanceListsSourcesAndSettings) {
   pack::Scene scene = baked();
   const json provenance = json::parse(scene.provenance);
   ASSERT_EQ(provenance.at("sources").size(), 2u);
@@ -309,16 +309,16 @@ TEST_F(Bake, TheSameSourcesGiveTheSameBytes) {
   EXPECT_TRUE(a.bytes == b.bytes);
 }
 
-TEST_F(Bake, SaysWhatItIsDoing) {
+TEST_F(Bake, ReportsProgress) {
   const SceneDescription description = readSceneFile(folder_.write("scene.json", scene_.dump()));
-  std::vector<std::string> said;
-  const Baked result = bake(description, {}, [&](std::string_view text) { said.emplace_back(text); });
-  EXPECT_EQ(said, std::vector<std::string>{"preparing cube"});
+  std::vector<std::string> messages;
+  const Baked result = bake(description, {}, [&](std::string_view text) { messages.emplace_back(text); });
+  EXPECT_EQ(messages, std::vector<std::string>{"preparing cube"});
   ASSERT_EQ(result.reports.size(), 1u);
   EXPECT_EQ(result.reports[0].input.vertices, 8u);
 }
 
-TEST_F(Bake, AsItIsKeepsWhatCleaningWouldDrop) {
+TEST_F(Bake, AsIsKeepsDegenerateAndDuplicateTriangles) {
   folder_.write("bad.ply",
                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                 "property float nx\nproperty float ny\nproperty float nz\nelement face 3\n"

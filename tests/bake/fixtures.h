@@ -1,4 +1,4 @@
-// Small scenes, packs and files that the tests of baking share.
+// Small scenes, packs and files shared by the tests of baking.
 #pragma once
 
 #include <unistd.h>
@@ -17,7 +17,7 @@
 
 namespace malus::bake::test {
 
-// A folder of its own that is removed again.
+// A temporary folder, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -45,9 +45,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// The text of the Error that `act` throws; "" where it throws none. Other exceptions pass.
+// Returns the message of the Error that `act` throws, or "" if it throws none. Other exceptions propagate.
 template <class Act>
-std::string errorOf(Act act) {
+std::string errorMessage(Act act) {
   try {
     act();
   } catch (const Error& error) {
@@ -60,7 +60,7 @@ inline bool contains(std::string_view text, std::string_view part) { return text
 
 #define EXPECT_CONTAINS(text, part) EXPECT_TRUE(malus::bake::test::contains(text, part)) << (text)
 
-// A cube of side 1 about the origin, as quads of an OBJ file, outside outside.
+// A cube of side 1 about the origin, as quads of an OBJ file, facing outward.
 inline constexpr std::string_view kCubeObj =
     "v -0.5 -0.5 -0.5\nv 0.5 -0.5 -0.5\nv 0.5 0.5 -0.5\nv -0.5 0.5 -0.5\n"
     "v -0.5 -0.5 0.5\nv 0.5 -0.5 0.5\nv 0.5 0.5 0.5\nv -0.5 0.5 0.5\n"
@@ -68,7 +68,7 @@ inline constexpr std::string_view kCubeObj =
 // A square of side 1 in the plane y = 0, facing up.
 inline constexpr std::string_view kSquareObj = "v -0.5 0 -0.5\nv 0.5 0 -0.5\nv 0.5 0 0.5\nv -0.5 0 0.5\nf 4 3 2 1\n";
 
-// Every kind of section with something in it; small, so that every bit of its pack can be tried.
+// A scene with all required sections, small enough to flip every bit of its pack.
 inline pack::Scene smallScene() {
   pack::Scene scene;
   scene.name = "small";
@@ -127,7 +127,7 @@ inline pack::Scene smallScene() {
   return scene;
 }
 
-// A small scene with everything that few scenes have.
+// A small scene with all optional sections.
 inline pack::Scene unusualScene() {
   pack::Scene scene = smallScene();
   scene.environment.sun = {0.6, 0.8, 0};

@@ -1,11 +1,11 @@
-// The packs of the three scenes, pinned: counts, a hash for each section but the provenance (which names versions) and
-// the encodings (whose errors are measured with the machine's arc tangent), one of the decoded geometry, and for each
-// mesh its counts, its bytes and the hash of its geometry.
+// Regression test of the packs of the three scenes: counts, a hash of each section except the provenance (which
+// contains versions) and the encodings (whose errors depend on the machine's arc tangent), a hash of the decoded
+// geometry, and counts, bytes and geometry hash of each mesh.
 //
-// The test writes the pack whose hash changed and prints the commands that compare it with the one from before.
+// A failing test writes the pack that it baked and prints the commands that compare it with the previous one.
 //
-// After an intended change, MALUS_UPDATE_GOLDEN=1 test_golden rewrites tests/bake/golden.json (and fails, so that no
-// test run passes by it); commit the difference with the change and its reason.
+// After an intended change, MALUS_UPDATE_GOLDEN=1 test_golden rewrites tests/bake/golden.json and fails, so that no
+// test run passes while updating. Commit the new file together with the change and explain it there.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -29,7 +29,7 @@ using nlohmann::json;
 const std::filesystem::path kSource = MALUS_SOURCE_DIR;
 const std::filesystem::path kGolden = kSource / "tests/bake/golden.json";
 
-// Counts of the paper.
+// Counts and resolutions given by the paper.
 struct Expected {
   const char* name;
   std::uint64_t vertices, triangles;
@@ -55,7 +55,7 @@ Result bakeScene(const std::string& name) {
 
 std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
-json summaryOf(const pack::Pack& pack) {
+json summarize(const pack::Pack& pack) {
   json sections = json::object();
   for (const pack::Section& s : pack.sections)
     if (s.id != pack::kProvenance && s.id != pack::kEncodings)
@@ -88,13 +88,13 @@ json readGolden() {
   return stream ? json::parse(stream, nullptr, false) : json();
 }
 
-// One line for every leaf that differs.
+// Returns one line per differing leaf.
 std::string differences(const json& expected, const json& found) {
   const json before = expected.is_object() ? expected.flatten() : json::object(), after = found.flatten();
   std::string text;
   for (const auto& item : before.items())
     if (!after.contains(item.key()))
-      text += fmt::format("  {}: was {}, is missing\n", item.key(), item.value().dump());
+      text += fmt::format("  {}: was {}, is removed\n", item.key(), item.value().dump());
     else if (after[item.key()] != item.value())
       text += fmt::format("  {}: was {}, is {}\n", item.key(), item.value().dump(), after[item.key()].dump());
   for (const auto& item : after.items())
@@ -102,14 +102,14 @@ std::string differences(const json& expected, const json& found) {
   return text;
 }
 
-// Commands that compare the pack of today with that of the commit of golden.json.
-std::string howToCompare(const std::string& name, const std::filesystem::path& today) {
+// Returns the commands that compare the new pack with that of the commit that last changed golden.json.
+std::string comparisonCommands(const std::string& name, const std::filesystem::path& newPack) {
   return fmt::format(
       "To see what changed, bake the scene with the malus of the commit before and compare:\n"
       "  git worktree add /tmp/before $(git log -1 --format=%H -- tests/bake/golden.json)\n"
       "  (build `malus` there) && malus bake /tmp/before/scenes/{0}/scene.json -o /tmp/{0}.pack\n"
       "  malus info /tmp/{0}.pack --diff {1}\n",
-      name, today.string());
+      name, newPack.string());
 }
 
 class Golden : public testing::TestWithParam<Expected> {};
@@ -127,7 +127,7 @@ TEST_P(Golden, Counts) {
 TEST_P(Golden, Sections) {
   const std::string name = GetParam().name;
   const Result result = bakeScene(name);
-  const json found = summaryOf(result.pack);
+  const json found = summarize(result.pack);
   json golden = readGolden();
   if (updating()) {
     if (!golden.is_object()) golden = json::object();
@@ -137,18 +137,19 @@ TEST_P(Golden, Sections) {
     ASSERT_TRUE(stream.flush()) << "cannot write " << kGolden;
     FAIL() << "wrote " << name << " into " << kGolden << "; run again without MALUS_UPDATE_GOLDEN";
   }
-  ASSERT_TRUE(golden.is_object()) << kGolden << " is missing or no JSON; MALUS_UPDATE_GOLDEN=1 writes it";
-  ASSERT_TRUE(golden.contains(name)) << kGolden << " does not know " << name;
+  ASSERT_TRUE(golden.is_object()) << kGolden << " is missing or not valid JSON; MALUS_UPDATE_GOLDEN=1 writes it";
+  ASSERT_TRUE(golden.contains(name)) << kGolden << " has no entry for " << name;
   const std::string text = differences(golden[name], found);
   if (text.empty()) return;
-  const std::filesystem::path today =
+  const std::filesystem::path newPack =
       std::filesystem::path(testing::TempDir()) / fmt::format("malus-golden-{}.pack", name);
-  writeFile(today, result.bytes);
-  FAIL() << "the pack of " << name << " is not the one of " << kGolden << ":\n"
-         << text << howToCompare(name, today) << "If this is meant: MALUS_UPDATE_GOLDEN=1 writes the file anew.";
+  writeFile(newPack, result.bytes);
+  FAIL() << "the pack of " << name << " differs from " << kGolden << ":\n"
+         << text << comparisonCommands(name, newPack)
+         << "If the change is intended, MALUS_UPDATE_GOLDEN=1 rewrites the file.";
 }
 
-TEST_P(Golden, TheSameBytesTwice) {
+TEST_P(Golden, BakingIsDeterministic) {
   const Result a = bakeScene(GetParam().name), b = bakeScene(GetParam().name);
   EXPECT_TRUE(a.bytes == b.bytes);
 }
@@ -162,21 +163,22 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::ValuesIn(kScenes), [](const au
 
 TEST(GoldenDifference, NamesTheMeshAndHowToCompare) {
   pack::Scene scene = test::smallScene();
-  const json before = summaryOf(pack::parse(pack::serialize(scene, {}).bytes, "before"));
+  const json before = summarize(pack::parse(pack::serialize(scene, {}).bytes, "before"));
   scene.meshes[1].positions[2].y = 0.9f;
-  const std::string text = differences(before, summaryOf(pack::parse(pack::serialize(scene, {}).bytes, "after")));
+  const std::string text = differences(before, summarize(pack::parse(pack::serialize(scene, {}).bytes, "after")));
   EXPECT_CONTAINS(text, "  /meshes/sheet/geometryHash: was ");
   EXPECT_CONTAINS(text, "  /sections/GEOM/hash: was ");
   EXPECT_FALSE(test::contains(text, "/meshes/tetrahedron")) << text;
   EXPECT_FALSE(test::contains(text, "/sections/CAMR")) << text;
-  EXPECT_CONTAINS(howToCompare("engine", "/tmp/today.pack"), "malus info /tmp/engine.pack --diff /tmp/today.pack\n");
+  EXPECT_CONTAINS(comparisonCommands("engine", "/tmp/today.pack"),
+                  "malus info /tmp/engine.pack --diff /tmp/today.pack\n");
 }
 
 TEST(GoldenDifference, IsReadable) {
   const json before = {{"vertices", 36}, {"sections", {{"GEOM", {{"hash", "aa"}}}, {"OLD", 1}}}};
   const json after = {{"vertices", 38}, {"sections", {{"GEOM", {{"hash", "bb"}}}}}, {"triangles", 2}};
   EXPECT_EQ(differences(before, after),
-            "  /sections/GEOM/hash: was \"aa\", is \"bb\"\n  /sections/OLD: was 1, is missing\n"
+            "  /sections/GEOM/hash: was \"aa\", is \"bb\"\n  /sections/OLD: was 1, is removed\n"
             "  /vertices: was 36, is 38\n  /triangles: is new, 2\n");
   EXPECT_EQ(differences(before, before), "");
 }

@@ -12,17 +12,17 @@ namespace {
 using nlohmann::json;
 using test::contains;
 
-pack::Pack packOf(const pack::Scene& scene) { return pack::parse(pack::serialize(scene, {}).bytes, "test"); }
+pack::Pack writeAndParse(const pack::Scene& scene) { return pack::parse(pack::serialize(scene, {}).bytes, "test"); }
 
 // A scene with an effect that this version does not know: its effects are reported as stored.
-pack::Scene sceneOfNewerMalus() {
+pack::Scene sceneWithUnknownEffect() {
   pack::Scene scene = test::smallScene();
   scene.effects[0].name = "newer";
   return scene;
 }
 
-TEST(Info, JsonHasWhatItPromises) {
-  const pack::Pack pack = packOf(sceneOfNewerMalus());
+TEST(Info, JsonHasTheDocumentedKeys) {
+  const pack::Pack pack = writeAndParse(sceneWithUnknownEffect());
   const json info = infoJson(pack);
   EXPECT_EQ(info.at("formatVersion"), 1);
   EXPECT_EQ(info.at("name"), "small");
@@ -64,8 +64,8 @@ TEST(Info, JsonHasWhatItPromises) {
   EXPECT_EQ(info.at("provenance"), (json{{"malus", "0"}}));
 }
 
-TEST(Info, APackFromBeforeItToldHowItWasEncoded) {
-  pack::Pack pack = packOf(test::smallScene());
+TEST(Info, PackWithoutEncodings) {
+  pack::Pack pack = writeAndParse(test::smallScene());
   pack.encodings = {};
   const json info = infoJson(pack);
   EXPECT_TRUE(info.at("positionBits").is_null());
@@ -73,7 +73,7 @@ TEST(Info, APackFromBeforeItToldHowItWasEncoded) {
   EXPECT_FALSE(test::contains(infoText(pack), "positions of"));
 }
 
-TEST(Info, NamesTheMapToTheSource) {
+TEST(Info, ReportsTheSourceMap) {
   pack::WriteSettings settings;
   settings.keepMap = true;
   const pack::Pack pack = pack::parse(pack::serialize(test::smallScene(), settings).bytes, "test");
@@ -81,18 +81,18 @@ TEST(Info, NamesTheMapToTheSource) {
   EXPECT_CONTAINS(infoText(pack), "map to the source");
 }
 
-TEST(Info, TextNamesEverything) {
-  const std::string text = infoText(packOf(sceneOfNewerMalus()));
+TEST(Info, TextContainsAllParts) {
+  const std::string text = infoText(writeAndParse(sceneWithUnknownEffect()));
   for (const char* part : {"small", "8 vertices, 6 triangles, 2 lights, 64 x 48 pixels, depth 5", "tetrahedron", "gold",
                            "(open surface)", "there is gold", "positions of 20 bits", "GEOM", "PROV"})
     EXPECT_CONTAINS(text, part);
 }
 
-// A pack from before some of today's effects existed.
-TEST(Info, OlderEffectsAreFoundAnew) {
+// A pack written before some of the current effects existed.
+TEST(Info, OldEffectNamesAreRecomputed) {
   pack::Scene scene = test::smallScene();
-  scene.effects = {{"transmission", false, "said so"}, {"conductor", false, "said so"}};
-  const json effects = infoJson(packOf(scene)).at("effects");
+  scene.effects = {{"transmission", false, "stored reason"}, {"conductor", false, "stored reason"}};
+  const json effects = infoJson(writeAndParse(scene)).at("effects");
   ASSERT_EQ(effects.size(), effectNames().size());
   for (const json& e : effects)
     if (e.at("name") == "metal") {
@@ -100,26 +100,26 @@ TEST(Info, OlderEffectsAreFoundAnew) {
     }
 }
 
-TEST(Info, ProvenanceThatIsNoJson) {
+TEST(Info, ProvenanceThatIsNotJson) {
   pack::Scene scene = test::smallScene();
   scene.provenance = "not { json";
-  EXPECT_TRUE(infoJson(packOf(scene)).at("provenance").is_null());
+  EXPECT_TRUE(infoJson(writeAndParse(scene)).at("provenance").is_null());
   scene.provenance = "";
-  EXPECT_TRUE(infoJson(packOf(scene)).at("provenance").is_null());
+  EXPECT_TRUE(infoJson(writeAndParse(scene)).at("provenance").is_null());
 }
 
 TEST(Info, DeepProvenanceDoesNotOverflowTheStack) {
   pack::Scene scene = test::smallScene();
   constexpr std::size_t kDeep = 1000000;
   scene.provenance = R"({"malus": )" + std::string(kDeep, '[') + std::string(kDeep, ']') + "}";
-  EXPECT_LT(infoJson(packOf(scene)).dump().size(), 10000u);
+  EXPECT_LT(infoJson(writeAndParse(scene)).dump().size(), 10000u);
 }
 
-TEST(Info, TextsThatAreNoUtf8) {
+TEST(Info, InvalidUtf8) {
   pack::Scene scene = test::smallScene();
   scene.title = "\xff\xfe";
   scene.provenance = "\"\xff\"";
-  const json info = infoJson(packOf(scene));
+  const json info = infoJson(writeAndParse(scene));
   EXPECT_NO_THROW(info.dump(2, ' ', false, json::error_handler_t::replace));
 }
 

@@ -1,6 +1,6 @@
-// The tables of bake/FORMAT.md and bake/SCENE.md are those of the descriptions in the code: every field is in the page
-// with its range, and every row of the page is a field. MALUS_UPDATE_PAGES=1 writes the tables (and fails, so that no
-// test run passes by it).
+// The tables of bake/FORMAT.md and bake/SCENE.md equal the descriptions in the code: every field and its range is in
+// the page, and every row of the page is a field. MALUS_UPDATE_PAGES=1 rewrites the tables and fails, so that no test
+// run passes while updating.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -23,7 +23,7 @@ using pack::Field;
 
 const std::filesystem::path kSource = MALUS_SOURCE_DIR;
 
-// "`metal`, `paint`": the kinds of a set.
+// Returns the kinds of a set, such as "`metal`, `paint`".
 std::string kindNames(pack::KindSet kinds) {
   std::vector<std::string> names;
   for (const pack::MaterialKindInfo& info : pack::kMaterialKinds)
@@ -167,7 +167,7 @@ std::map<std::string, std::string> sceneTables() {
           {"transform", sceneTable<Transform>(MALUS_KEYS(visitTransformKeys))}};
 }
 
-// The page with the tables in the place of those between its comments "<!-- fields: NAME -->" and "<!-- end -->".
+// Returns the page with its tables replaced between the comments "<!-- fields: NAME -->" and "<!-- end -->".
 std::string withTables(const std::string& page, const std::map<std::string, std::string>& tables) {
   constexpr std::string_view kStart = "<!-- fields: ", kEnd = "<!-- end -->";
   std::string result;

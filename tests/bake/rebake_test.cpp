@@ -1,5 +1,4 @@
-// Baking again over a previous pack: unchanged meshes are reused, and the bytes are those of a bake from
-// nothing.
+// Baking over a previous pack: unchanged meshes are reused, and the bytes equal those of a full bake.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
@@ -20,7 +19,7 @@ using test::TemporaryFolder;
 
 constexpr auto kSilent = [](std::string_view) {};
 
-// A pyramid within the cube, so that its height changes no box.
+// A pyramid inside the cube, so that its height does not change the bounding box.
 std::string pyramid(double height) {
   return fmt::format(
       "v -0.3 -0.3 -0.3\nv 0.3 -0.3 -0.3\nv 0.3 -0.3 0.3\nv -0.3 -0.3 0.3\nv 0 {} 0\n"
@@ -45,7 +44,7 @@ class Rebake : public testing::Test {
   }
   SceneDescription description() { return readSceneFile(folder_.write("scene.json", scene_.dump())); }
 
-  // A bake from nothing, and one over the pack that is there; the second is kept.
+  // Bakes from scratch and over the existing pack; writes the second.
   struct Both {
     pack::Written fresh, again;
     Baked baked;
@@ -64,7 +63,7 @@ class Rebake : public testing::Test {
     EXPECT_TRUE(readFile(pack_) == both.fresh.bytes);
     return both;
   }
-  static std::vector<bool> kept(const pack::Written& written) {
+  static std::vector<bool> reused(const pack::Written& written) {
     std::vector<bool> list;
     for (const pack::MeshCompression& m : written.meshes) list.push_back(m.reused);
     return list;
@@ -78,71 +77,71 @@ class Rebake : public testing::Test {
 
 using List = std::vector<bool>;
 
-TEST_F(Rebake, OnlyTheChangedMeshIsRedone) {
-  EXPECT_EQ(kept(bakeBoth().again), (List{false, false, false, false}));
+TEST_F(Rebake, OnlyTheChangedMeshIsReencoded) {
+  EXPECT_EQ(reused(bakeBoth().again), (List{false, false, false, false}));
   folder_.write("pyramid.obj", pyramid(0.25));
   const Both both = bakeBoth();
-  EXPECT_EQ(kept(both.again), (List{true, true, false, true}));
+  EXPECT_EQ(reused(both.again), (List{true, true, false, true}));
   EXPECT_EQ(both.again.fullRebakeReason, "");
   EXPECT_EQ(bakeJson(both.baked, both.again, "out.pack").at("reencoded"), 1);
   EXPECT_CONTAINS(bakeText(both.baked, both.again, "out.pack", true), "1 of 4 meshes");
-  // Errors of a mesh that was kept are those of when it was encoded.
+  // The errors of a reused mesh are those of its encoding.
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(both.again.meshes[i].deviation.positionMax, both.fresh.meshes[i].deviation.positionMax);
     EXPECT_EQ(both.again.meshes[i].method, both.fresh.meshes[i].method);
     EXPECT_EQ(both.again.meshes[i].sequentialReason, both.fresh.meshes[i].sequentialReason);
   }
-  // What is no mesh redoes none; nor does another order or another name.
+  // Other keys, another order or another name reencode no mesh.
   scene_["exposureEv"] = 1;
   std::swap(scene_["meshes"][1], scene_["meshes"][2]);
   scene_["meshes"][1]["name"] = "plate";
-  EXPECT_EQ(kept(bakeBoth().again), (List{true, true, true, true}));
+  EXPECT_EQ(reused(bakeBoth().again), (List{true, true, true, true}));
 }
 
-TEST_F(Rebake, AnInstanceThatMovesWithinTheBoxIsOneMesh) {
+TEST_F(Rebake, MovedInstanceWithinTheBoxReencodesOneMesh) {
   bakeBoth();
   scene_["meshes"][1]["instances"] = json::parse(R"([{"translate": [0.5, 0, 0]}])");
-  EXPECT_EQ(kept(bakeBoth().again), (List{true, true, false, true}));
+  EXPECT_EQ(reused(bakeBoth().again), (List{true, true, false, true}));
 }
 
-TEST_F(Rebake, AllWhereTheGridMovesAndItSaysSo) {
+TEST_F(Rebake, MovedGridReencodesAllWithReason) {
   bakeBoth();
   scene_["meshes"][0]["instances"][1]["translate"] = {3, 0, 0};
   const Both both = bakeBoth();
-  EXPECT_EQ(kept(both.again), (List{false, false, false, false}));
+  EXPECT_EQ(reused(both.again), (List{false, false, false, false}));
   EXPECT_CONTAINS(both.again.fullRebakeReason, "the grid that all meshes share moved");
   EXPECT_CONTAINS(bakeText(both.baked, both.again, "out.pack", true), "4 of 4 meshes");
 }
 
-TEST_F(Rebake, AllWhereTheBitsChange) {
+TEST_F(Rebake, ChangedBitsReencodeAll) {
   bakeBoth();
   settings_.bounds.positionBits = 21;
   const Both both = bakeBoth();
-  EXPECT_EQ(kept(both.again), (List{false, false, false, false}));
+  EXPECT_EQ(reused(both.again), (List{false, false, false, false}));
   EXPECT_EQ(both.again.fullRebakeReason, "positions have 21 bits instead of 20");
   settings_.bounds.normalBits = 9;  // the square and the others have normals
-  EXPECT_EQ(kept(bakeBoth().again), (List{false, false, false, false}));
+  EXPECT_EQ(reused(bakeBoth().again), (List{false, false, false, false}));
 }
 
-TEST_F(Rebake, TheMapToTheSourceIsTakenAlong) {
+TEST_F(Rebake, SourceMapIsReused) {
   bakeBoth();
   settings_.keepMap = true;
-  EXPECT_EQ(kept(bakeBoth().again), (List{false, false, false, false}));  // the previous pack has none
+  EXPECT_EQ(reused(bakeBoth().again), (List{false, false, false, false}));  // the previous pack has none
   folder_.write("pyramid.obj", pyramid(0.25));
-  EXPECT_EQ(kept(bakeBoth().again), (List{true, true, false, true}));
-  // The same mesh from a file that counts its vertices from another place.
+  EXPECT_EQ(reused(bakeBoth().again), (List{true, true, false, true}));
+  // The same mesh with other source vertex indices.
   pack::Scene scene = bake(description(), settings_, kSilent).scene;
   scene.meshes[3].sourceVertices = {11, 12, 13, 14};
   const std::optional<PreviousBake> previous = readPrevious(pack_);
   const pack::PreviousPack source{&previous->pack, previous->bytes};
   const pack::Written written = pack::serialize(scene, settings_, &source);
-  EXPECT_EQ(kept(written), (List{true, true, true, false}));
+  EXPECT_EQ(reused(written), (List{true, true, true, false}));
   EXPECT_TRUE(written.bytes == pack::serialize(scene, settings_).bytes);
   const pack::Pack pack = pack::parse(written.bytes, "test");
   for (const std::uint32_t v : pack.scene.meshes[3].sourceVertices) EXPECT_TRUE(v >= 11 && v <= 14) << v;
 }
 
-TEST_F(Rebake, OtherVersionsAreNotTakenFrom) {
+TEST_F(Rebake, PacksOfOtherVersionsAreNotReused) {
   const std::string provenance = makeProvenance(description(), settings_);
   PreviousBake previous;
   previous.pack.scene.provenance = provenance;
@@ -154,12 +153,12 @@ TEST_F(Rebake, OtherVersionsAreNotTakenFrom) {
     previous.pack.scene.provenance = changed.dump();
     EXPECT_FALSE(isOfSameVersions(previous, provenance)) << key;
   }
-  previous.pack.scene.provenance = "no JSON";
+  previous.pack.scene.provenance = "not JSON";
   EXPECT_FALSE(isOfSameVersions(previous, provenance));
   EXPECT_FALSE(isUpToDate(previous, provenance));
 }
 
-TEST_F(Rebake, ADamagedPackIsNone) {
+TEST_F(Rebake, DamagedPackIsNotReused) {
   EXPECT_FALSE(readPrevious(pack_).has_value());
   bakeBoth();
   EXPECT_TRUE(readPrevious(pack_).has_value());
@@ -181,10 +180,10 @@ TEST_F(Rebake, SettingsAreInTheProvenance) {
   for (const pack::WriteSettings& settings : others) EXPECT_NE(makeProvenance(d, settings), plain);
 }
 
-TEST_F(Rebake, ABoundThatCannotBeReachedNamesTheMesh) {
+TEST_F(Rebake, UnreachableBoundNamesTheMesh) {
   settings_.bounds.positionError = 1e-15;
   const Baked baked = bake(description(), settings_, kSilent);
-  const std::string error = test::errorOf([&] { pack::serialize(baked.scene, settings_); });
+  const std::string error = test::errorMessage([&] { pack::serialize(baked.scene, settings_); });
   EXPECT_TRUE(error.starts_with("mesh '")) << error;
   EXPECT_CONTAINS(error, "': position error");
   settings_.bounds.positionError = 1e-4;

@@ -1,4 +1,4 @@
-// Unpacking: the numbers of the files are those of the pack.
+// Unpacking: the files contain the numbers of the pack.
 #include "bake/unpack.h"
 
 #include "bake/pack/writer.h"
@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST(Unpack, WritesWhatThePackHolds) {
+TEST(Unpack, WritesTheContentsOfThePack) {
   const test::TemporaryFolder folder;
   const pack::Pack pack = pack::parse(pack::serialize(test::smallScene(), {}).bytes, "small");
   const json document = unpack(pack, folder.path() / "out");
@@ -33,7 +33,7 @@ TEST(Unpack, WritesWhatThePackHolds) {
     for (std::size_t c = 0; c < 3; ++c)
       EXPECT_EQ(sky.pixels[i * 3 + c], scene.environment.texels[i][static_cast<int>(c)]);
 
-  // The PLY files, read by the reader of meshes.
+  // The PLY files, read by meshprep.
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const pack::Mesh& mesh = scene.meshes[i];
     const json& entry = document.at("meshes")[i];
@@ -49,7 +49,7 @@ TEST(Unpack, WritesWhatThePackHolds) {
   }
 }
 
-TEST(Unpack, WritesTheMapToTheSourcesWhereItIsKept) {
+TEST(Unpack, WritesTheSourceMapIfStored) {
   const test::TemporaryFolder folder;
   pack::WriteSettings settings;
   settings.keepMap = true;
@@ -63,11 +63,11 @@ TEST(Unpack, WritesTheMapToTheSourcesWhereItIsKept) {
   }
 }
 
-TEST(Unpack, AFolderThatCannotBeIsNamed) {
+TEST(Unpack, InvalidFolderIsNamed) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("taken", "");
   const pack::Pack pack = pack::parse(pack::serialize(test::smallScene(), {}).bytes, "small");
-  EXPECT_CONTAINS(test::errorOf([&] { unpack(pack, file); }), "taken");
+  EXPECT_CONTAINS(test::errorMessage([&] { unpack(pack, file); }), "taken");
 }
 
 }  // namespace

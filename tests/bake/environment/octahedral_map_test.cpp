@@ -1,4 +1,4 @@
-// The octahedral map against the directions that bake/SCENE.md gives a latitude-longitude picture.
+// The octahedral map against the directions that bake/SCENE.md defines for a latitude-longitude image.
 #include "bake/environment/octahedral_map.h"
 
 #include <algorithm>
@@ -16,17 +16,17 @@ namespace malus::bake {
 namespace {
 
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 constexpr double kPi = std::numbers::pi;
 
-// The direction of a picture's point by the document: +y up, the centre column toward -z, to its right +x.
+// The direction of an image point by bake/SCENE.md: +y up, the centre column toward -z, +x to its right.
 glm::dvec3 directionAt(double column, double row, int width, int height) {
   const double azimuth = (column / width - 0.5) * 2 * kPi, fromTop = row / height * kPi;
   return {std::sin(fromTop) * std::sin(azimuth), std::cos(fromTop), -std::sin(fromTop) * std::cos(azimuth)};
 }
 
 template <class Radiance>
-image::Image picture(int width, int height, Radiance radiance) {
+image::Image makeImage(int width, int height, Radiance radiance) {
   image::Image result;
   result.width = width;
   result.height = height;
@@ -50,7 +50,7 @@ glm::dvec3 texel(const pack::Environment& e, int i, int j) {
   return glm::dvec3(e.texels.at(static_cast<std::size_t>((j + 1) * row + i + 1)));
 }
 
-// Bilinear, at map coordinates 0 to 1: what the renderers do.
+// Bilinear lookup at map coordinates in [0, 1], as in the renderers.
 glm::dvec3 lookUp(const pack::Environment& e, double u, double v) {
   const double x = u * e.size - 0.5, y = v * e.size - 0.5;
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
@@ -79,46 +79,46 @@ std::vector<glm::dvec3> directions() {
   return list;
 }
 
-// No symmetry, and different at every direction.
-glm::dvec3 colourOf(const glm::dvec3& d) { return d * 0.5 + 0.5; }
+// A radiance without symmetry, different in every direction.
+glm::dvec3 gradient(const glm::dvec3& d) { return d * 0.5 + 0.5; }
 
 image::Image noise() {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
-  return picture(64, 32, [&](const glm::dvec3&) {
+  return makeImage(64, 32, [&](const glm::dvec3&) {
     const double r = uniform(random), g = uniform(random), b = uniform(random);
     return glm::dvec3(r, g, b);
   });
 }
 
 TEST(OctahedralMap, ConstantStaysConstant) {
-  const pack::Environment e = baked(picture(32, 16, [](const glm::dvec3&) { return glm::dvec3(0.5, 2, 8); }), 0.25);
+  const pack::Environment e = baked(makeImage(32, 16, [](const glm::dvec3&) { return glm::dvec3(0.5, 2, 8); }), 0.25);
   EXPECT_EQ(e.size, 16u);
   ASSERT_EQ(e.texels.size(), 18u * 18u);
   for (const glm::vec3& t : e.texels) EXPECT_EQ(t, glm::vec3(0.125f, 0.5f, 2));
 }
 
 TEST(OctahedralMap, DirectionsAreThoseOfTheDocument) {
-  const pack::Environment e = baked(picture(256, 128, colourOf));
+  const pack::Environment e = baked(makeImage(256, 128, gradient));
   for (const glm::dvec3& d : directions())
-    EXPECT_LT(glm::distance(lookUp(e, d), colourOf(d)), 0.02) << d.x << " " << d.y << " " << d.z;
+    EXPECT_LT(glm::distance(lookUp(e, d), gradient(d)), 0.02) << d.x << " " << d.y << " " << d.z;
 }
 
 TEST(OctahedralMap, RotationIsCounterClockwiseFromAbove) {
-  // By 90 degrees what was at -z goes to -x, what was at +x to -z.
-  const pack::Environment e = baked(picture(256, 128, colourOf), 1, 90);
-  EXPECT_LT(glm::distance(lookUp(e, {-1, 0, 0}), colourOf({0, 0, -1})), 0.02);
-  EXPECT_LT(glm::distance(lookUp(e, {0, 0, -1}), colourOf({1, 0, 0})), 0.02);
-  EXPECT_LT(glm::distance(lookUp(e, {0, 1, 0}), colourOf({0, 1, 0})), 0.02);
-  // Irradiance turns with it.
+  // 90 degrees move -z to -x and +x to -z.
+  const pack::Environment e = baked(makeImage(256, 128, gradient), 1, 90);
+  EXPECT_LT(glm::distance(lookUp(e, {-1, 0, 0}), gradient({0, 0, -1})), 0.02);
+  EXPECT_LT(glm::distance(lookUp(e, {0, 0, -1}), gradient({1, 0, 0})), 0.02);
+  EXPECT_LT(glm::distance(lookUp(e, {0, 1, 0}), gradient({0, 1, 0})), 0.02);
+  // The irradiance rotates with the image.
   const auto lobe = [](const glm::dvec3& d) { return glm::dvec3(std::max(-d.z, 0.0)); };
-  const pack::Environment still = baked(picture(128, 64, lobe)), turned = baked(picture(128, 64, lobe), 1, 90);
+  const pack::Environment still = baked(makeImage(128, 64, lobe)), turned = baked(makeImage(128, 64, lobe), 1, 90);
   EXPECT_NEAR(irradiance(turned, {-1, 0, 0}), irradiance(still, {0, 0, -1}), 1e-3);
   EXPECT_NEAR(irradiance(turned, {0, 0, 1}), irradiance(still, {-1, 0, 0}), 1e-3);
   EXPECT_LT(irradiance(turned, {1, 0, 0}), 0.1);
 }
 
-TEST(OctahedralMap, BorderRepeatsWhatLiesAcrossTheEdges) {
+TEST(OctahedralMap, BorderRepeatsTexelsAcrossTheEdges) {
   const pack::Environment e = baked(noise());
   const int n = static_cast<int>(e.size);
   for (int i = 0; i < n; ++i) {
@@ -134,7 +134,7 @@ TEST(OctahedralMap, BorderRepeatsWhatLiesAcrossTheEdges) {
 }
 
 TEST(OctahedralMap, ContinuousAcrossEveryEdge) {
-  // Points of the square's edge that stand for one direction look up to one value.
+  // Edge points of the square with the same direction have the same value.
   const pack::Environment e = baked(noise());
   for (int i = 0; i <= 1000; ++i) {
     const double t = i / 1000.0;
@@ -149,7 +149,7 @@ TEST(OctahedralMap, ContinuousAcrossEveryEdge) {
 
 TEST(OctahedralMap, NoStepAlongAnyPath) {
   // Great circles through poles, edges and corners of the map: neighbours differ by what a texel's slope allows.
-  const pack::Environment e = baked(picture(256, 128, colourOf));
+  const pack::Environment e = baked(makeImage(256, 128, gradient));
   constexpr int kSteps = 20000;
   for (const auto& [a, b] : {std::pair<glm::dvec3, glm::dvec3>{{1, 0, 0}, {0, 1, 0}},
                              {{1, 0, 0}, {0, 0, 1}},
@@ -175,19 +175,19 @@ TEST(OctahedralMap, TexelsAreHalves) {
 }
 
 TEST(OctahedralMap, BrightestRadianceSaturates) {
-  const pack::Environment e = baked(picture(64, 32, [](const glm::dvec3&) { return glm::dvec3(1e6); }));
+  const pack::Environment e = baked(makeImage(64, 32, [](const glm::dvec3&) { return glm::dvec3(1e6); }));
   EXPECT_EQ(lookUp(e, {0, 1, 0}).x, 65504);
-  EXPECT_NEAR(irradiance(e, {0, 1, 0}), kPi * 1e6, 1e4);  // the irradiance is the picture's
+  EXPECT_NEAR(irradiance(e, {0, 1, 0}), kPi * 1e6, 1e4);  // the irradiance is that of the image
 }
 
-TEST(OctahedralMap, SmallestPicture) {
-  const pack::Environment e = baked(picture(1, 1, [](const glm::dvec3&) { return glm::dvec3(3); }));
+TEST(OctahedralMap, SmallestImage) {
+  const pack::Environment e = baked(makeImage(1, 1, [](const glm::dvec3&) { return glm::dvec3(3); }));
   EXPECT_EQ(e.size, 1u);
   EXPECT_EQ(lookUp(e, {0.6, 0, 0.8}), glm::dvec3(3));
 }
 
-TEST(Irradiance, OfAConstantIsPiTimesIt) {
-  const pack::Environment e = baked(picture(64, 32, [](const glm::dvec3&) { return glm::dvec3(2.5); }));
+TEST(Irradiance, ConstantRadianceGivesPiTimesIt) {
+  const pack::Environment e = baked(makeImage(64, 32, [](const glm::dvec3&) { return glm::dvec3(2.5); }));
   pack::Environment constant;
   bakeConstantEnvironment(glm::dvec3(2.5), constant);
   EXPECT_EQ(constant.size, 0u);
@@ -198,12 +198,12 @@ TEST(Irradiance, OfAConstantIsPiTimesIt) {
   }
 }
 
-TEST(Irradiance, OfAClampedCosineLobe) {
-  // Both are clamped cosines, whose bands 0 to 2 weigh pi, 2 pi/3 and pi/4: the sum over the bands of
+TEST(Irradiance, ClampedCosineLobe) {
+  // Both are clamped cosines with the weights pi, 2 pi/3 and pi/4 of bands 0 to 2: the sum over the bands of
   // (2 l + 1)/(4 pi) weight^2 P_l(cos).
   const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, 0.7, -0.5));
   const pack::Environment e =
-      baked(picture(256, 128, [&](const glm::dvec3& d) { return glm::dvec3(std::max(glm::dot(d, axis), 0.0)); }));
+      baked(makeImage(256, 128, [&](const glm::dvec3& d) { return glm::dvec3(std::max(glm::dot(d, axis), 0.0)); }));
   for (const glm::dvec3& n : directions()) {
     const double c = glm::dot(n, axis);
     const double expected = kPi / 4 + kPi / 3 * c + 5 * kPi / 64 * (3 * c * c - 1) / 2;
@@ -211,14 +211,14 @@ TEST(Irradiance, OfAClampedCosineLobe) {
   }
 }
 
-TEST(OctahedralMap, BadImages) {
-  image::Image grey = picture(4, 2, colourOf);
+TEST(OctahedralMap, InvalidImages) {
+  image::Image grey = makeImage(4, 2, gradient);
   grey.channels = {"Y", "Z", "A"};
-  EXPECT_TRUE(contains(errorOf([&] { baked(grey); }), "no colour"));
+  EXPECT_TRUE(contains(errorMessage([&] { baked(grey); }), "no colour"));
   for (const float bad : {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    image::Image source = picture(4, 2, colourOf);
+    image::Image source = makeImage(4, 2, gradient);
     source.pixels[3 * 5 + 1] = bad;
-    const std::string error = errorOf([&] { baked(source); });
+    const std::string error = errorMessage([&] { baked(source); });
     EXPECT_TRUE(contains(error, "sky.hdr: environment texel 1, 1; expected a finite radiance of 0 or more")) << error;
   }
 }

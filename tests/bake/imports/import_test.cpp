@@ -1,4 +1,4 @@
-// Whole files in a scene: glTF with everything, OBJ with its materials.
+// Imports of whole files: glTF with all features, OBJ with materials.
 #include "bake/imports/import.h"
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace {
 
 using nlohmann::json;
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 
 constexpr auto kSilent = [](std::string_view) {};
 
-// A cube from 0 to 1, outward.
+// A cube from 0 to 1, facing outward.
 prep::Mesh unitCube() {
   prep::Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
@@ -33,7 +33,7 @@ prep::Mesh unitCube() {
 class Import : public testing::Test {
  protected:
   void SetUp() override {
-    // Metal, glass, a lamp; the metal twice, once mirrored, under a moved parent.
+    // Metal, glass, an emitter; the metal mesh twice, once mirrored, below a translated parent.
     gltf_.document["materials"] = {
         {{"name", "steel"},
          {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"roughnessFactor", 0.0}}}},
@@ -68,7 +68,7 @@ class Import : public testing::Test {
   SceneDescription description() { return readSceneFile(folder_.write("scene.json", scene_.dump())); }
   Baked baked(const BakeOptions& options = {}) { return bake(description(), {}, kSilent, options); }
   std::string error() {
-    return errorOf([&] { baked(); });
+    return errorMessage([&] { baked(); });
   }
 
   test::TemporaryFolder folder_;
@@ -95,14 +95,14 @@ std::pair<glm::vec3, glm::vec3> box(const pack::Mesh& mesh) {
   return {low, high};
 }
 
-TEST_F(Import, BringsInstancesWhereTheyStandAndMaterialsByRule) {
+TEST_F(Import, InstancesAndMaterials) {
   const Baked result = baked();
   const pack::Scene& scene = result.scene;
   ASSERT_EQ(scene.meshes.size(), 4u);
   EXPECT_EQ(box(named(scene, "left")), std::pair(glm::vec3(0, 10, 0), glm::vec3(1, 11, 1)));
   EXPECT_EQ(box(named(scene, "right")), std::pair(glm::vec3(4, 10, 0), glm::vec3(5, 11, 1)));
   EXPECT_EQ(box(named(scene, "pool")), std::pair(glm::vec3(0, 0, 8), glm::vec3(1, 1, 9)));
-  for (const pack::Mesh& mesh : scene.meshes) EXPECT_NEAR(volume(mesh), 1, 1e-4) << mesh.name;  // outside is outside
+  for (const pack::Mesh& mesh : scene.meshes) EXPECT_NEAR(volume(mesh), 1, 1e-4) << mesh.name;  // faces outward
   ASSERT_EQ(scene.materials.size(), 4u);
   EXPECT_EQ(scene.materials[0].name, "gold");
   const auto material = [&](std::string_view mesh) { return scene.materials[named(scene, mesh).material]; };
@@ -114,13 +114,13 @@ TEST_F(Import, BringsInstancesWhereTheyStandAndMaterialsByRule) {
   EXPECT_NEAR(material("pool").absorption.x, std::log(4.0) / 2, 1e-6);
   EXPECT_EQ(material("bulb").kind, pack::MaterialKind::emitter);
   EXPECT_EQ(material("bulb").radiance, glm::dvec3(8, 4, 0));
-  EXPECT_EQ(result.reports.size(), 3u);  // one a part
-  // A pack holds all of it.
+  EXPECT_EQ(result.reports.size(), 3u);  // one per part
+  // A pack stores the whole import.
   const pack::Pack again = pack::parse(pack::serialize(scene, {}).bytes, "test");
   EXPECT_EQ(again.scene.meshes.size(), 4u);
 }
 
-TEST_F(Import, TakesTheScenesMaterialsAndTransform) {
+TEST_F(Import, AppliesMaterialsAndTransformOfTheScene) {
   scene_["imports"][0]["materials"] = {{"steel", "gold"}};
   scene_["imports"][0]["transform"] = {{"scale", 2}, {"translate", {0, 0, 1}}};
   const pack::Scene scene = baked().scene;
@@ -132,7 +132,7 @@ TEST_F(Import, TakesTheScenesMaterialsAndTransform) {
   EXPECT_TRUE(contains(error(), "imports[0].materials.steel: unknown material 'glod'; expected 'gold'")) << error();
 }
 
-TEST_F(Import, NamesAreThereOnce) {
+TEST_F(Import, NamesAreUnique) {
   scene_["materials"]["steel"] = {{"type", "metal"}, {"preset", "chromium"}};
   scene_["imports"].push_back({{"file", "model.glb"}});
   const pack::Scene scene = baked().scene;
@@ -141,7 +141,7 @@ TEST_F(Import, NamesAreThereOnce) {
   EXPECT_EQ(scene.materials[named(scene, "left.2").material].name, "steel.3");
 }
 
-TEST_F(Import, GlassIsCertifiedHereToo) {
+TEST_F(Import, GlassMustBeCertified) {
   prep::Mesh open = unitCube();
   open.triangles.pop_back();
   gltf_.addMesh(open, "open", 1);
@@ -156,7 +156,7 @@ TEST_F(Import, GlassIsCertifiedHereToo) {
   EXPECT_EQ(error(), "");
 }
 
-TEST_F(Import, NormalsAreThoseOfTheFileWhereItHasSome) {
+TEST_F(Import, KeepsNormalsOfTheFile) {
   prep::test::GltfFile gltf;
   prep::Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -173,7 +173,7 @@ TEST_F(Import, NormalsAreThoseOfTheFileWhereItHasSome) {
   EXPECT_TRUE(baked().scene.meshes[0].normals.empty());
 }
 
-TEST_F(Import, ObjBringsItsMaterialFile) {
+TEST_F(Import, ObjReadsItsMaterialFile) {
   folder_.write("two parts.obj",
                 "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl mirror\nf 1 2 3\nusemtl "
                 "l\xc3\xa4mpchen 1\nf 1 2 4\n");
@@ -186,7 +186,7 @@ TEST_F(Import, ObjBringsItsMaterialFile) {
   EXPECT_EQ(result.scene.materials[named(result.scene, "l\xc3\xa4mpchen 1").material].radiance, glm::dvec3(3, 2, 1));
   EXPECT_TRUE(result.notes.empty());
 
-  // A map counts in the file, not in the part.
+  // Source indices refer to the file, not to the part.
   pack::WriteSettings keep;
   keep.keepMap = true;
   const pack::Scene mapped = bake(description(), keep, kSilent).scene;
@@ -194,14 +194,14 @@ TEST_F(Import, ObjBringsItsMaterialFile) {
   EXPECT_EQ(named(mapped, "l\xc3\xa4mpchen 1").sourceFaces, std::vector<std::uint32_t>{1});
   EXPECT_EQ(named(mapped, "l\xc3\xa4mpchen 1").sourceVertices, (std::vector<std::uint32_t>{0, 1, 3}));
 
-  // What it refers to counts as a source.
+  // Referenced files are listed as sources.
   const std::string before = makeProvenance(description(), {});
   folder_.write("my materials.mtl", "newmtl mirror\nKd 0.5 0.5 0.5\n");
   EXPECT_NE(makeProvenance(description(), {}), before);
-  EXPECT_EQ(baked().notes.size(), 1u);  // a material that no file describes
+  EXPECT_EQ(baked().notes.size(), 1u);  // a material without a description
 }
 
-TEST_F(Import, WhatIsLeftOutIsTold) {
+TEST_F(Import, UnsupportedFeaturesAreReported) {
   gltf_.document["cameras"] = json::array();
   gltf_.document["animations"] = {{{"channels", json::array()}, {"samplers", json::array()}}};
   folder_.write("model.glb", gltf_.glb());

@@ -1,4 +1,4 @@
-// Published optical constants: bounds, sources, and what they make of light.
+// Published optical constants: bounds, sources, reflectances.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -13,7 +13,7 @@ namespace {
 
 using Complex = std::complex<long double>;
 
-// Diattenuation (Rs - Rp)/(Rs + Rp) of a mirror in air, from the textbook's amplitudes.
+// Diattenuation (Rs - Rp)/(Rs + Rp) of a mirror in air, from the Fresnel amplitudes.
 double diattenuation(double n, double k, double degrees) {
   const long double angle = static_cast<long double>(degrees) * std::acos(-1.0L) / 180;
   const Complex index(n, -k);
@@ -30,7 +30,7 @@ double largestDiattenuation(const OpticalConstants& m, int colour) {
   return largest;
 }
 
-TEST(Materials, TheOnesThatScenesAskFor) {
+TEST(Materials, PresetsOfTheScenes) {
   for (const char* name : {"bk7", "water", "gold", "silver", "copper", "aluminium", "iron", "chromium", "titanium"})
     EXPECT_NE(findMaterial(name), nullptr) << name;
   EXPECT_EQ(findMaterial("unobtainium"), nullptr);
@@ -50,7 +50,7 @@ TEST(Materials, WithinBoundsAndWithASource) {
       EXPECT_GE(m.k[c], 0) << m.name;
       EXPECT_LE(m.k[c], 10) << m.name;
     }
-    // Normal dispersion: glass bends blue more than red.
+    // Normal dispersion: the index of glass is larger in blue than in red.
     if (dielectric) {
       EXPECT_TRUE(m.eta.x < m.eta.y && m.eta.y < m.eta.z) << m.name;
     }

@@ -17,7 +17,7 @@ pack::Material made(const prep::SourceMaterial& source) {
   return convertMaterial(source, ignored);
 }
 
-TEST(SourceMaterial, AMetalReflectsItsBaseColour) {
+TEST(SourceMaterial, MetalReflectsItsBaseColour) {
   prep::SourceMaterial source;
   source.name = "brass";
   source.roughness = 0;
@@ -33,7 +33,7 @@ TEST(SourceMaterial, AMetalReflectsItsBaseColour) {
       EXPECT_NEAR(std::norm((1.0 - m) / (1.0 + m)), source.baseColour[c], 1e-12);
     }
   }
-  source.baseColour = {0, 1, 5};  // beyond what a surface can do
+  source.baseColour = {0, 1, 5};  // above 1
   const pack::Material metal = made(source);
   for (int c = 0; c < 3; ++c) {
     EXPECT_TRUE(std::isfinite(metal.k[c]));
@@ -54,7 +54,7 @@ TEST(SourceMaterial, GlassAbsorbsByItsVolume) {
   source.attenuationColour = {1, 0.5, 0};
   source.attenuationDistance = 0.02;
   const pack::Material glass = made(source);
-  // After the distance the colour is left.
+  // The attenuation colour remains after the attenuation distance.
   EXPECT_NEAR(std::exp(-glass.absorption.x * 0.02), 1, 1e-12);
   EXPECT_NEAR(std::exp(-glass.absorption.y * 0.02), 0.5, 1e-12);
   EXPECT_NEAR(std::exp(-glass.absorption.z * 0.02), 1e-6, 1e-12);
@@ -86,7 +86,7 @@ TEST(SourceMaterial, DielectricsArePaintOrMatt) {
   EXPECT_EQ(made(source).albedo, glm::dvec3(0.1, 0.2, 0.3));
 }
 
-TEST(SourceMaterial, WhatGlowsIsAnEmitterWhateverElseItIs) {
+TEST(SourceMaterial, EmissionTakesPrecedence) {
   prep::SourceMaterial source;
   source.transmission = 1;
   source.emissive = {0, 40, 2};
@@ -94,7 +94,7 @@ TEST(SourceMaterial, WhatGlowsIsAnEmitterWhateverElseItIs) {
   EXPECT_EQ(made(source).radiance, glm::dvec3(0, 40, 2));
 }
 
-TEST(SourceMaterial, PartsWithoutOneAreMatt) {
+TEST(SourceMaterial, PartsWithoutMaterialAreMatt) {
   EXPECT_EQ(defaultMaterial().kind, Kind::lambert);
   EXPECT_EQ(defaultMaterial().albedo, glm::dvec3(0.8));
 }

@@ -10,9 +10,9 @@ namespace malus::pack {
 namespace {
 
 using bake::test::contains;
-using bake::test::errorOf;
+using bake::test::errorMessage;
 
-std::vector<std::byte> bytesOf(std::initializer_list<int> values) {
+std::vector<std::byte> makeBytes(std::initializer_list<int> values) {
   std::vector<std::byte> bytes;
   for (const int value : values) bytes.push_back(static_cast<std::byte>(value));
   return bytes;
@@ -24,17 +24,17 @@ TEST(Bytes, LittleEndian) {
   w.u32(0x03040506);
   w.u64(0x0708090a0b0c0d0e);
   EXPECT_EQ(w.size(), 14u);
-  EXPECT_EQ(w.take(), bytesOf({2, 1, 6, 5, 4, 3, 14, 13, 12, 11, 10, 9, 8, 7}));
+  EXPECT_EQ(w.take(), makeBytes({2, 1, 6, 5, 4, 3, 14, 13, 12, 11, 10, 9, 8, 7}));
 }
 
 TEST(Bytes, FloatsAreTheirBits) {
   ByteWriter w;
   w.f32(1.0f);
   w.f64(-2.0);
-  EXPECT_EQ(w.take(), bytesOf({0, 0, 0x80, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0xc0}));
+  EXPECT_EQ(w.take(), makeBytes({0, 0, 0x80, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0xc0}));
 }
 
-TEST(Bytes, WhatIsWrittenIsRead) {
+TEST(Bytes, RoundTrip) {
   ByteWriter w;
   w.u16(65535);
   w.u32(4000000000u);
@@ -64,23 +64,23 @@ TEST(Bytes, PaddingIsZero) {
   EXPECT_EQ(w.size(), 0u);
   w.u16(0xffff);
   w.padTo(8);
-  EXPECT_EQ(w.take(), bytesOf({255, 255, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(w.take(), makeBytes({255, 255, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST(Bytes, ReadingPastTheEndSaysWhere) {
+TEST(Bytes, ReadingPastTheEndReportsTheOffset) {
   const std::vector<std::byte> bytes(6);
   ByteReader r(bytes, 100, "file");
   r.u32();
-  EXPECT_EQ(errorOf([&] { r.u32(); }), "file, byte 104: section ends early; expected 4 more bytes, found 2");
+  EXPECT_EQ(errorMessage([&] { r.u32(); }), "file, byte 104: section ends early; expected 4 more bytes, found 2");
   EXPECT_EQ(r.left(), 2u);  // nothing was consumed
-  EXPECT_NE(errorOf([&] { r.raw(~std::uint64_t{0}); }), "");
+  EXPECT_NE(errorMessage([&] { r.raw(~std::uint64_t{0}); }), "");
 }
 
-TEST(Bytes, EndMeansTheEnd) {
+TEST(Bytes, TrailingBytesAreAnError) {
   const std::vector<std::byte> bytes(3);
   ByteReader r(bytes, 0, "file");
   r.u16();
-  EXPECT_TRUE(contains(errorOf([&] { r.end(); }), "section is longer than its contents"));
+  EXPECT_TRUE(contains(errorMessage([&] { r.end(); }), "section is longer than its contents"));
 }
 
 TEST(Bytes, NumbersAreFinite) {
@@ -88,7 +88,7 @@ TEST(Bytes, NumbersAreFinite) {
     ByteWriter w;
     w.f64(value);
     const std::vector<std::byte> bytes = w.take();
-    return errorOf([&] { ByteReader(bytes, 0, "file").f64("width"); });
+    return errorMessage([&] { ByteReader(bytes, 0, "file").f64("width"); });
   };
   EXPECT_EQ(reading(1e308), "");
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -99,8 +99,8 @@ TEST(Bytes, NumbersAreFinite) {
 
 TEST(Bytes, UnitVectors) {
   const ByteReader r({}, 0, "file");
-  EXPECT_EQ(errorOf([&] { r.requireUnit({0, 0.6, -0.8}, "axis"); }), "");
-  EXPECT_TRUE(contains(errorOf([&] { r.requireUnit({0, 3, 4}, "axis"); }), "axis; expected a unit vector"));
+  EXPECT_EQ(errorMessage([&] { r.requireUnit({0, 0.6, -0.8}, "axis"); }), "");
+  EXPECT_TRUE(contains(errorMessage([&] { r.requireUnit({0, 3, 4}, "axis"); }), "axis; expected a unit vector"));
 }
 
 TEST(Bytes, CountsFitTheBytesThatAreLeft) {
@@ -109,7 +109,7 @@ TEST(Bytes, CountsFitTheBytesThatAreLeft) {
     w.u32(count);
     for (std::size_t i = 0; i < following; ++i) w.raw(std::array<std::byte, 1>{});
     const std::vector<std::byte> bytes = w.take();
-    return errorOf([&] { EXPECT_EQ(ByteReader(bytes, 0, "file").count(10, 100, "records"), count); });
+    return errorMessage([&] { EXPECT_EQ(ByteReader(bytes, 0, "file").count(10, 100, "records"), count); });
   };
   EXPECT_EQ(counting(0, 0), "");
   EXPECT_EQ(counting(2, 20), "");
@@ -118,12 +118,12 @@ TEST(Bytes, CountsFitTheBytesThatAreLeft) {
   EXPECT_TRUE(contains(counting(0xffffffffu, 20), "records"));
 }
 
-TEST(Bytes, TextsHaveALongestLength) {
+TEST(Bytes, TextLengthIsLimited) {
   ByteWriter w;
   w.text(std::string(70000, 'a'));
   const std::vector<std::byte> bytes = w.take();
   EXPECT_TRUE(
-      contains(errorOf([&] { ByteReader(bytes, 0, "file").text(); }), "length of a text; expected at most 65536"));
+      contains(errorMessage([&] { ByteReader(bytes, 0, "file").text(); }), "length of a text; expected at most 65536"));
   EXPECT_EQ(ByteReader(bytes, 0, "file").text(80000).size(), 70000u);
 }
 

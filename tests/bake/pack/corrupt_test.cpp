@@ -1,4 +1,4 @@
-// Damaged and hostile packs: an Error that names the problem and its place, never a crash or a large allocation.
+// Damaged and hostile packs: always an Error with problem and location, never a crash or a large allocation.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace malus::pack {
 namespace {
 
 using bake::test::contains;
-using bake::test::errorOf;
+using bake::test::errorMessage;
 using bake::test::smallScene;
 using test::Bytes;
 using test::RawSection;
@@ -26,10 +26,10 @@ const Bytes& smallPack() {
 }
 
 std::string parseError(const Bytes& bytes) {
-  return errorOf([&] { parse(bytes, "file.pack"); });
+  return errorMessage([&] { parse(bytes, "file.pack"); });
 }
 
-// The error of the small pack after a change of its sections, hashes matching.
+// Returns the error of the small pack after a change of its sections, with matching hashes.
 template <class Change>
 std::string errorAfter(Change change) {
   std::vector<RawSection> sections = test::takenApart(smallPack());
@@ -37,7 +37,7 @@ std::string errorAfter(Change change) {
   return parseError(test::putTogether(sections));
 }
 
-// The same for one number of one section.
+// Same as above, for one number of one section.
 template <class T>
 std::string errorWith(std::string_view id, std::size_t at, T value) {
   return errorAfter([&](std::vector<RawSection>& s) { test::setNumber(test::section(s, id).bytes, at, value); });
@@ -52,13 +52,13 @@ long peakMegabytes() {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The sections that few scenes have.
+// Sections of the scene with all optional sections.
 const std::vector<RawSection>& unusualSections() {
   static const std::vector<RawSection> kSections = test::takenApart(serialize(bake::test::unusualScene(), {}).bytes);
   return kSections;
 }
 
-TEST(CorruptPack, TheSmallPackIsGood) { EXPECT_EQ(parseError(smallPack()), ""); }
+TEST(CorruptPack, SmallPackIsValid) { EXPECT_EQ(parseError(smallPack()), ""); }
 
 TEST(CorruptPack, EveryTruncationIsAnError) {
   for (std::size_t size = 0; size < smallPack().size(); ++size) {
@@ -87,18 +87,18 @@ TEST(CorruptPack, BytesAfterTheEndAreAnError) {
   EXPECT_TRUE(contains(parseError(bytes), "bytes after the last section")) << parseError(bytes);
 }
 
-// Behind every hash: any bit of any section flipped is refused or gives a scene within the schema.
-TEST(CorruptPack, EveryFlippedBitBehindTheHashesIsHarmless) {
+// With matching hashes, any flipped bit of any section is rejected or gives a scene within the schema.
+TEST(CorruptPack, EveryFlippedBitWithMatchingHashesIsHarmless) {
   const std::vector<RawSection> whole = test::takenApart(smallPack());
   const long before = peakMegabytes();
-  std::size_t refused = 0, taken = 0;
+  std::size_t rejected = 0, accepted = 0;
   for (std::size_t s = 0; s < whole.size(); ++s)
     for (std::size_t i = 0; i < whole[s].bytes.size(); ++i)
       for (int bit = 0; bit < 8; ++bit) {
         std::vector<RawSection> sections = whole;
         sections[s].bytes[i] ^= static_cast<std::byte>(1 << bit);
         const Bytes bytes = test::putTogether(sections);
-        const std::string error = errorOf([&] {
+        const std::string error = errorMessage([&] {
           const Scene scene = parse(bytes, "file.pack").scene;
           for (const Mesh& mesh : scene.meshes) {
             ASSERT_LT(mesh.material, scene.materials.size());
@@ -108,26 +108,26 @@ TEST(CorruptPack, EveryFlippedBitBehindTheHashesIsHarmless) {
               ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
           }
         });
-        error.empty() ? ++taken : ++refused;
+        error.empty() ? ++accepted : ++rejected;
         if (!error.empty()) {
           ASSERT_TRUE(contains(error, "file.pack")) << error;
         }
       }
-  EXPECT_GT(refused, 1000u);
-  EXPECT_GT(taken, 1000u);  // a digit of a number changes nothing that can be told
+  EXPECT_GT(rejected, 1000u);
+  EXPECT_GT(accepted, 1000u);  // most bits of numbers give another valid number
   EXPECT_LT(peakMegabytes() - before, 512);
 }
 
-// The contents of two sections change places, their entries in the table stay: found before anything is decoded.
+// Swapping the contents of two sections but not their table entries is detected before decoding.
 TEST(CorruptPack, EveryPairOfSwappedSectionsIsAnError) {
   const std::vector<RawSection>& whole = unusualSections();
   for (std::size_t a = 0; a < whole.size(); ++a)
     for (std::size_t b = a + 1; b < whole.size(); ++b) {
-      // With the hashes of their new places, so that it is the contents that give them away.
+      // With updated hashes, the contents are invalid.
       std::vector<RawSection> sections = whole;
       std::swap(sections[a].bytes, sections[b].bytes);
       EXPECT_TRUE(contains(parseError(test::putTogether(sections)), "file.pack")) << whole[a].id << ' ' << whole[b].id;
-      // With the table as it was: by the hashes.
+      // With the original table, the hashes differ.
       Bytes bytes = test::putTogether(whole);
       const std::size_t first = 40 + 40 * a + 32, second = 40 + 40 * b + 32;  // their hashes
       const auto kept = test::numberAt<std::uint64_t>(bytes, first);
@@ -138,7 +138,7 @@ TEST(CorruptPack, EveryPairOfSwappedSectionsIsAnError) {
     }
 }
 
-TEST(CorruptPack, RandomBytesBehindTheHashesAreHarmless) {
+TEST(CorruptPack, RandomBytesWithMatchingHashesAreHarmless) {
   const std::vector<RawSection> whole = test::takenApart(smallPack());
   std::mt19937 random(1);
   const long before = peakMegabytes();
@@ -157,7 +157,7 @@ TEST(CorruptPack, RandomBytesBehindTheHashesAreHarmless) {
   EXPECT_LT(peakMegabytes() - before, 512);
 }
 
-TEST(CorruptPack, OtherFilesAreNoPack) {
+TEST(CorruptPack, OtherFilesAreNotPacks) {
   for (const std::string_view text : {"", "M", "\x89PNG\r\n\x1a\n then more than forty bytes of something else",
                                       "MALUSPACK that is not one, forty bytes long or more"}) {
     const std::span<const std::byte> source = std::as_bytes(std::span(text));
@@ -166,7 +166,7 @@ TEST(CorruptPack, OtherFilesAreNoPack) {
   }
 }
 
-TEST(CorruptPack, NewerAndOlderVersionsAreToldApart) {
+TEST(CorruptPack, NewerAndOlderVersionsHaveDifferentErrors) {
   const std::vector<RawSection> sections = test::takenApart(smallPack());
   const std::string newer = parseError(test::putTogether(sections, 2)),
                     older = parseError(test::putTogether(sections, 0));
@@ -175,8 +175,8 @@ TEST(CorruptPack, NewerAndOlderVersionsAreToldApart) {
   EXPECT_TRUE(contains(older, "older than this malus reads")) << older;
 }
 
-TEST(CorruptPack, VersionComesBeforeEverythingElse) {
-  // A later format may keep its hashes elsewhere.
+TEST(CorruptPack, VersionIsCheckedFirst) {
+  // A later format may store its hashes elsewhere.
   Bytes bytes = smallPack();
   test::setNumber(bytes, 8, std::uint32_t{9});
   EXPECT_TRUE(contains(parseError(bytes), "newer than this malus"));
@@ -224,7 +224,7 @@ TEST(CorruptPack, MissingAndRepeatedSections) {
 }
 
 TEST(CorruptPack, SwappedSections) {
-  // Another order is fine; another id is not.
+  // Another order is valid; another id is not.
   EXPECT_EQ(errorAfter([](std::vector<RawSection>& s) { std::swap(s[0], s[5]); }), "");
   const std::size_t count = test::takenApart(smallPack()).size();
   for (std::size_t a = 0; a < count; ++a)
@@ -257,7 +257,7 @@ TEST(CorruptPack, TableOfSections) {
   EXPECT_NE(parseError(many), "");
 }
 
-TEST(CorruptPack, PaddingHoldsNothing) {
+TEST(CorruptPack, PaddingMustBeZero) {
   Bytes bytes = smallPack();
   const auto end = test::numberAt<std::uint64_t>(bytes, 40 + 16) + test::numberAt<std::uint64_t>(bytes, 40 + 24);
   ASSERT_NE(end % 16, 0u);
@@ -267,7 +267,7 @@ TEST(CorruptPack, PaddingHoldsNothing) {
 
 TEST(CorruptPack, EverySectionTooShortOrTooLong) {
   for (const RawSection& section : test::takenApart(smallPack())) {
-    if (section.id == "GEOM") continue;  // its meshes say what belongs to them
+    if (section.id == "GEOM") continue;  // its size is checked per mesh
     EXPECT_NE(errorAfter([&](std::vector<RawSection>& s) { test::section(s, section.id).bytes.pop_back(); }), "")
         << section.id;
     EXPECT_NE(
@@ -321,7 +321,7 @@ TEST(CorruptPack, MeshesOutOfBounds) {
                        "number of meshes"));
 }
 
-TEST(CorruptPack, NoGeometryIsDecodedTwice) {
+TEST(CorruptPack, MeshesMustNotShareGeometry) {
   // The second mesh claims the bytes of the first.
   constexpr std::size_t kSecond = 4 + 4 + 11 + 36 + 4 + 5;
   const std::string error = errorWith("MESH", kSecond + 20, std::uint64_t{0});
@@ -339,7 +339,7 @@ TEST(CorruptPack, CameraOutOfBounds) {
   EXPECT_TRUE(contains(errorWith("CAMR", 96, 0.0), "verticalFovDegrees"));
   EXPECT_TRUE(contains(errorWith("CAMR", 96, 180.0), "verticalFovDegrees"));
   EXPECT_TRUE(contains(errorWith("CAMR", 104, 0.0), "mediumEta"));
-  // Where: the byte of the file.
+  // The error contains the byte offset in the file.
   const std::string error = errorWith("CAMR", 96, kNan);
   EXPECT_TRUE(contains(error, "file.pack, section CAMR, byte ")) << error;
 }
@@ -371,9 +371,9 @@ TEST(CorruptPack, LightOutOfBounds) {
 }
 
 TEST(CorruptPack, MaterialOutOfBounds) {
-  constexpr std::size_t kGlass = 4 + 4 + 5;                // behind the first name
-  constexpr std::size_t kGold = kGlass + 120 + 4 + 4;      // behind the second
-  constexpr std::size_t kEta = 4, kK = 28, kOutside = 52;  // behind the kind
+  constexpr std::size_t kGlass = 4 + 4 + 5;                // after the first name
+  constexpr std::size_t kGold = kGlass + 120 + 4 + 4;      // after the second
+  constexpr std::size_t kEta = 4, kK = 28, kOutside = 52;  // after the kind
   for (std::size_t at = kGlass + kEta; at + 8 <= kGlass + 116; at += 8)
     EXPECT_TRUE(contains(errorWith("MATL", at, kNan), "not finite")) << at;
   EXPECT_TRUE(contains(errorWith("MATL", kGlass, 8u), "type is out of range"));
@@ -413,7 +413,7 @@ TEST(CorruptPack, UnusualSectionsOutOfBounds) {
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", 4 + 80, 0.5), "roughness"));  // of glass
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", kGold + 80, 1.5), "roughness"));
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", kLamp + 72, 1.0), "coating.thicknessNm"));
-  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kLamp + 88, 0.5), "axis"));  // no unit vector
+  EXPECT_TRUE(contains(unusualErrorWith("SRFX", kLamp + 88, 0.5), "axis"));  // not a unit vector
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", kLamp + 112, 1.5), "polarization"));
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", kGold + 112, 0.5), "polarization"));
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", kPolarizer + 120, 1.5), "transmittanceParallel"));
@@ -424,7 +424,7 @@ TEST(CorruptPack, UnusualSectionsOutOfBounds) {
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", kGold + 200, 0u), "index map"));           // eta alone
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", kLamp + 196, 2u), "index map"));
   EXPECT_TRUE(contains(unusualErrorWith("TEXR", 0, 300u), "number of textures"));
-  constexpr std::size_t kFirst = 4 + 4 + 11;  // behind the first name
+  constexpr std::size_t kFirst = 4 + 4 + 11;  // after the first name
   EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst, 8193u), "width is out of range"));
   EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst, 0u), "width is out of range"));
   EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst, 8000u), "texels of texture"));
@@ -432,14 +432,14 @@ TEST(CorruptPack, UnusualSectionsOutOfBounds) {
   EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst + 8, std::numeric_limits<float>::quiet_NaN()), "texel"));
   EXPECT_TRUE(contains(unusualErrorWith("SKYP", 0, 0.5), "sky.sun"));
   EXPECT_TRUE(contains(unusualErrorWith("SKYP", 24, 1.5), "sky.maxDegree"));
-  // A polarizer without its axis.
+  // A polarizer without an axis.
   std::vector<RawSection> sections = unusualSections();
   std::erase_if(sections, [](const RawSection& s) { return s.id == "SRFX"; });
   EXPECT_TRUE(contains(parseError(test::putTogether(sections)), "section SRFX is missing"));
 }
 
-TEST(CorruptPack, EveryFlippedBitOfUnusualSectionsBehindTheHashesIsHarmless) {
-  std::size_t refused = 0, taken = 0;
+TEST(CorruptPack, EveryFlippedBitOfOptionalSectionsWithMatchingHashesIsHarmless) {
+  std::size_t rejected = 0, accepted = 0;
   for (std::size_t s = 0; s < unusualSections().size(); ++s) {
     if (const std::string& id = unusualSections()[s].id; id != "SRFX" && id != "TEXR" && id != "SKYP") continue;
     for (std::size_t i = 0; i < unusualSections()[s].bytes.size(); ++i)
@@ -447,21 +447,21 @@ TEST(CorruptPack, EveryFlippedBitOfUnusualSectionsBehindTheHashesIsHarmless) {
         std::vector<RawSection> sections = unusualSections();
         sections[s].bytes[i] ^= static_cast<std::byte>(1 << bit);
         const Bytes bytes = test::putTogether(sections);
-        const std::string error = errorOf([&] {
+        const std::string error = errorMessage([&] {
           for (const Material& m : parse(bytes, "file.pack").scene.materials)
             for (const std::int32_t map : {m.maps.albedo, m.maps.eta, m.maps.k}) ASSERT_LT(map, 2);
         });
-        error.empty() ? ++taken : ++refused;
+        error.empty() ? ++accepted : ++rejected;
         ASSERT_TRUE(error.empty() || contains(error, "file.pack")) << error;
       }
   }
-  EXPECT_GT(refused, 100u);
-  EXPECT_GT(taken, 100u);
+  EXPECT_GT(rejected, 100u);
+  EXPECT_GT(accepted, 100u);
 }
 
 TEST(CorruptPack, MissingFileAndFolder) {
-  EXPECT_TRUE(contains(errorOf([] { read("/nowhere/at-all.pack"); }), "/nowhere/at-all.pack: cannot open"));
-  EXPECT_TRUE(contains(errorOf([] { read("/"); }), "/: is not a regular file"));
+  EXPECT_TRUE(contains(errorMessage([] { read("/nowhere/at-all.pack"); }), "/nowhere/at-all.pack: cannot open"));
+  EXPECT_TRUE(contains(errorMessage([] { read("/"); }), "/: is not a regular file"));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace malus::pack {
 namespace {
 
 using bake::test::contains;
-using bake::test::errorOf;
+using bake::test::errorMessage;
 
 // A record whose section had one field in version 1 and two in version 2.
 struct Pane {
@@ -30,7 +30,7 @@ void visitPane(Visitor&& visit, Panes&... p) {
   visit(Field{.name = "tint", .high = 1, .section = kPane, .since = 2}, p.tint...);
 }
 
-std::vector<std::byte> bytesOf(const Pane& pane, std::uint32_t version) {
+std::vector<std::byte> writtenBytes(const Pane& pane, std::uint32_t version) {
   ByteWriter w;
   visitPane(FieldWriter(w, {kPane, version}), pane);
   return w.take();
@@ -46,21 +46,21 @@ Pane read(const std::vector<std::byte>& bytes, std::uint32_t version) {
 
 TEST(Fields, LaterVersionsAppendFields) {
   const Pane pane{0.5, {0.25, 0.5, 0.75}};
-  EXPECT_EQ(bytesOf(pane, 1).size(), 8u);
-  EXPECT_EQ(bytesOf(pane, 2).size(), 32u);
-  EXPECT_EQ(read(bytesOf(pane, 2), 2).tint, pane.tint);
-  const Pane old = read(bytesOf(pane, 1), 1);  // a pack from before the field existed
+  EXPECT_EQ(writtenBytes(pane, 1).size(), 8u);
+  EXPECT_EQ(writtenBytes(pane, 2).size(), 32u);
+  EXPECT_EQ(read(writtenBytes(pane, 2), 2).tint, pane.tint);
+  const Pane old = read(writtenBytes(pane, 1), 1);  // a pack written before the field existed
   EXPECT_EQ(old.thickness, 0.5);
   EXPECT_EQ(old.tint, glm::dvec3(1.0));
   for (const std::uint32_t version : {1u, 2u}) {
     FieldSizes sizes({kPane, version});
     visitPane(sizes, pane);
-    EXPECT_EQ(sizes.bytes(), bytesOf(pane, version).size());
+    EXPECT_EQ(sizes.bytes(), writtenBytes(pane, version).size());
   }
 }
 
 TEST(Fields, ErrorsNameSectionFieldRangeAndValue) {
-  const std::string error = errorOf([] { read(bytesOf({0.5, {0, 2.5, 0}}, 2), 2); });
+  const std::string error = errorMessage([] { read(writtenBytes({0.5, {0, 2.5, 0}}, 2), 2); });
   for (const char* part : {"section PANE", "tint[1]", "0 to 1", "2.5"}) EXPECT_TRUE(contains(error, part)) << error;
 }
 
@@ -77,7 +77,7 @@ TEST(Fields, MaterialsHaveUniqueNamesAndTheBytesOfTheDocument) {
   EXPECT_EQ(newestSurfaceVersion(), 1u);
 }
 
-// Every field that calls for SRFX does so alone, and no other field does.
+// Each field stored in SRFX requires SRFX by itself; no other field does.
 TEST(Fields, PlainMaterials) {
   EXPECT_TRUE(Material().isPlain());
   Material m;

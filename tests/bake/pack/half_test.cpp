@@ -9,8 +9,8 @@
 namespace malus::pack {
 namespace {
 
-// The value of a finite half by its definition.
-double valueOf(std::uint16_t bits) {
+// Returns the value of a finite half by its definition.
+double decodeHalf(std::uint16_t bits) {
   const int exponent = bits >> 10 & 31, fraction = bits & 1023;
   const double magnitude = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
   return (bits & 0x8000) != 0 ? -magnitude : magnitude;
@@ -20,7 +20,7 @@ TEST(Half, EveryFiniteHalfComesBack) {
   for (std::uint32_t bits = 0; bits < 65536; ++bits) {
     const auto half = static_cast<std::uint16_t>(bits);
     if ((half & 0x7c00) == 0x7c00) continue;
-    ASSERT_EQ(static_cast<double>(floatFromHalf(half)), valueOf(half)) << bits;
+    ASSERT_EQ(static_cast<double>(floatFromHalf(half)), decodeHalf(half)) << bits;
     ASSERT_EQ(halfFromFloat(floatFromHalf(half)), half) << bits;
   }
 }
@@ -28,7 +28,7 @@ TEST(Half, EveryFiniteHalfComesBack) {
 TEST(Half, RoundsToNearestAndTiesToEven) {
   for (std::uint32_t bits = 0; bits < 0x7bff; ++bits) {
     const auto low = static_cast<std::uint16_t>(bits), high = static_cast<std::uint16_t>(bits + 1);
-    const auto middle = static_cast<float>((valueOf(low) + valueOf(high)) / 2);  // a float holds it
+    const auto middle = static_cast<float>((decodeHalf(low) + decodeHalf(high)) / 2);  // exact in float
     ASSERT_EQ(halfFromFloat(middle), (bits & 1) == 0 ? low : high) << bits;
     ASSERT_EQ(halfFromFloat(std::nextafter(middle, 0.0f)), low) << bits;
     ASSERT_EQ(halfFromFloat(std::nextafter(middle, 1e9f)), high) << bits;

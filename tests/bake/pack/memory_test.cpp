@@ -1,9 +1,8 @@
-// Claims far above a file's size, behind matching hashes, never make the reader allocate above the file's own bound.
+// Counts far above a file's size, with matching hashes, never make the reader allocate more than the file's bound.
 //
 // The bound: kFixedBytes for tables of Draco whose size does not depend on the file, and kPerByte for every byte of it.
-// A byte of Draco data may stand for 64 triangles and 64 vertices (compress::kMaxPerByte), and decoding takes at most
-// 300 bytes for each pair of them; records of other sections grow by less when they are taken apart. A binary of its
-// own, because it replaces operator new.
+// A byte of Draco data may encode 64 triangles and 64 vertices (compress::kMaxPerByte), and decoding takes at most
+// 300 bytes per pair; records of other sections need less. A separate program, because it replaces operator new.
 #include <malloc.h>
 
 #include <algorithm>
@@ -59,19 +58,19 @@ constexpr std::size_t kPerByte = 64 * 300;
 
 struct Outcome {
   std::string error;
-  std::size_t allocated = 0;  // most bytes at once, above what was there before
+  std::size_t allocated = 0;  // peak bytes above those allocated before
 };
 
-Outcome outcomeOf(const Bytes& bytes) {
+Outcome tryParse(const Bytes& bytes) {
   Outcome outcome;
   const std::size_t before = gLive;
   gPeak = before;
-  outcome.error = bake::test::errorOf([&] { parse(bytes, "file.pack"); });
+  outcome.error = bake::test::errorMessage([&] { parse(bytes, "file.pack"); });
   outcome.allocated = gPeak - before;
   return outcome;
 }
 
-std::size_t boundOf(const Bytes& bytes) { return kFixedBytes + kPerByte * bytes.size(); }
+std::size_t memoryBound(const Bytes& bytes) { return kFixedBytes + kPerByte * bytes.size(); }
 
 // Parses a pack whose sections were changed; an error is expected.
 template <class Change>
@@ -81,10 +80,10 @@ void expectRefused(const Scene& scene, std::string_view what, Change change) {
   std::vector<RawSection> sections = test::takenApart(serialize(scene, settings).bytes);
   change(sections);
   const Bytes bytes = test::putTogether(sections);
-  const Outcome outcome = outcomeOf(bytes);
+  const Outcome outcome = tryParse(bytes);
   EXPECT_TRUE(contains(outcome.error, "file.pack")) << what << ": " << outcome.error;
-  EXPECT_LE(outcome.allocated, boundOf(bytes)) << what << ", " << bytes.size() << " bytes";
-  // None of these claims is worth more than a page or two of messages and names before it is refused.
+  EXPECT_LE(outcome.allocated, memoryBound(bytes)) << what << ", " << bytes.size() << " bytes";
+  // The other claims are rejected before anything but names and messages is allocated.
   if (!contains(outcome.error, "Draco data is corrupt")) {
     EXPECT_LE(outcome.allocated, 64 * bytes.size()) << what << ", " << bytes.size() << " bytes";
   }
@@ -107,12 +106,12 @@ TEST(PackMemory, CountingWorks) {
   EXPECT_EQ(gLive, before);
 }
 
-TEST(PackMemory, GoodPacksAreWithinTheBound) {
+TEST(PackMemory, ValidPacksAreWithinTheBound) {
   for (const Scene& scene : {bake::test::smallScene(), bake::test::unusualScene()}) {
     const Bytes bytes = serialize(scene, {}).bytes;
-    const Outcome outcome = outcomeOf(bytes);
+    const Outcome outcome = tryParse(bytes);
     EXPECT_EQ(outcome.error, "");
-    EXPECT_LE(outcome.allocated, boundOf(bytes));
+    EXPECT_LE(outcome.allocated, memoryBound(bytes));
   }
 }
 
@@ -135,7 +134,7 @@ TEST(PackMemory, LengthsOfTexts) {
 
 TEST(PackMemory, TexelsOfTexturesAndOfTheSky) {
   const Scene scene = bake::test::unusualScene();
-  constexpr std::size_t kWidth = 4 + 4 + 11;  // behind the first texture's name
+  constexpr std::size_t kWidth = 4 + 4 + 11;  // after the first texture's name
   for (const std::uint32_t side : {8192u, 0xffffffffu}) {
     expectRefused(scene, "TEXR", kWidth, side);
     expectRefused(scene, "TEXR", kWidth + 4, side);
@@ -147,7 +146,7 @@ TEST(PackMemory, TexelsOfTexturesAndOfTheSky) {
   });
 }
 
-// Where the first mesh of the small scene has its counts.
+// Offset of the counts of the first mesh of the small scene.
 constexpr std::size_t kVertices = 4 + 4 + 11 + 4 + 4;
 
 TEST(PackMemory, CountsOfAMeshInItsTable) {
@@ -179,7 +178,7 @@ Bytes dracoClaim(bool edgebreaker, std::uint32_t vertices, std::uint32_t triangl
   } else {
     number(triangles);
     number(vertices);
-    put({1});  // indices as they are
+    put({1});  // uncompressed indices
   }
   draco.resize(draco.size() + padding, std::byte{0});
 
@@ -204,8 +203,8 @@ TEST(PackMemory, CountsThatDracoClaims) {
         for (const auto& [vertices, triangles] : {std::pair{count, count}, {3u, count}, {count, 1u}}) {
           if (vertices == 0) continue;
           const Bytes bytes = dracoClaim(edgebreaker, vertices, triangles, padding);
-          const Outcome outcome = outcomeOf(bytes);
-          EXPECT_LE(outcome.allocated, boundOf(bytes))
+          const Outcome outcome = tryParse(bytes);
+          EXPECT_LE(outcome.allocated, memoryBound(bytes))
               << (edgebreaker ? "edgebreaker, " : "sequential, ") << vertices << " vertices, " << triangles
               << " triangles, " << bytes.size() << " bytes: " << outcome.error;
           if (std::max(vertices, triangles) > 64 * (padding + 30)) {
@@ -215,8 +214,8 @@ TEST(PackMemory, CountsThatDracoClaims) {
         }
 }
 
-// The bound holds for honest meshes too, the densest among them: an even grid, whose triangles take next to nothing.
-TEST(PackMemory, ADenseMeshIsWithinTheBound) {
+// The bound also holds for the most compressible valid mesh, an even grid, whose triangles need almost no bytes.
+TEST(PackMemory, DenseMeshIsWithinTheBound) {
   Scene scene = bake::test::smallScene();
   Mesh mesh;
   constexpr std::uint32_t kSide = 200;
@@ -232,18 +231,18 @@ TEST(PackMemory, ADenseMeshIsWithinTheBound) {
   scene.meshes = {mesh};
   const Written written = serialize(scene, {});
   EXPECT_EQ(written.meshes[0].method, "edgebreaker");
-  const Outcome outcome = outcomeOf(written.bytes);
+  const Outcome outcome = tryParse(written.bytes);
   EXPECT_EQ(outcome.error, "");
-  // What the numbers at the top say of decoding: 300 bytes for a triangle and a vertex.
+  // 300 bytes per triangle and vertex, see the top of the file.
   EXPECT_LE(outcome.allocated, kFixedBytes + 300 * mesh.triangles.size());
   EXPECT_GT(outcome.allocated, 24 * mesh.triangles.size());
 }
 
-// Where memory does run out, that is an error as well, and no crash.
+// Running out of memory is an error, not a crash.
 TEST(PackMemory, RunningOutIsAnError) {
   const Bytes bytes = dracoClaim(true, 1u << 20, 1u << 20, 20'000);
   gRefusedAbove = 1 << 16;
-  const Outcome outcome = outcomeOf(bytes);
+  const Outcome outcome = tryParse(bytes);
   gRefusedAbove = SIZE_MAX;
   EXPECT_TRUE(contains(outcome.error, "file.pack")) << outcome.error;
 }

@@ -1,5 +1,5 @@
-// Splits a scene pack into sections and joins them again with matching hashes: a second implementation of
-// bake/FORMAT.md, so that tests can damage contents and keep the hashes valid.
+// Splits a scene pack into sections and joins them with matching hashes, by a second implementation of bake/FORMAT.md.
+// Tests use it to damage packs whose hashes match.
 #pragma once
 
 #include <cstring>
@@ -48,7 +48,7 @@ inline std::vector<RawSection> takenApart(const Bytes& pack) {
   return sections;
 }
 
-// Both hashes of a pack whose header or table was changed.
+// Updates both hashes of a pack whose header or table was changed.
 inline void fixHashes(Bytes& pack) {
   const std::size_t tableBytes = 40 * std::size_t{numberAt<std::uint32_t>(pack, 12)};
   if (40 + tableBytes <= pack.size())

@@ -1,4 +1,4 @@
-// A pack contains everything of its scene, and equal scenes give equal files.
+// A pack stores the complete scene, and equal scenes give equal files.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -15,18 +15,18 @@ namespace malus::pack {
 namespace {
 
 using bake::test::contains;
-using bake::test::errorOf;
+using bake::test::errorMessage;
 using bake::test::smallScene;
 using bake::test::TemporaryFolder;
 
-// The vertex of the mesh that is nearest to p.
+// Returns the vertex of the mesh nearest to p.
 glm::vec3 nearest(const Mesh& mesh, const glm::vec3& p) {
   return *std::min_element(mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& a, const glm::vec3& b) {
     return glm::distance(a, p) < glm::distance(b, p);
   });
 }
 
-TEST(PackRoundTrip, EveryFieldComesBack) {
+TEST(PackRoundTrip, EveryField) {
   const Scene scene = smallScene();
   const Written written = serialize(scene, {});
   const Pack pack = parse(written.bytes, "test");
@@ -76,7 +76,7 @@ TEST(PackRoundTrip, EveryFieldComesBack) {
   EXPECT_EQ(s.provenance, scene.provenance);
 }
 
-TEST(PackRoundTrip, WhatFewScenesHaveComesBack) {
+TEST(PackRoundTrip, OptionalSections) {
   const Scene scene = bake::test::unusualScene();
   const Scene s = parse(serialize(scene, {}).bytes, "test").scene;
   EXPECT_EQ(s.environment.sun, scene.environment.sun);
@@ -111,26 +111,26 @@ TEST(PackRoundTrip, WhatFewScenesHaveComesBack) {
   }
 }
 
-// A pack from before the sections of what few scenes have (and the effects that came with them) existed.
-TEST(PackRoundTrip, AnOlderPackStillOpens) {
+// A pack written before the optional sections and their effects existed.
+TEST(PackRoundTrip, OldPackStillOpens) {
   const Pack pack = read(std::filesystem::path(MALUS_TEST_PACKS) / "before-surfaces.pack");
   EXPECT_EQ(pack.scene.name, "paint-under-glass-in-brewster-mirror");
   EXPECT_EQ(pack.scene.meshes.size(), 3u);
   ASSERT_EQ(pack.scene.materials.size(), 2u);
   for (const Material& m : pack.scene.materials) EXPECT_TRUE(m.isPlain());
   EXPECT_EQ(pack.scene.effects.size(), 15u);
-  EXPECT_EQ(canonicalGeometryHash(pack.scene), 0x486e021ecfc24adfu);  // as its own malus told it
+  EXPECT_EQ(canonicalGeometryHash(pack.scene), 0x486e021ecfc24adfu);  // as printed by the version that wrote it
 }
 
-// A scene without them has no section for them, and every pack from before they existed is such a one.
-TEST(PackRoundTrip, WhatFewScenesHaveTakesNoRoomInOthers) {
+// Optional sections are only written if they are needed.
+TEST(PackRoundTrip, UnusedOptionalSectionsAreNotWritten) {
   const Pack pack = parse(serialize(smallScene(), {}).bytes, "test");
   for (const Section& section : pack.sections)
     EXPECT_TRUE(section.id != kSurfaces && section.id != kTextures && section.id != kSky) << section.id;
   for (const Material& m : pack.scene.materials) EXPECT_TRUE(m.isPlain()) << m.name;
 }
 
-TEST(PackRoundTrip, MeshesComeBackWithinTheGrid) {
+TEST(PackRoundTrip, PositionErrorsAreWithinTheGridStep) {
   const Scene scene = smallScene();
   const Pack pack = parse(serialize(scene, {}).bytes, "test");
   ASSERT_EQ(pack.scene.meshes.size(), 2u);
@@ -152,7 +152,7 @@ TEST(PackRoundTrip, MeshesComeBackWithinTheGrid) {
                                                found.positions.begin());
       EXPECT_LE(glm::distance(found.normals[at], source.normals[v]), 1.5e-3f) << source.name << ", vertex " << v;
     }
-    // The sides are kept: each triangle's cross product is that of a source triangle.
+    // Orientation is preserved: each triangle's cross product is that of a source triangle.
     for (const glm::uvec3& t : found.triangles) {
       const auto cross = [](const Mesh& m, const glm::uvec3& f) {
         return glm::cross(m.positions[f.y] - m.positions[f.x], m.positions[f.z] - m.positions[f.x]);
@@ -164,7 +164,7 @@ TEST(PackRoundTrip, MeshesComeBackWithinTheGrid) {
   }
 }
 
-TEST(PackRoundTrip, TheSameBytesEveryTime) {
+TEST(PackRoundTrip, WritingIsDeterministic) {
   const Written a = serialize(smallScene(), {}), b = serialize(smallScene(), {});
   EXPECT_TRUE(a.bytes == b.bytes);
   Scene other = smallScene();
@@ -172,7 +172,7 @@ TEST(PackRoundTrip, TheSameBytesEveryTime) {
   EXPECT_FALSE(a.bytes == serialize(other, {}).bytes);
 }
 
-TEST(PackRoundTrip, ASecondImplementationWritesTheSameFile) {
+TEST(PackRoundTrip, SecondImplementationWritesTheSameFile) {
   const Written written = serialize(smallScene(), {});
   EXPECT_TRUE(test::putTogether(test::takenApart(written.bytes)) == written.bytes);
 }
@@ -201,7 +201,7 @@ TEST(PackRoundTrip, LayoutIsThatOfTheDocument) {
   EXPECT_EQ(sections[7].bytes.size(), 40u + 2 * 64 + reasons());
 }
 
-TEST(PackRoundTrip, EncodingsComeBack) {
+TEST(PackRoundTrip, Encodings) {
   const Written written = serialize(smallScene(), {});
   const Pack pack = parse(written.bytes, "test");
   ASSERT_TRUE(pack.encodings.known());
@@ -224,7 +224,7 @@ TEST(PackRoundTrip, EncodingsComeBack) {
   EXPECT_FALSE(pack.hasSourceMap());
 }
 
-TEST(PackRoundTrip, TheMapToTheSourceIsKeptOnRequest) {
+TEST(PackRoundTrip, SourceMapIsStoredOnRequest) {
   Scene scene = smallScene();
   WriteSettings settings;
   settings.keepMap = true;
@@ -240,10 +240,10 @@ TEST(PackRoundTrip, TheMapToTheSourceIsKeptOnRequest) {
     const std::size_t source = mesh.sourceVertices[i] / 10 - 1;
     EXPECT_LT(glm::distance(mesh.positions[i], scene.meshes[0].positions[source]), 1e-5f);
   }
-  // Without a map of its own a mesh's vertices are counted as they came.
+  // The vertices of a mesh without a source map are numbered in input order.
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_LT(glm::distance(sheet.positions[i], scene.meshes[1].positions[sheet.sourceVertices[i]]), 1e-5f);
-  // It is optional, and nothing else depends on it.
+  // The section is optional; no other section depends on it.
   std::vector<test::RawSection> sections = test::takenApart(written.bytes);
   EXPECT_EQ(test::section(sections, "SMAP").flags, kOptional);
   EXPECT_EQ(test::section(sections, "SMAP").bytes.size(), 4u * (4 + 4 + 4 + 2));
@@ -251,7 +251,7 @@ TEST(PackRoundTrip, TheMapToTheSourceIsKeptOnRequest) {
   EXPECT_EQ(canonicalGeometryHash(parse(test::putTogether(sections), "test").scene), canonicalGeometryHash(pack.scene));
 }
 
-// All the settings of one number of bits.
+// Settings with this number of position bits.
 WriteSettings withBits(int positionBits, int normalBits) {
   WriteSettings settings;
   settings.bounds.positionBits = positionBits;
@@ -267,7 +267,7 @@ TEST(PackRoundTrip, ConstantEnvironmentHasNoTexels) {
 }
 
 TEST(PackRoundTrip, EqualPositionsOfDifferentMeshesDecodeEqual) {
-  // Two strips that touch along y = 0.1, at points that no grid holds.
+  // Two strips that touch along y = 0.1, at points that are on no grid.
   Scene scene = smallScene();
   scene.meshes.clear();
   constexpr std::uint32_t kPoints = 200;
@@ -294,7 +294,7 @@ TEST(PackRoundTrip, EqualPositionsOfDifferentMeshesDecodeEqual) {
   }
 }
 
-TEST(PackRoundTrip, MoreBitsComeNearer) {
+TEST(PackRoundTrip, MoreBitsReduceTheError) {
   const Written coarse = serialize(smallScene(), withBits(8, 6)), fine = serialize(smallScene(), withBits(20, 12));
   EXPECT_GT(coarse.meshes[0].deviation.normalMaxDegrees, fine.meshes[0].deviation.normalMaxDegrees);
   EXPECT_LE(coarse.meshes[0].deviation.positionMax, 3.0 / 255 * 0.9);
@@ -302,7 +302,7 @@ TEST(PackRoundTrip, MoreBitsComeNearer) {
   EXPECT_EQ(fine.meshes.size(), 2u);
 }
 
-TEST(PackRoundTrip, CanonicalGeometryHashTellsGeometryAlone) {
+TEST(PackRoundTrip, CanonicalGeometryHashDependsOnGeometryOnly) {
   const auto hash = [](const Scene& scene) {
     return canonicalGeometryHash(parse(serialize(scene, {}).bytes, "t").scene);
   };
@@ -324,13 +324,13 @@ TEST(PackRoundTrip, WrittenFileIsReadBack) {
   EXPECT_EQ(std::filesystem::file_size(path), written.bytes.size());
 }
 
-TEST(PackRoundTrip, WhatCannotBeReadBackIsNotWritten) {
+TEST(PackRoundTrip, InvalidScenesAreNotWritten) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "small.pack";
   const auto refuse = [&](const char* expected, auto change) {
     Scene scene = smallScene();
     change(scene);
-    const std::string error = errorOf([&] { write(path, scene, {}); });
+    const std::string error = errorMessage([&] { write(path, scene, {}); });
     EXPECT_TRUE(contains(error, expected)) << expected << " / " << error;
     EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << expected;
   };
@@ -347,12 +347,12 @@ TEST(PackRoundTrip, WhatCannotBeReadBackIsNotWritten) {
   refuse("orthonormal", [](Scene& s) { s.camera.right.x = 0.5; });
 }
 
-TEST(PackRoundTrip, AFailedWriteKeepsWhatWasThere) {
+TEST(PackRoundTrip, FailedWriteKeepsThePreviousFile) {
   const TemporaryFolder folder;
   const auto path = folder.write("small.pack", "precious");
   Scene scene = smallScene();
   scene.depth = kMaxDepth + 1;
-  EXPECT_NE(errorOf([&] { write(path, scene, {}); }), "");
+  EXPECT_NE(errorMessage([&] { write(path, scene, {}); }), "");
   std::ifstream stream(path);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   EXPECT_EQ(text, "precious");

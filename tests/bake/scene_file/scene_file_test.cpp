@@ -1,4 +1,4 @@
-// scene.json: every key of bake/SCENE.md, and errors for everything else.
+// Reading scene.json: every key of bake/SCENE.md, and errors for unknown keys and invalid values.
 #include "bake/scene_file/scene_file.h"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace {
 
 using nlohmann::json;
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 using test::TemporaryFolder;
 
-// What is required and nothing else.
+// A scene with the required keys only.
 json minimal() {
   return json::parse(R"({
     "malus": 1, "name": "plain",
@@ -33,7 +33,7 @@ SceneDescription readText(const std::string& text) {
 
 SceneDescription readJson(const json& value) { return readText(value.dump()); }
 
-// The error of the minimal scene with the value at a JSON pointer set to this text of JSON, or removed.
+// Returns the error of the minimal scene with the value at a JSON pointer set to this JSON text, or removed.
 std::string errorWith(const char* pointer, const char* value) {
   json scene = minimal();
   if (value == nullptr) {
@@ -42,7 +42,7 @@ std::string errorWith(const char* pointer, const char* value) {
   } else {
     scene[json::json_pointer(pointer)] = json::parse(value);
   }
-  return errorOf([&] { readJson(scene); });
+  return errorMessage([&] { readJson(scene); });
 }
 
 std::string errorOfMaterial(const char* value) { return errorWith("/materials/floor", value); }
@@ -174,14 +174,15 @@ TEST(SceneFile, MisspeltKeysNameTheNearest) {
   }
   json scene = minimal();
   scene["environment"] = {{"radiance", {1, 1, 1}}, {"ambientIradiance", 1}};
-  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }),
+  EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }),
                        "environment.ambientIradiance: unknown key; expected 'ambientIrradiance'"));
   scene = minimal();
   scene["lights"] = json::parse(R"([{"type": "point", "position": [0,0,0], "intensity": [1,1,1], "intensityy": 1}])");
-  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "lights[0].intensityy: unknown key; expected 'intensity'"));
+  EXPECT_TRUE(
+      contains(errorMessage([&] { readJson(scene); }), "lights[0].intensityy: unknown key; expected 'intensity'"));
   scene = minimal();
   scene["meshes"][0]["instances"] = json::parse(R"([{}, {"rotate": [0, 0, 0], "translat": [0, 0, 0]}])");
-  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "meshes[0].instances[1]."));
+  EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }), "meshes[0].instances[1]."));
 }
 
 TEST(SceneFile, KeysOfAnotherKindAreUnknown) {
@@ -192,7 +193,7 @@ TEST(SceneFile, KeysOfAnotherKindAreUnknown) {
                        "highlight: unknown key"));
   json scene = minimal();
   scene["environment"] = {{"radiance", {1, 1, 1}}, {"scale", 1}};
-  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "environment.scale: unknown key"));
+  EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }), "environment.scale: unknown key"));
 }
 
 TEST(SceneFile, Ranges) {
@@ -271,36 +272,36 @@ TEST(SceneFile, Materials) {
   EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "paint", "albedo": 1, "highlight": {"strength": 1}})"), "exponent"));
 }
 
-pack::Material materialOf(const char* text) {
+pack::Material parseMaterial(const char* text) {
   json scene = minimal();
   scene["materials"]["floor"] = json::parse(text);
   return readJson(scene).materials[0];
 }
 
-TEST(SceneFile, WhatFewMaterialsHave) {
+TEST(SceneFile, OptionalMaterialProperties) {
   using Kind = pack::MaterialKind;
-  pack::Material m = materialOf(R"({"type": "glass", "eta": 1.5, "absorption": [1, 2, 3], "outsideAbsorption": 4,
+  pack::Material m = parseMaterial(R"({"type": "glass", "eta": 1.5, "absorption": [1, 2, 3], "outsideAbsorption": 4,
                                     "coating": {"eta": 1.38, "thicknessNm": 96.4}})");
   EXPECT_EQ(m.absorption, glm::dvec3(1, 2, 3));
   EXPECT_EQ(m.outsideAbsorption, glm::dvec3(4));
   EXPECT_EQ(m.coating.eta, glm::dvec3(1.38));
   EXPECT_EQ(m.coating.thicknessNm, 96.4);
-  EXPECT_EQ(materialOf(R"({"type": "metal", "preset": "gold", "roughness": 0.25})").roughness, 0.25);
-  m = materialOf(R"({"type": "emitter", "radiance": [1, 1, 1], "polarization": {"axis": [0, 3, 4]}})");
+  EXPECT_EQ(parseMaterial(R"({"type": "metal", "preset": "gold", "roughness": 0.25})").roughness, 0.25);
+  m = parseMaterial(R"({"type": "emitter", "radiance": [1, 1, 1], "polarization": {"axis": [0, 3, 4]}})");
   EXPECT_EQ(m.axis, glm::dvec3(0, 0.6, 0.8));
   EXPECT_EQ(m.polarization, 1);
-  m = materialOf(R"({"type": "polarizer", "axis": [0, 2, 0], "transmittanceCrossed": 0.01})");
+  m = parseMaterial(R"({"type": "polarizer", "axis": [0, 2, 0], "transmittanceCrossed": 0.01})");
   EXPECT_EQ(m.kind, Kind::polarizer);
   EXPECT_EQ(m.axis, glm::dvec3(0, 1, 0));
   EXPECT_EQ(m.transmittanceParallel, glm::dvec3(1));
   EXPECT_EQ(m.transmittanceCrossed, glm::dvec3(0.01));
-  m = materialOf(
+  m = parseMaterial(
       R"({"type": "wave-plate", "axis": [1, 0, 0], "retardanceDegrees": [80, 90, 100], "transmittance": 0.9})");
   EXPECT_EQ(m.kind, Kind::wavePlate);
   EXPECT_EQ(m.retardanceDegrees, glm::dvec3(80, 90, 100));
   EXPECT_EQ(m.transmittanceParallel, glm::dvec3(0.9));
   EXPECT_EQ(m.transmittanceCrossed, glm::dvec3(0.9));
-  EXPECT_TRUE(materialOf(R"({"type": "lambert", "albedo": 1})").isPlain());
+  EXPECT_TRUE(parseMaterial(R"({"type": "lambert", "albedo": 1})").isPlain());
 
   for (const char* bad :
        {R"({"type": "glass", "eta": 1.5, "absorption": -1})", R"({"type": "metal", "preset": "gold", "absorption": 1})",
@@ -325,7 +326,7 @@ TEST(SceneFile, Maps) {
     "gold": {"type": "metal", "preset": "gold", "etaMap": {"image": "n.exr"}, "kMap": {"image": "k.exr"},
              "projection": {"u": [1, 0, 0], "v": [0, 1, 0]}}})");
   const SceneDescription read = readJson(scene);
-  ASSERT_EQ(read.textures.size(), 4u);  // one picture in one use is one texture
+  ASSERT_EQ(read.textures.size(), 4u);  // equal image and use share a texture
   const auto material = [&](const char* name) {
     for (const pack::Material& m : read.materials)
       if (m.name == name) return m;
@@ -353,7 +354,7 @@ TEST(SceneFile, Maps) {
                        "projection"));
 }
 
-// Names of keys from before they were renamed.
+// Former names of keys.
 TEST(SceneFile, DeprecatedKeys) {
   json scene = minimal();
   scene["environment"] = {{"radiance", {1, 1, 1}}, {"diffuseFill", 0.5}};
@@ -378,7 +379,7 @@ TEST(SceneFile, DeprecatedKeys) {
         << name;
   EXPECT_TRUE(readJson(minimal()).deprecations.empty());
   scene["meshes"][0]["openSurface"] = true;
-  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "meshes[0].sheet"));
+  EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }), "meshes[0].sheet"));
 }
 
 TEST(SceneFile, Sky) {
@@ -391,20 +392,20 @@ TEST(SceneFile, Sky) {
        {R"({"radiance": [1, 1, 1], "sky": {}})", R"({"radiance": [1, 1, 1], "sky": {"sun": [0, 0, 0]}})",
         R"({"radiance": [1, 1, 1], "sky": {"sun": [0, 1, 0], "maxDegree": 1.5}})"}) {
     scene["environment"] = json::parse(bad);
-    EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "environment.sky")) << bad;
+    EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }), "environment.sky")) << bad;
   }
 }
 
-TEST(SceneFile, MeshesNameKnownMaterialsAndDiffer) {
+TEST(SceneFile, MeshesNeedKnownMaterialsAndUniqueNames) {
   const std::string error = errorWith("/meshes/0/material", "\"flor\"");
   EXPECT_TRUE(contains(error, "meshes[0].material: unknown material 'flor'; expected 'floor'")) << error;
   json scene = minimal();
   scene["meshes"].push_back(scene["meshes"][0]);
-  EXPECT_TRUE(contains(errorOf([&] { readJson(scene); }), "meshes[1].name: occurs twice"));
+  EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }), "meshes[1].name: occurs twice"));
 }
 
-TEST(SceneFile, BadJsonTellsTheLine) {
-  const auto error = [](const std::string& text) { return errorOf([&] { readText(text); }); };
+TEST(SceneFile, InvalidJsonReportsTheLine) {
+  const auto error = [](const std::string& text) { return errorMessage([&] { readText(text); }); };
   const std::string third = error("{\n  \"malus\": 1,\n  \"name\": oops\n}\n");
   EXPECT_TRUE(contains(third, "scene.json:3: is not JSON")) << third;
   EXPECT_TRUE(contains(error(""), "scene.json:1: is not JSON"));
@@ -414,18 +415,18 @@ TEST(SceneFile, BadJsonTellsTheLine) {
   EXPECT_TRUE(contains(error("{\"name\": \"\xff\"}"), "is not JSON"));
 }
 
-TEST(SceneFile, KeysThatAreThereTwice) {
+TEST(SceneFile, DuplicateKeys) {
   std::string text = minimal().dump();
   text.insert(1, R"("depth": 2, )");
-  const std::string error = errorOf([&] { readText(text); });
+  const std::string error = errorMessage([&] { readText(text); });
   EXPECT_TRUE(contains(error, "key 'depth' occurs twice")) << error;
-  EXPECT_EQ(errorWith("/title", "\"name\""), "");  // a value may be called like a key
+  EXPECT_EQ(errorWith("/title", "\"name\""), "");  // a value may equal a key
 }
 
 TEST(SceneFile, NumbersBeyondDoubles) {
   std::string text = minimal().dump();
   text.insert(1, R"("exposureEv": 1e999, )");
-  const std::string error = errorOf([&] { readText(text); });
+  const std::string error = errorMessage([&] { readText(text); });
   EXPECT_TRUE(contains(error, "scene.json")) << error;
   EXPECT_TRUE(contains(error, "1e999")) << error;
 }
@@ -433,12 +434,12 @@ TEST(SceneFile, NumbersBeyondDoubles) {
 TEST(SceneFile, DeepNestingIsAnError) {
   constexpr std::size_t kDeep = 1000000;
   const std::string text = R"({"name": )" + std::string(kDeep, '[') + std::string(kDeep, ']') + "}";
-  const std::string error = errorOf([&] { readText(text); });
+  const std::string error = errorMessage([&] { readText(text); });
   EXPECT_TRUE(contains(error, "nested too deep")) << error.substr(0, 200);
 }
 
 TEST(SceneFile, MissingFile) {
-  EXPECT_TRUE(contains(errorOf([] { readSceneFile("/nowhere/scene.json"); }), "/nowhere/scene.json: cannot open"));
+  EXPECT_TRUE(contains(errorMessage([] { readSceneFile("/nowhere/scene.json"); }), "/nowhere/scene.json: cannot open"));
 }
 
 }  // namespace

@@ -7,19 +7,19 @@ namespace {
 
 using nlohmann::json;
 using test::contains;
-using test::errorOf;
+using test::errorMessage;
 
-// The error of reading this object in this way.
+// Returns the error of reading this object with `read`.
 template <class Read>
 std::string errorIn(const char* text, Read read) {
   const json value = json::parse(text);
-  return errorOf([&] {
+  return errorMessage([&] {
     StrictObject object(value, "file.json", "camera");
     read(object);
   });
 }
 
-TEST(StrictObject, ValuesComeThrough) {
+TEST(StrictObject, Values) {
   const json value = json::parse(R"({"t": "x", "f": true, "n": 2.5, "i": 7, "v": [1, 2, 3], "s": 4, "o": {"a": 1}})");
   StrictObject object(value, "file.json", "");
   EXPECT_EQ(object.text("t"), "x");
@@ -112,8 +112,8 @@ TEST(StrictObject, Lists) {
   StrictObject object(value, "file.json", "camera");
   EXPECT_EQ(object.listSize("list", "objects"), 2u);
   EXPECT_EQ(object.element("list", 0).integer("a", 1, 1), 1u);
-  EXPECT_TRUE(contains(errorOf([&] { object.element("list", 1); }), "camera.list[1]; expected an object"));
-  EXPECT_TRUE(contains(errorOf([&] { object.listSize("number", "objects"); }), "camera.number: must be a list"));
+  EXPECT_TRUE(contains(errorMessage([&] { object.element("list", 1); }), "camera.list[1]; expected an object"));
+  EXPECT_TRUE(contains(errorMessage([&] { object.listSize("number", "objects"); }), "camera.number: must be a list"));
 }
 
 TEST(StrictObject, LongValuesAreShortened) {

@@ -1,6 +1,6 @@
 // Boundary loops and crease normals by meshprep's edge list and by OpenMesh's half-edge structure, on the same clean
-// torus, and the conversion that the half-edge structure needs first. Two strips of the torus are left out, so that it
-// has boundaries.
+// torus, and the conversion required by the half-edge structure. Two strips of the torus are removed to create
+// boundaries.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

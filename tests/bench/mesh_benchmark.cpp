@@ -1,5 +1,5 @@
-// Time, memory and size of mesh preparation and packs, by the number of triangles: a bumpy closed surface with normals,
-// from an OBJ file to the first ray. Times are a benchmark's: no test judges them.
+// Time, memory and size of mesh preparation and packs by number of triangles, from an OBJ file to the first ray. The
+// mesh is a bumpy closed surface with normals. No test checks the times.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using bench::preparedTorus;
 using bench::torusObj;
 
-pack::Scene sceneOf(std::int64_t triangles) {
+pack::Scene makeScene(std::int64_t triangles) {
   const prep::Mesh mesh = preparedTorus(triangles);
   pack::Scene scene;
   scene.name = "bench";
@@ -40,7 +40,8 @@ pack::Scene sceneOf(std::int64_t triangles) {
 void countMemory(benchmark::State& state) {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
-  state.counters["peakMb"] = static_cast<double>(usage.ru_maxrss) / 1024;  // of the process so far: run one size alone
+  state.counters["peakMb"] =
+      static_cast<double>(usage.ru_maxrss) / 1024;  // peak of the process: run one size at a time
 }
 
 void prepare(benchmark::State& state) {
@@ -55,7 +56,7 @@ void prepare(benchmark::State& state) {
 }
 
 void write(benchmark::State& state) {
-  const pack::Scene scene = sceneOf(state.range(0));
+  const pack::Scene scene = makeScene(state.range(0));
   pack::Written written;
   for ([[maybe_unused]] auto _ : state) written = pack::serialize(scene, {});
   const auto triangles = static_cast<double>(scene.triangleCount());
@@ -71,9 +72,9 @@ void write(benchmark::State& state) {
   countMemory(state);
 }
 
-// From the pack's bytes to what the renderers draw from, the acceleration structure left out.
+// From the bytes of the pack to the RenderScene, without the acceleration structure.
 void load(benchmark::State& state) {
-  const std::vector<std::byte> bytes = pack::serialize(sceneOf(state.range(0)), {}).bytes;
+  const std::vector<std::byte> bytes = pack::serialize(makeScene(state.range(0)), {}).bytes;
   for ([[maybe_unused]] auto _ : state) {
     const pack::Pack pack = pack::parse(bytes, "bench");
     benchmark::DoNotOptimize(render::makeRenderScene(pack.scene));
@@ -82,7 +83,7 @@ void load(benchmark::State& state) {
 }
 
 void accelerate(benchmark::State& state) {
-  const render::RenderScene scene = render::makeRenderScene(sceneOf(state.range(0)));
+  const render::RenderScene scene = render::makeRenderScene(makeScene(state.range(0)));
   for ([[maybe_unused]] auto _ : state) {
     const embree::Bvh bvh(scene, 0);
     benchmark::DoNotOptimize(bvh.nearest({0, 0, 5}, {0, 0, -1}));

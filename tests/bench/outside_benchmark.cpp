@@ -1,9 +1,9 @@
-// The same mesh with what others offer: a plain binary PLY file, draco_encoder and gltfpack, where they are installed.
-// Sizes are bytes a triangle of the whole file; times are those of the whole command, files included.
+// The same mesh with other formats: a binary PLY file, draco_encoder and gltfpack, if they are installed. Sizes are
+// bytes per triangle of the whole file; times are those of the whole command, including file access.
 //
-// Errors are no better known than this: of draco_encoder's file, which may have another order, measured, as the
-// distance of each source vertex to the nearest decoded one; of gltfpack's, computed from its documented quantization,
-// half a step of 2^N - 1 over the largest extent along each axis (its results are not read back).
+// Errors of draco_encoder, which may reorder vertices, are distances of each source vertex to the nearest decoded
+// vertex. Errors of gltfpack are computed from its documented quantization, half a step of 2^N - 1 over the largest
+// extent along each axis; its results are not read back.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file of this process that is removed again.
+// A temporary file, removed by the destructor.
 struct Scratch {
   fs::path path;
   explicit Scratch(std::string_view extension)
@@ -87,7 +87,7 @@ std::vector<glm::vec3> decodedPositions(const fs::path& file) {
   return positions;
 }
 
-// Largest distance of a source vertex to the nearest of `points`, if that is below `cell`; infinite otherwise.
+// Returns the largest distance of a source vertex to the nearest of `points` if it is below `cell`, otherwise infinity.
 double farthest(const std::vector<glm::dvec3>& sources, const std::vector<glm::vec3>& points, double cell) {
   const auto key = [](const glm::dvec3& c) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(c.x) * 73856093 ^
@@ -123,7 +123,7 @@ void plainPly(benchmark::State& state) {
   state.counters["bytesPerTriangle"] = bytesPerTriangle(ply.path, mesh);
 }
 
-// Compression level 7, positions of 20 bits, normals of 13: as ours on this mesh.
+// Compression level 7, positions of 20 bits, normals of 13 bits, as chosen by malus for this mesh.
 void dracoEncoder(benchmark::State& state) {
   if (!isInstalled("draco_encoder")) return state.SkipWithError("draco_encoder is not installed");
   const prep::Mesh mesh = bench::preparedTorus(state.range(0));
@@ -139,7 +139,7 @@ void dracoEncoder(benchmark::State& state) {
   state.counters["positionErrorMicrometres"] = 1e6 * farthest(mesh.positions, decoded, 1e-5 * largestExtent(mesh));
 }
 
-// bits: of positions; options: what asks for them.
+// bits: of positions; options: command line options that select them.
 void gltfpack(benchmark::State& state, int bits, const std::string& options) {
   if (!isInstalled("gltfpack")) return state.SkipWithError("gltfpack is not installed");
   const prep::Mesh mesh = bench::preparedTorus(state.range(0));

@@ -1,4 +1,4 @@
-// The mesh that benchmarks of meshes share: a bumpy closed surface on which nothing repeats.
+// The mesh shared by the mesh benchmarks: a bumpy closed surface without repetitions.
 #pragma once
 
 #include <unistd.h>
@@ -16,7 +16,7 @@
 
 namespace malus::bench {
 
-// In a file of this process: quads, about `triangles` when they are cut.
+// Writes a temporary OBJ file of quads with about `triangles` triangles.
 inline std::filesystem::path torusObj(std::int64_t triangles) {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / fmt::format("malus-bench-{}-{}.obj", ::getpid(), triangles);
@@ -40,7 +40,7 @@ inline std::filesystem::path torusObj(std::int64_t triangles) {
   return path;
 }
 
-// Cleaned, with normals.
+// Returns the cleaned mesh with normals.
 inline prep::Mesh preparedTorus(std::int64_t triangles) {
   prep::Report report;
   return prep::prepare(torusObj(triangles), {}, report);

@@ -1,5 +1,5 @@
-// The optics as they run: float and double, compiled as C++ and by glslang for the device. A typed test over them
-// checks the same claim four times.
+// Backends of the optics: float and double, compiled as C++ and by glslang for the device. A typed test runs on all
+// four.
 #pragma once
 
 #include <cstring>
@@ -96,10 +96,10 @@ inline std::vector<std::string> everyMethod() {
       return mapped<IterativeOut>(g, space::iterativeProbe);                                               \
     }                                                                                                      \
     static std::vector<ChainOut> chains(std::string_view method, const std::vector<ChainIn>& g) {          \
-      return mapped<ChainOut>(g, space::probesOf(method).chain);                                           \
+      return mapped<ChainOut>(g, space::methodProbes(method).chain);                                       \
     }                                                                                                      \
     static std::vector<HandOverOut> handOvers(std::string_view method, const std::vector<HandOverIn>& g) { \
-      return mapped<HandOverOut>(g, space::probesOf(method).handOver);                                     \
+      return mapped<HandOverOut>(g, space::methodProbes(method).handOver);                                 \
     }                                                                                                      \
   };                                                                                                       \
   struct Glsl##Name : Cpp##Name {                                                                          \
@@ -146,9 +146,9 @@ struct BackendNames {
   [[maybe_unused]] constexpr double kUnit = B::kRoundings * double(kEps);      \
   [[maybe_unused]] const auto R = [](oracle::Real x) { return static_cast<real>(x); }
 
-// A path of the oracle as a chain of the optics, rounded; and the path that those rounded numbers make.
+// Converts a path of the oracle to a rounded chain of the optics, and such a chain back to a path.
 template <class B>
-typename B::ChainIn chainOf(const Path& path, double radiance = 1, std::size_t colour = 1) {
+typename B::ChainIn chainFromPath(const Path& path, double radiance = 1, std::size_t colour = 1) {
   using real = typename B::real;
   typename B::ChainIn chain{};
   chain.d = toReal3<B>(path.d[0]);
@@ -165,7 +165,7 @@ typename B::ChainIn chainOf(const Path& path, double radiance = 1, std::size_t c
   return chain;
 }
 template <class Chain>
-Path pathOf(const Chain& chain) {
+Path pathFromChain(const Chain& chain) {
   Path path;
   path.d.push_back(oracle::unit(toVec(chain.d)));
   for (std::size_t i = 0; i < static_cast<std::size_t>(chain.count); ++i) {

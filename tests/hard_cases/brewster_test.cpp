@@ -1,4 +1,4 @@
-// Brewster's angle: r_p vanishes as a difference of nearly equal numbers, and two mirrors can put light out.
+// Brewster's angle: r_p vanishes as a difference of nearly equal numbers, and two mirrors can extinguish light.
 #include "tests/hard_cases/oracle_checks.h"
 
 namespace malus::test {
@@ -19,7 +19,7 @@ TYPED_TEST(Brewster, NearBrewsterAngle) {
       in.push_back({R(std::cos(std::atan(Real(n)) + off)), 1, R(n), 0, B::splat3(0)});
   const auto out = B::surfaces(in);
   for (std::size_t i = 0; i < in.size(); ++i) {
-    // The cosine's own rounding is off the angle by more than a relative error could say: absolute, 2 eps.
+    // The cosine is rounded, so that r_p is not exactly 0: the bound is absolute, 2 eps.
     const oracle::Powers want = oracle::powers(in[i].c, 1, Real(in[i].n2));
     EXPECT_CLOSE(out[i].dielectric.rp, want.rp, 2 * kUnit) << in[i].c;
     EXPECT_CLOSE(out[i].dielectric.xRe, want.x.real(), 2 * kUnit) << in[i].c;
@@ -48,7 +48,7 @@ TYPED_TEST(Brewster, MalussLaw) {
   Draw draw(102);
   std::vector<typename B::ChainIn> chains;
   for (int degrees = 0; degrees <= 90; degrees += 5)
-    for (int i = 0; i < 20; ++i) chains.push_back(chainOf<B>(crossed(draw, degrees * kPi / 180)));
+    for (int i = 0; i < 20; ++i) chains.push_back(chainFromPath<B>(crossed(draw, degrees * kPi / 180)));
   const Real rs = 25 / 169.0L, parallel = rs * rs / 2;  // ((n^2 - 1)/(n^2 + 1))^2 at n = 1.5
   for (const std::string& method : everyMethod()) {
     const auto out = B::chains(method, chains);
@@ -64,7 +64,7 @@ TYPED_TEST(Brewster, MalussLaw) {
       } else if (method == "fresnel") {
         EXPECT_CLOSE(got / parallel, 0.5, 12 * kUnit) << "the same at every angle";
       } else if (method == "sp") {
-        EXPECT_CLOSE(got / parallel, std::abs(cosine), 24 * kUnit) << "|cos| in place of cos^2";
+        EXPECT_CLOSE(got / parallel, std::abs(cosine), 24 * kUnit) << "|cos| instead of cos^2";
       } else {
         EXPECT_TRUE(std::isfinite(got) && got >= 0) << method;
       }
@@ -84,22 +84,22 @@ TYPED_TEST(Brewster, BouncesAfterExtinction) {
   for (int i = 0; i < 200; ++i) {
     // The extinguishing pair is the last one that the light meets (at the camera) or the first (at the source).
     Path path = crossed(draw, kPi / 2, more[static_cast<std::size_t>(i % 3)]);
-    chains.push_back(chainOf<B>(path, i % 2 == 0 ? 1 : 1e6));
+    chains.push_back(chainFromPath<B>(path, i % 2 == 0 ? 1 : 1e6));
     // The same interfaces in reverse order.
     Path back;
     back.d.push_back(oracle::along(path.d.back(), -1, path.d.back(), 0));
     for (std::size_t j = path.bounces.size(); j-- > 0;) extend(back, path.bounces[j], path.bounces[j].n);
-    chains.push_back(chainOf<B>(back));
+    chains.push_back(chainFromPath<B>(back));
   }
   for (const std::string& method : everyMethod()) {
     const auto out = B::chains(method, chains);
     for (std::size_t i = 0; i < chains.size(); ++i) {
-      for (const Real v : stokesOf(out[i])) ASSERT_TRUE(std::isfinite(v)) << method;
+      for (const Real v : stokesVector(out[i])) ASSERT_TRUE(std::isfinite(v)) << method;
       const Real radiance = chains[i].radiance;
       EXPECT_GT(out[i].s0, -8 * kUnit * radiance) << method;
       if (carriesStokes(method)) {
         const Real allowed = (30 * kUnit + (method == "stokes-half" ? 1e-4 : 0)) * radiance;
-        EXPECT_LT(largestDifference(stokesOf(out[i]), oracleStokes(chains[i])), allowed) << method << ' ' << i;
+        EXPECT_LT(largestDifference(stokesVector(out[i]), oracleStokes(chains[i])), allowed) << method << ' ' << i;
       }
     }
   }

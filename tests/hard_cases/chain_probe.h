@@ -1,8 +1,8 @@
-// A chain in one method, whose file comes before this one.
+// A chain in one method, whose file is included before this one.
 
-// |(S1, S2, S3)| - S0, by quotients, whose squares neither overflow nor vanish. Under 1e-30 a float's S1 to S3 have
-// lost their bits to the end of its range.
-FN real excessOf(Stokes s) {
+// |(S1, S2, S3)| - S0, computed by quotients, whose squares neither overflow nor underflow. Under 1e-30 a float's S1 to
+// S3 have lost their bits to the end of its range.
+FN real polarizationExcess(Stokes s) {
   real s0 = maxR(s.s0.x, R(1e-30));
   real a = s.s1.x / s0;
   real b = s.s2.x / s0;
@@ -50,7 +50,7 @@ FN ChainOut chainProbe(GIVEN_PARAMETER(ChainIn)) {
     p = payloadFromSurface(sent, d[i], s);
     Stokes after = payloadStokes(p, d[i]);
     if (before.s0.x > R(1e-30)) {
-      r.gained = maxR(r.gained, (excessOf(after) - maxR(excessOf(before), R(0.0))) / before.s0.x);
+      r.gained = maxR(r.gained, (polarizationExcess(after) - maxR(polarizationExcess(before), R(0.0))) / before.s0.x);
       r.grown = maxR(r.grown, (after.s0.x - before.s0.x) / before.s0.x);
     }
   }

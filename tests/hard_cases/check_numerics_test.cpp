@@ -35,7 +35,7 @@ namespace {
 
 using pack::MaterialKind;
 
-// A gold floor that mirrors an emitter which hangs before a dim sky.
+// A gold floor that reflects an emitter in front of a dim sky.
 pack::Scene lampOverGold(double radiance) {
   pack::Scene scene = test::emptyScene(3);
   scene.width = 40;
@@ -79,7 +79,7 @@ TEST(CheckNumerics, ReportsTheSourceOfANan) {
         ASSERT_GT(found.faults.count, 0u);
         ASSERT_TRUE(found.faults.first.has_value());
         const gpu::Fault& f = *found.faults.first;
-        // The emitter, met after one bounce on the floor: not the floor that only passes it on.
+        // The emitter, hit after one bounce on the floor, is reported, not the floor.
         EXPECT_EQ(f.kind, gpu::kNotFinite);
         EXPECT_EQ(f.material, 1u);
         EXPECT_EQ(f.bounce, 1);
@@ -115,14 +115,14 @@ TEST(CheckNumerics, ReportsTheSurface) {
   for (const Found& found : everyRenderer(scene, "stokes")) {
     SCOPED_TRACE(found.renderer);
     ASSERT_TRUE(found.faults.first.has_value());
-    EXPECT_EQ(found.faults.first->material, 0u) << "the metal itself, not what it mirrors";
+    EXPECT_EQ(found.faults.first->material, 0u) << "the metal, not the reflected surface";
     EXPECT_EQ(found.faults.first->bounce, 0);
   }
 }
 
 TEST(CheckNumerics, AcceptsRounding) {
-  // The check on its own. slack: the excess that the light arriving at the surface explains.
-  const auto kindOf = [](float s0, float s1, float s2, float s3, float slack) {
+  // slack: excess explained by the light that arrives at the surface.
+  const auto classify = [](float s0, float s1, float s2, float s3, float slack) {
     f32::Checker checker;
     f32::Stokes s = f32::stokesUnpolarized(glm::vec3(s0));
     s.s1 = glm::vec3(s1);
@@ -132,19 +132,19 @@ TEST(CheckNumerics, AcceptsRounding) {
     return checker.found;
   };
   const float eps = std::numeric_limits<float>::epsilon(), infinity = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(kindOf(1, 1, 0, 0, 0), gpu::kNoFault);
-  EXPECT_EQ(kindOf(1, 0, 0.6f, -0.8f, 0), gpu::kNoFault);
-  EXPECT_EQ(kindOf(1, 1 + 3 * eps, 0, 0, 0), gpu::kNoFault);
-  EXPECT_EQ(kindOf(1, 1 + 8 * eps, 0, 0, 0), gpu::kOverPolarized);
-  EXPECT_EQ(kindOf(1, 0, 0.8f, -0.8f, 0), gpu::kOverPolarized);
-  EXPECT_EQ(kindOf(1e30f, 2e30f, 0, 0, 0), gpu::kOverPolarized) << "no square overflows";
-  EXPECT_EQ(kindOf(1e30f, 0, 0, 1e30f, 0), gpu::kNoFault);
+  EXPECT_EQ(classify(1, 1, 0, 0, 0), gpu::kNoFault);
+  EXPECT_EQ(classify(1, 0, 0.6f, -0.8f, 0), gpu::kNoFault);
+  EXPECT_EQ(classify(1, 1 + 3 * eps, 0, 0, 0), gpu::kNoFault);
+  EXPECT_EQ(classify(1, 1 + 8 * eps, 0, 0, 0), gpu::kOverPolarized);
+  EXPECT_EQ(classify(1, 0, 0.8f, -0.8f, 0), gpu::kOverPolarized);
+  EXPECT_EQ(classify(1e30f, 2e30f, 0, 0, 0), gpu::kOverPolarized) << "no square overflows";
+  EXPECT_EQ(classify(1e30f, 0, 0, 1e30f, 0), gpu::kNoFault);
   // Nearly extinct light has the rounding error of the brighter light that it comes from.
-  EXPECT_EQ(kindOf(1e-9f, -2e-9f, 0, 0, 4 * eps * 0.1f), gpu::kNoFault);
-  EXPECT_EQ(kindOf(-1e-9f, 0, 0, 0, 4 * eps * 0.1f), gpu::kNoFault);
-  EXPECT_EQ(kindOf(-1e-6f, 0, 0, 0, 4 * eps * 0.1f), gpu::kNegative);
-  EXPECT_EQ(kindOf(1, 0, infinity, 0, 0), gpu::kNotFinite);
-  EXPECT_EQ(kindOf(std::numeric_limits<float>::quiet_NaN(), 0, 0, 0, 0), gpu::kNotFinite);
+  EXPECT_EQ(classify(1e-9f, -2e-9f, 0, 0, 4 * eps * 0.1f), gpu::kNoFault);
+  EXPECT_EQ(classify(-1e-9f, 0, 0, 0, 4 * eps * 0.1f), gpu::kNoFault);
+  EXPECT_EQ(classify(-1e-6f, 0, 0, 0, 4 * eps * 0.1f), gpu::kNegative);
+  EXPECT_EQ(classify(1, 0, infinity, 0, 0), gpu::kNotFinite);
+  EXPECT_EQ(classify(std::numeric_limits<float>::quiet_NaN(), 0, 0, 0, 0), gpu::kNotFinite);
 }
 
 TEST(CheckNumerics, ReportsTheEnvironment) {

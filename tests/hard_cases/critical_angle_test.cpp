@@ -18,7 +18,7 @@ TYPED_TEST(CriticalAngle, NearCriticalAngle) {
     const Real angle = std::asin(Real(R(n2)) / Real(R(n1)));
     for (const Real off : {0.0L, 1e-6L, -1e-6L, 1e-7L, -1e-7L, 1e-4L, -1e-4L})
       in.push_back({R(std::cos(angle + off)), R(n1), R(n2), 0, B::splat3(0)});
-    // And every cosine of the type within a few steps.
+    // All cosines of the type within a few steps.
     real c = R(std::cos(angle));
     for (int i = 0; i < 4; ++i) c = std::nextafter(c, real(0));
     for (int i = 0; i < 9; ++i, c = std::nextafter(c, real(1))) in.push_back({c, R(n1), R(n2), 0, B::splat3(0)});
@@ -62,7 +62,7 @@ TYPED_TEST(CriticalAngle, FresnelRhombMakesCircularLight) {
   // Two total reflections at 53.2582 degrees in n = 1.5 delay by 45 degrees each; the light, polarized at 45
   // degrees to them by a Brewster mirror outside, leaves circular. Entering and leaving at normal incidence.
   const Real low = 53.2582L * kPi / 180;
-  // The angle in full: tan(45/2 degrees) = cos sqrt(sin^2 - 1/n^2)/sin^2, by Newton's method on sin^2.
+  // The angle in full precision: tan(45/2 degrees) = cos sqrt(sin^2 - 1/n^2)/sin^2, by Newton's method on sin^2.
   Real x = std::sin(low) * std::sin(low);
   for (int i = 0; i < 60; ++i) {
     const auto f = [](Real y) { return std::sqrt((1 - y) * (y - 1 / 2.25L)) / y - std::tan(kPi / 8); };
@@ -86,13 +86,13 @@ TYPED_TEST(CriticalAngle, FresnelRhombMakesCircularLight) {
     const Vec at45 = oracle::unit(oracle::along(s, 1, p, i % 2 == 0 ? 1 : -1));
     const Real c = 1 / std::sqrt(3.25L);
     extend(path, glassMirror(), oracle::along(d, -c, at45, std::sqrt(1 - c * c)));
-    chains.push_back(chainOf<B>(path));
+    chains.push_back(chainFromPath<B>(path));
   }
   for (const std::string method : {"stokes", "stokes-half"}) {
     const auto out = B::chains(method, chains);
     for (std::size_t i = 0; i < chains.size(); ++i) {
       const Real degree = std::abs(Real(out[i].s3)) / out[i].s0;
-      // Sixty roundings of the angle, and 16 bits a number.
+      // Sixty roundings of the angle, and 16 bits per number.
       EXPECT_CLOSE(degree, 1, 1e-6L + 8 * kUnit + (method == "stokes-half" ? 1e-3 : 0)) << method;
       EXPECT_EQ(out[i].s3 > 0, oracleStokes(chains[i])[3] > 0) << "handedness";
       EXPECT_LT(std::hypot(Real(out[i].s1), Real(out[i].s2)) / out[i].s0,

@@ -1,5 +1,5 @@
 // Frames where their construction degenerates: parallel and antiparallel directions, the axes, and the jump of the
-// canonical frame, which both ends of a ray must put in the same place.
+// canonical frame, which must be at the same direction for both ends of a ray.
 #include "tests/hard_cases/oracle_checks.h"
 
 namespace malus::test {
@@ -88,7 +88,7 @@ TYPED_TEST(Frames, BothEndsOfARayAgree) {
 
 TYPED_TEST(Frames, CanonicalFrameJumpDoesNotShow) {
   MALUS_BACKEND_TYPES;
-  // A ray whose z goes through 0: its frame jumps, the light at the camera does not.
+  // A ray whose z passes through 0: its frame jumps, the light at the camera does not.
   std::vector<typename B::ChainIn> chains;
   for (const Real z : {0.0L, -0.0L, 1e-38L, -1e-38L, 1e-20L, -1e-20L, 1e-8L, -1e-8L}) {
     Path path;
@@ -97,12 +97,12 @@ TYPED_TEST(Frames, CanonicalFrameJumpDoesNotShow) {
     extend(path, metalMirror(kMetals[0]), oracle::unit(oracle::along(out, 1, path.d[0], -1)));
     extend(path, glassMirror(), oracle::unit({-0.3L, -0.7L, 0.5L}));
     extend(path, metalMirror(kMetals[2]), oracle::unit({0.1L, 0.9L, -0.2L}));
-    chains.push_back(chainOf<B>(path));
+    chains.push_back(chainFromPath<B>(path));
   }
   for (const std::string& method : everyMethod()) {
     const auto out = B::chains(method, chains);
     for (std::size_t i = 1; i < out.size(); ++i)
-      EXPECT_LT(largestDifference(stokesOf(out[i]), stokesOf(out[0])) / out[0].s0,
+      EXPECT_LT(largestDifference(stokesVector(out[i]), stokesVector(out[0])) / out[0].s0,
                 60 * kUnit + 1e-7L + packingLoss(method) + (method == "sp-cosine" || method == "sp-ratio" ? 2e-3L : 0))
           << method << ' ' << i;
   }
@@ -110,8 +110,8 @@ TYPED_TEST(Frames, CanonicalFrameJumpDoesNotShow) {
 
 TYPED_TEST(Frames, LoopsOfMirrorsAreProductsOfHalfTurns) {
   MALUS_BACKEND_TYPES;
-  // Perfect mirrors map a field by 2 n n^T - 1, n along d_out - d_in: back in its direction the light is not back
-  // in its polarization (z -> x -> y -> z rotates it by 90 degrees).
+  // Perfect mirrors map a field by 2 n n^T - 1, n along d_out - d_in: a closed loop of directions
+  // rotates the polarization (z -> x -> y -> z by 90 degrees).
   Draw draw(108);
   std::vector<typename B::IterativeIn> in;
   for (int i = 0; i < 300; ++i) {
@@ -141,7 +141,7 @@ TYPED_TEST(Frames, LoopsOfMirrorsAreProductsOfHalfTurns) {
   }
   const auto out = B::loops(in);
   for (std::size_t i = 0; i < in.size(); ++i) {
-    // A fully polarized field with these Stokes components, and what the rounded normals make of it.
+    // A fully polarized field with these Stokes components, reflected with the rounded normals.
     const Vec d = oracle::unit(toVec(in[i].d)), x = oracle::canonicalX(d), y = oracle::cross(d, x);
     const Vec p = oracle::unit(toVec(in[i].light));
     const Real ex = std::sqrt((1 + p[0]) / 2);
@@ -156,8 +156,9 @@ TYPED_TEST(Frames, LoopsOfMirrorsAreProductsOfHalfTurns) {
       k = oracle::mirrored(k, n);
     }
     const Vec xEnd = oracle::canonicalX(k), yEnd = oracle::cross(k, xEnd);
-    const oracle::Stokes4 want = oracle::stokesOf(oracle::dot(e, xEnd), oracle::dot(e, yEnd)), got = stokesOf(out[i]);
-    // Directions drift by a rounding a mirror, and the frame with them.
+    const oracle::Stokes4 want = oracle::stokesFromField(oracle::dot(e, xEnd), oracle::dot(e, yEnd)),
+                          got = stokesVector(out[i]);
+    // Directions and frames drift by one rounding per mirror.
     EXPECT_LT(largestDifference(got, want), 16 * static_cast<Real>(count) * kUnit) << i;
     EXPECT_CLOSE(std::hypot(std::hypot(got[1], got[2]), got[3]), 1, 8 * static_cast<Real>(count) * kUnit);
   }

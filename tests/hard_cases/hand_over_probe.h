@@ -1,4 +1,4 @@
-// Light handed over in one method, whose file comes before this one.
+// Light passed between two surfaces in one method, whose file is included before this one.
 
 FN HandOverOut handOverProbe(GIVEN_PARAMETER(HandOverIn)) {
   Stokes sent = stokesUnpolarized(GIVEN.radiance);

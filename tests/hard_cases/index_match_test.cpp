@@ -93,7 +93,7 @@ TYPED_TEST(IndexMatch, MetalWithoutAbsorptionIsADielectric) {
 TYPED_TEST(IndexMatch, VacuumInsideGlassInsideWater) {
   MALUS_BACKEND_TYPES;
   Draw draw(105);
-  // Water, glass, a bubble, glass, water: parallel and tilted faces, all of them crossed.
+  // Water, glass, a bubble, glass, water: refraction at parallel and tilted faces.
   std::vector<typename B::ChainIn> chains;
   while (chains.size() < 400) {
     Path path;
@@ -106,12 +106,12 @@ TYPED_TEST(IndexMatch, VacuumInsideGlassInsideWater) {
       if (passes) extend(path, glassWindow(n1, n2), n);
       n = oracle::unit(oracle::along(n, 1, draw.direction(), chains.size() % 2 == 0 ? 0 : 0.1L));
     }
-    if (passes) chains.push_back(chainOf<B>(path));
+    if (passes) chains.push_back(chainFromPath<B>(path));
   }
   for (const std::string method : {"stokes", "stokes-linear", "stokes-half"}) {
     const auto out = B::chains(method, chains);
     for (std::size_t i = 0; i < chains.size(); ++i)
-      EXPECT_LT(largestDifference(stokesOf(out[i]), oracleStokes(chains[i])), 100 * kUnit + 4 * packingLoss(method))
+      EXPECT_LT(largestDifference(stokesVector(out[i]), oracleStokes(chains[i])), 100 * kUnit + 4 * packingLoss(method))
           << method;  // four windows, each magnifies the directions' roundings by up to 1/.3
   }
 }

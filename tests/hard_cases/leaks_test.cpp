@@ -1,6 +1,6 @@
-// Rays aimed at faces, edges and corners of closed meshes, from inside and from outside: how many slip through, and how
-// many meet the surface again that they leave. A box whose front is a grid of squares is seen so that every pixel's ray
-// meets a face's middle, an edge or a corner of the grid exactly.
+// Rays aimed at faces, edges and corners of closed meshes, from inside and from outside: counts rays that pass
+// through, and rays that hit again the surface that they leave. The front of a box is a grid of squares, placed so that
+// every pixel's ray hits a face's middle, an edge or a corner of the grid exactly.
 #include <gtest/gtest.h>
 
 #include "render/embree/renderer.h"
@@ -17,9 +17,9 @@ enum class Aim { faces, edges, corners };
 struct Shift {
   double x, y;
 };
-// Of the grid against the pixels' centres, in cells. Squares are cut from their lower left to their upper right
-// corner: a quarter and an eighth off, a ray meets the inside of a triangle.
-Shift shiftOf(Aim aim) {
+// Offset of the grid from the pixel centres, in cells. Squares are cut from their lower left to their upper right
+// corner: offset by 1/4 and 1/8, a ray hits the inside of a triangle.
+Shift gridShift(Aim aim) {
   if (aim == Aim::faces) return {0.25, 0.125};
   return {0, aim == Aim::edges ? 0.5 : 0};
 }
@@ -48,7 +48,7 @@ pack::Mesh gridBox(Shift shift, bool facingIn) {
       mesh.triangles.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1));
       mesh.triangles.emplace_back(at(i, j), at(i + 1, j + 1), at(i, j + 1));
     }
-  // The rest: its rim is the front's, corner by corner, joined to one far point.
+  // The other sides: the vertices of the front's boundary, connected to one far point.
   const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.emplace_back(0, 0, 8);
   const auto side = [&](std::uint32_t a, std::uint32_t b) { mesh.triangles.emplace_back(b, a, tip); };
@@ -66,16 +66,16 @@ pack::Mesh gridBox(Shift shift, bool facingIn) {
   return mesh;
 }
 
-pack::Scene sceneOf(Aim aim, bool inside, const pack::Material& material, std::uint32_t depth) {
+pack::Scene makeScene(Aim aim, bool inside, const pack::Material& material, std::uint32_t depth) {
   pack::Scene scene = test::emptyScene(depth);
   scene.width = scene.height = kCells;
   scene.environment.radiance = glm::dvec3(1);
   test::addMaterial(scene, material);
-  scene.meshes.push_back(gridBox(shiftOf(aim), inside));
+  scene.meshes.push_back(gridBox(gridShift(aim), inside));
   scene.camera.verticalFovDegrees = 90;
   test::look(scene, {0, 0, 0}, {0, 0, -1});
   if (!inside) {
-    // From in front of the front, at the same distance and facing it: the grid is hit at the same points, mirrored.
+    // The camera faces the front from outside at the same distance: the grid is hit at the same points, mirrored.
     test::look(scene, {0, 0, -2}, {0, 0, -1});
   }
   return scene;
@@ -84,7 +84,7 @@ pack::Scene sceneOf(Aim aim, bool inside, const pack::Material& material, std::u
 struct Counts {
   std::size_t embree = 0, reference = 0, vulkan = 0;
 };
-// Pixels whose green S0 is not `expected`.
+// Returns the number of pixels whose green S0 is not `expected`.
 Counts off(const pack::Scene& scene, double expected) {
   const render::RenderParameters parameters = render::defaultParameters(scene);
   const auto count = [&](const render::RenderResult& p) {
@@ -97,7 +97,7 @@ Counts off(const pack::Scene& scene, double expected) {
           count(reference::render(scene, parameters, 0)),
           count(vulkan::Renderer(scene, {}).render("stokes", parameters))};
 }
-// share: of the pixels, that may be off.
+// share: fraction of the pixels that may differ.
 void expectAtMost(const Counts& c, double share, const char* what) {
   const auto allowed = static_cast<std::size_t>(share * kCells * kCells);
   EXPECT_LE(c.embree, allowed) << what << ", embree";
@@ -114,41 +114,41 @@ constexpr double kCorners = 0.01;
 TEST(Leaks, FromInside) {
   // Emitters that face in, a white sky outside of twice their radiance.
   const pack::Material lamp = test::emitter(glm::dvec3(0.5));
-  expectAtMost(off(sceneOf(Aim::faces, true, lamp, 2), 0.5), 0, "insideFaces");
-  expectAtMost(off(sceneOf(Aim::edges, true, lamp, 2), 0.5), 0, "insideEdges");
-  expectAtMost(off(sceneOf(Aim::corners, true, lamp, 2), 0.5), kCorners, "insideCorners");
+  expectAtMost(off(makeScene(Aim::faces, true, lamp, 2), 0.5), 0, "insideFaces");
+  expectAtMost(off(makeScene(Aim::edges, true, lamp, 2), 0.5), 0, "insideEdges");
+  expectAtMost(off(makeScene(Aim::corners, true, lamp, 2), 0.5), kCorners, "insideCorners");
 }
 
 TEST(Leaks, FromOutside) {
   const pack::Material lamp = test::emitter(glm::dvec3(0.5));
-  expectAtMost(off(sceneOf(Aim::faces, false, lamp, 2), 0.5), 0, "outsideFaces");
-  expectAtMost(off(sceneOf(Aim::edges, false, lamp, 2), 0.5), 0, "outsideEdges");
-  expectAtMost(off(sceneOf(Aim::corners, false, lamp, 2), 0.5), kCorners, "outsideCorners");
+  expectAtMost(off(makeScene(Aim::faces, false, lamp, 2), 0.5), 0, "outsideFaces");
+  expectAtMost(off(makeScene(Aim::edges, false, lamp, 2), 0.5), 0, "outsideEdges");
+  expectAtMost(off(makeScene(Aim::corners, false, lamp, 2), 0.5), kCorners, "outsideCorners");
 }
 
 TEST(Leaks, MirrorsDoNotHitThemselves) {
   // A perfect mirror from outside: every ray leaves to the sky after one reflection. A ray that met its own surface
   // again would need a second one, which depth 1 does not have.
   pack::Material mirror = test::metal(glm::dvec3(1e-3), glm::dvec3(1e3));
-  expectAtMost(off(sceneOf(Aim::faces, false, mirror, 1), 1), 0, "selfHitsFaces");
-  expectAtMost(off(sceneOf(Aim::edges, false, mirror, 1), 1), 0, "selfHitsEdges");
-  expectAtMost(off(sceneOf(Aim::corners, false, mirror, 1), 1), kCorners, "selfHitsCorners");
+  expectAtMost(off(makeScene(Aim::faces, false, mirror, 1), 1), 0, "selfHitsFaces");
+  expectAtMost(off(makeScene(Aim::edges, false, mirror, 1), 1), 0, "selfHitsEdges");
+  expectAtMost(off(makeScene(Aim::corners, false, mirror, 1), 1), kCorners, "selfHitsCorners");
 }
 
 TEST(Leaks, MirrorBoxConservesLight) {
-  // From inside the same mirror: after any number of reflections it is black, because no light enters.
+  // A mirror box seen from inside is black after any number of reflections, because no light enters.
   pack::Material mirror = test::metal(glm::dvec3(1e-3), glm::dvec3(1e3));
-  expectAtMost(off(sceneOf(Aim::faces, true, mirror, 6), 0), 0, "mirrorBoxFaces");
-  expectAtMost(off(sceneOf(Aim::edges, true, mirror, 6), 0), 0.002, "mirrorBoxEdges");
-  expectAtMost(off(sceneOf(Aim::corners, true, mirror, 6), 0), kCorners, "mirrorBoxCorners");
+  expectAtMost(off(makeScene(Aim::faces, true, mirror, 6), 0), 0, "mirrorBoxFaces");
+  expectAtMost(off(makeScene(Aim::edges, true, mirror, 6), 0), 0.002, "mirrorBoxEdges");
+  expectAtMost(off(makeScene(Aim::corners, true, mirror, 6), 0), kCorners, "mirrorBoxCorners");
 }
 
 TEST(Leaks, GlassFacesAreHitOnce) {
-  // A body whose index matches the outer medium is invisible: the sky is seen through it, through each face once.
+  // A solid whose index matches the outer medium is invisible: the sky is visible through it.
   pack::Material nothing = test::dielectric(pack::MaterialKind::glass, 1.0);
-  expectAtMost(off(sceneOf(Aim::faces, false, nothing, 2), 1), 0, "glassFaces");
-  expectAtMost(off(sceneOf(Aim::edges, false, nothing, 2), 1), 0.002, "glassEdges");
-  expectAtMost(off(sceneOf(Aim::corners, false, nothing, 2), 1), kCorners, "glassCorners");
+  expectAtMost(off(makeScene(Aim::faces, false, nothing, 2), 1), 0, "glassFaces");
+  expectAtMost(off(makeScene(Aim::edges, false, nothing, 2), 1), 0.002, "glassEdges");
+  expectAtMost(off(makeScene(Aim::corners, false, nothing, 2), 1), kCorners, "glassCorners");
 }
 
 }  // namespace

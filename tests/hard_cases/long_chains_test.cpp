@@ -1,4 +1,4 @@
-// Long chains: roundings add up, and must neither create energy nor lift light above full polarization.
+// Long chains: roundings add up, and must neither create energy nor exceed full polarization.
 #include "tests/hard_cases/oracle_checks.h"
 
 namespace malus::test {
@@ -39,21 +39,21 @@ TYPED_TEST(LongChains, SixtyFourMirrors) {
                                                                 {glassMirror(1.5, 1)},
                                                                 {glassMirror(), metalMirror(kMetals[1])}}) {
         // Inside glass past the critical angle, where no light is lost; at the other cosines it is an ordinary chain.
-        chains.push_back(chainOf<B>(mirrors(draw, kinds, 64, cosine, twist)));
+        chains.push_back(chainFromPath<B>(mirrors(draw, kinds, 64, cosine, twist)));
       }
   for (const std::string& method : everyMethod()) {
     const auto out = B::chains(method, chains);
     Worst error(method + "_error", kUnit);
     for (std::size_t i = 0; i < chains.size(); ++i) {
-      for (const Real v : stokesOf(out[i])) ASSERT_TRUE(std::isfinite(v)) << method;
-      const Path path = pathOf(chains[i]);
+      for (const Real v : stokesVector(out[i])) ASSERT_TRUE(std::isfinite(v)) << method;
+      const Path path = pathFromChain(chains[i]);
       if (carriesStokes(method) && method != "stokes-linear") {
-        // Directions drift by a rounding a mirror, so the angle at the i-th is off by i roundings: relative to what
-        // is seen, or what an unpolarized chain would reflect, errors add up to count^2/2, and steep angles magnify
-        // them by 1/cos.
+        // Directions drift by one rounding per mirror, so the i-th angle has an error of i roundings. Relative to the
+        // result, or to the reflectance of an unpolarized chain, errors add up to count^2/2, magnified by 1/cos at
+        // steep angles.
         const oracle::Stokes4 want = oracleStokes(chains[i]);
         const Real size = std::max(unpolarizedShare(path, 1), want[0]), steep = 1 / path.cosine(0);
-        const Real off = largestDifference(stokesOf(out[i]), want) / size;
+        const Real off = largestDifference(stokesVector(out[i]), want) / size;
         // Half floats lose their bits below 1e-8 of the source and are 0 below 1e-15; floats end at 1e-38.
         const Real flushed = (method == "stokes-half" ? 1e-8L : 1e-36L) / size;
         const Real allowed = 64 * 64 * kUnit * steep + 64 * packingLoss(method) + flushed;
@@ -85,17 +85,17 @@ TYPED_TEST(LongChains, GlassGoldGoldGlassNeedsCircularLight) {
     path.d.push_back(draw.direction());
     for (const Bounce& b : {glassMirror(), metalMirror(kMetals[0]), metalMirror(kMetals[0]), glassMirror()})
       extend(path, b, normalAt(draw, path.d.back(), b.metal ? draw.between(0.2, 0.5) : 1 / std::sqrt(3.25L)));
-    chains.push_back(chainOf<B>(path));
+    chains.push_back(chainFromPath<B>(path));
   }
   const auto exact = B::chains("stokes", chains), linear = B::chains("stokes-linear", chains);
   Real largest = 0;
   for (std::size_t i = 0; i < chains.size(); ++i) {
     const oracle::Stokes4 want = oracleStokes(chains[i]);
-    const Real size = unpolarizedShare(pathOf(chains[i]), 1);
-    EXPECT_LT(largestDifference(stokesOf(exact[i]), want) / size, 200 * kUnit);
+    const Real size = unpolarizedShare(pathFromChain(chains[i]), 1);
+    EXPECT_LT(largestDifference(stokesVector(exact[i]), want) / size, 200 * kUnit);
     largest = std::max(largest, std::abs(linear[i].s0 - want[0]) / size);
   }
-  EXPECT_GT(largest, 0.05L) << "stokes-linear fails here, or it would be full";
+  EXPECT_GT(largest, 0.05L) << "stokes-linear must differ here";
   ::testing::Test::RecordProperty("stokesLinearError", std::to_string(static_cast<double>(largest)));
 }
 
@@ -104,12 +104,12 @@ TYPED_TEST(LongChains, RandomPathsStayPhysicalInEveryMethod) {
   Draw draw(111);
   std::vector<typename B::ChainIn> chains;
   for (int i = 0; i < 500; ++i)
-    chains.push_back(chainOf<B>(randomPath(draw, 2 + draw.below(40)), i % 3 == 0 ? 1e4 : 1));
+    chains.push_back(chainFromPath<B>(randomPath(draw, 2 + draw.below(40)), i % 3 == 0 ? 1e4 : 1));
   for (const std::string& method : everyMethod()) {
     const auto out = B::chains(method, chains);
     for (std::size_t i = 0; i < chains.size(); ++i) {
       const Real radiance = chains[i].radiance;
-      for (const Real v : stokesOf(out[i])) ASSERT_TRUE(std::isfinite(v)) << method;
+      for (const Real v : stokesVector(out[i])) ASSERT_TRUE(std::isfinite(v)) << method;
       EXPECT_GT(out[i].s0, -4 * kUnit * radiance) << method;
       if (carriesStokes(method)) {
         EXPECT_LT(out[i].gained, 6 * kUnit + packingLoss(method)) << method;

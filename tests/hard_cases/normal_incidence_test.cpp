@@ -1,5 +1,5 @@
-// Normal incidence: the plane of incidence does not exist, and close to it the s direction is whatever rounding
-// makes of it. What a mirror shows must not depend on that.
+// Normal incidence: the plane of incidence does not exist, and close to it the s direction depends on rounding.
+// The reflected light must not depend on s.
 #include "tests/hard_cases/oracle_checks.h"
 
 namespace malus::test {
@@ -24,7 +24,7 @@ TYPED_TEST(NormalIncidence, Powers) {
                                      {1.0, 0.05, 0.0},
                                      {1.0, 1e3, 1e3}})
       in.push_back({R(1 - below), R(n1), R(n2), R(k2), B::splat3(0)});
-  // Some twenty roundings lie between the inputs and R of a metal.
+  // About twenty roundings from the inputs to R of a metal.
   expectSurfaces<B>(in, 12);
   const auto out = B::surfaces(in);
   // At exactly normal incidence s and p cannot be distinguished.
@@ -67,13 +67,13 @@ TYPED_TEST(NormalIncidence, TheChoiceOfSDoesNotMatter) {
                         : draw.direction();
     for (const Real tilt : {0.0L, 1e-20L, 1e-16L, 1e-9L, 3e-8L, 1e-7L, 1e-6L, 1e-4L})
       for (int turn = 0; turn < kTurns; ++turn)
-        chains.push_back(chainOf<B>(towardGlass(d, tilt, 2 * kPi * turn / kTurns)));
+        chains.push_back(chainFromPath<B>(towardGlass(d, tilt, 2 * kPi * turn / kTurns)));
   }
   for (const std::string& method : everyMethod()) {
     const auto out = B::chains(method, chains);
     Real worst = 0, low = 10, high = 0;
     for (std::size_t i = 0; i < chains.size(); ++i) {
-      const oracle::Stokes4 want = oracleStokes(chains[i]), got = stokesOf(out[i]);
+      const oracle::Stokes4 want = oracleStokes(chains[i]), got = stokesVector(out[i]);
       for (const Real v : got) ASSERT_TRUE(std::isfinite(v)) << method;
       // Brewster glass reflects .148 of s light: errors are relative to the recorded light.
       if (carriesStokes(method)) worst = std::max(worst, largestDifference(want, got) / want[0]);
@@ -92,7 +92,7 @@ TYPED_TEST(NormalIncidence, TheChoiceOfSDoesNotMatter) {
       EXPECT_LT(high, std::sqrt(2.0L) * (1 + (method == "sp" ? 20 * kUnit : 1e-3))) << method;
       EXPECT_GT(low, 1 - (method == "sp" ? 20 * kUnit : 1e-3)) << method;
     } else {
-      // Intensities that do not know the direction: near normal incidence a metal does not polarize.
+      // Methods without a direction of polarization: near normal incidence a metal does not polarize.
       EXPECT_LT(high - low, 2e-4) << method;
     }
   }

@@ -1,4 +1,4 @@
-// One interface against the Jones oracle that is fed with the same rounded inputs.
+// Comparison of one interface with the Jones oracle on the same rounded inputs.
 #pragma once
 
 #include "tests/hard_cases/backends.h"
@@ -10,7 +10,7 @@ namespace malus::test {
 // may be worse, of the oracle: relative to R_s where it is small, absolute to 1 for transmittances.
 template <class B>
 void expectSurface(const typename B::SurfaceIn& in, const typename B::SurfaceOut& out, double roundings,
-                   PowersOf powersOf = oracle::powers) {
+                   PowersFunction powers = oracle::powers) {
   using oracle::Complex;
   using oracle::Real;
   constexpr Real kEps = std::numeric_limits<typename B::real>::epsilon();
@@ -30,11 +30,11 @@ void expectSurface(const typename B::SurfaceIn& in, const typename B::SurfaceOut
     expectNear(std::abs(Complex(r.xRe, r.xIm) - o.value.x), 0, std::abs(o.spread.x), o.value.rs, what);
     EXPECT_TRUE(r.rs >= 0 && r.rs <= 1 && r.rp >= 0 && r.rp <= 1) << where() << ": " << what;
   };
-  const Conditioned d = conditioned(c, in.n1, Real(in.n2), 3 * B::kRoundings * kEps, powersOf);
+  const Conditioned d = conditioned(c, in.n1, Real(in.n2), 3 * B::kRoundings * kEps, powers);
   expectMirror(out.dielectric, d, "dielectric");
-  expectMirror(out.conductor, conditioned(c, in.n1, Complex(in.n2, -Real(in.k2)), 3 * B::kRoundings * kEps, powersOf),
+  expectMirror(out.conductor, conditioned(c, in.n1, Complex(in.n2, -Real(in.k2)), 3 * B::kRoundings * kEps, powers),
                "conductor");
-  const Real tiny = 16 * std::numeric_limits<typename B::real>::min();  // what a device may flush
+  const Real tiny = 16 * std::numeric_limits<typename B::real>::min();  // denormals, which a device may flush
   expectNear(out.transmittance.ts, d.value.ts, d.spread.ts + tiny, std::max(d.value.ts, d.value.tp), "T_s");
   expectNear(out.transmittance.tp, d.value.tp, d.spread.tp + tiny, std::max(d.value.ts, d.value.tp), "T_p");
   expectNear(out.transmittance.x, d.value.txGeo, d.spread.txGeo + tiny, std::max(d.value.ts, d.value.tp),
@@ -45,21 +45,21 @@ void expectSurface(const typename B::SurfaceIn& in, const typename B::SurfaceOut
 
 template <class B>
 void expectSurfaces(const std::vector<typename B::SurfaceIn>& in, double roundings,
-                    PowersOf powersOf = oracle::powers) {
+                    PowersFunction powers = oracle::powers) {
   const auto out = B::surfaces(in);
   for (std::size_t i = 0; i < in.size() && !::testing::Test::HasFatalFailure(); ++i)
-    expectSurface<B>(in[i], out[i], roundings, powersOf);
+    expectSurface<B>(in[i], out[i], roundings, powers);
 }
 
-// The Stokes vector that a chain shows, as the oracle has it from the same rounded numbers.
+// Returns the Stokes vector of a chain by the oracle, from the same rounded numbers.
 template <class Chain>
 oracle::Stokes4 oracleStokes(const Chain& chain) {
-  oracle::Stokes4 s = expectedStokes(pathOf(chain), 1);
+  oracle::Stokes4 s = expectedStokes(pathFromChain(chain), 1);
   for (oracle::Real& v : s) v *= chain.radiance;
   return s;
 }
 template <class Out>
-oracle::Stokes4 stokesOf(const Out& o) {
+oracle::Stokes4 stokesVector(const Out& o) {
   return {o.s0, o.s1, o.s2, o.s3};
 }
 template <class A>

@@ -86,10 +86,10 @@ TYPED_TEST(Payloads, SixteenBitsWithInfinitiesAndZeros) {
     const Real s0 = out[i].s0.x, p = std::hypot(std::hypot(Real(out[i].s1.x), Real(out[i].s2.x)), Real(out[i].s3.x));
     ASSERT_TRUE(std::isfinite(s0) && std::isfinite(p) && std::isfinite(out[i].received.x)) << i;
     EXPECT_GE(s0, 0);
-    EXPECT_LE(s0, Real(65504) * 65504) << "saturates there, infinity too";
+    EXPECT_LE(s0, Real(65504) * 65504) << "infinity saturates too";
     EXPECT_LE(p, s0 * (1 + 8 * kUnit));
   }
-  // A million apart: both ends of the range keep three digits.
+  // Values that differ by 1e6: both ends of the range keep three digits.
   EXPECT_CLOSE(out[12].s0.x / 1e-6, 1, 1.1e-3);
   EXPECT_CLOSE(out[15].s0.x / 1e6, 1, 1.1e-3);
   EXPECT_EQ(out[3].s0.x, real(65504) * real(65504));

@@ -5,6 +5,6 @@
 
 namespace malus::test {
 
-std::string_view probeSource(std::string_view file);  // "probes.h"; empty for a name that is none
+std::string_view probeSource(std::string_view file);  // file: such as "probes.h"; empty if unknown
 
 }  // namespace malus::test

@@ -1,4 +1,4 @@
-// A million draws of interfaces and lights with a fixed seed: properties that every one of them has.
+// A million draws of interfaces and lights with a fixed seed: properties that hold for all.
 #include "tests/hard_cases/oracle_checks.h"
 
 namespace malus::test {
@@ -69,8 +69,9 @@ TYPED_TEST(RandomDraws, AMillionInterfaces) {
 TYPED_TEST(RandomDraws, RotationInvariance) {
   MALUS_BACKEND_TYPES;
   Draw draw(115);
-  // The same path, rotated as a whole: S0, the degrees of linear and of circular polarization stay. Directions and
-  // normals round anew, which the path magnifies: the oracle, applied to both, gives the amount.
+  // The same path, rotated as a whole: S0, the degrees of linear and of circular polarization stay the same.
+  // Directions and normals are rounded differently, which the path magnifies: the oracle, applied to both, gives the
+  // amount.
   std::vector<typename B::ChainIn> plain, turned;
   for (int i = 0; i < 3000; ++i) {
     const Path path = randomPath(draw, 1 + draw.below(6));
@@ -79,16 +80,16 @@ TYPED_TEST(RandomDraws, RotationInvariance) {
     Path other;
     other.d.push_back(turn(path.d[0]));
     for (std::size_t k = 0; k < path.bounces.size(); ++k) extend(other, path.bounces[k], turn(path.bounces[k].n));
-    plain.push_back(chainOf<B>(path));
-    turned.push_back(chainOf<B>(other));
+    plain.push_back(chainFromPath<B>(path));
+    turned.push_back(chainFromPath<B>(other));
   }
   const auto seen = [](const oracle::Stokes4& s) { return std::array<Real, 3>{s[0], std::hypot(s[1], s[2]), s[3]}; };
   for (const std::string& method : everyMethod()) {
     const auto a = B::chains(method, plain), b = B::chains(method, turned);
     for (std::size_t i = 0; i < plain.size(); ++i) {
-      const auto x = seen(stokesOf(a[i])), y = seen(stokesOf(b[i]));
+      const auto x = seen(stokesVector(a[i])), y = seen(stokesVector(b[i]));
       const auto ox = seen(oracleStokes(plain[i])), oy = seen(oracleStokes(turned[i]));
-      const Real size = std::max(unpolarizedShare(pathOf(plain[i]), 1), Real(1e-3L));
+      const Real size = std::max(unpolarizedShare(pathFromChain(plain[i]), 1), Real(1e-3L));
       // A cosine rotates s by up to 7e-4 per ray in float; 16 bits per number cost 1.5e-3.
       const Real coarse =
           method == "sp-cosine" || method == "sp-ratio" ? 12 * std::sqrt(kUnit) : 6 * packingLoss(method);

@@ -1,11 +1,11 @@
-// Paths of a camera ray over several interfaces, and the light that the Jones oracle sends along them.
+// Paths of a camera ray over several interfaces, and their light by the Jones oracle.
 #pragma once
 
 #include "tests/shaders/optics_types.h"
 
 namespace malus::test {
 
-// One interface as the camera ray meets it: from a medium of index n1 to one of n2 (per colour, complex
+// One interface hit by the camera ray: from a medium of index n1 to one of n2 (per colour, complex
 // for metals).
 struct Bounce {
   oracle::Vec n{};  // unit, against the ray

@@ -1,4 +1,4 @@
-// A device that only computes, with double arithmetic, for tests that run a shader on numbers.
+// A compute device with double arithmetic, for tests that run a shader on arrays of numbers.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace malus::test {
 
 class ComputeDevice {
  public:
-  // The device that MALUS_DEVICE names, or the first. Throws Error where there is none with shaderFloat64 and
+  // The device that MALUS_DEVICE names, or the first. Throws Error if none has shaderFloat64 and
   // scalarBlockLayout.
   explicit ComputeDevice(const vulkan::Instance& instance);
   ~ComputeDevice();

@@ -1,26 +1,26 @@
-// How well the Fresnel equations themselves are conditioned.
+// Condition of the Fresnel equations.
 #pragma once
 
 #include "tests/shaders/jones.h"
 
 namespace malus::test {
 
-// How far each number of the oracle moves when the cosine and the index move by `steps` of eps: where the problem
-// itself is ill conditioned (critical angle, grazing), no arithmetic does better.
+// Values of the oracle and their changes if cosine and index change by the relative `step`. Where the problem is ill
+// conditioned (critical angle, grazing incidence), no arithmetic has smaller errors.
 struct Conditioned {
   oracle::Powers value;
   oracle::Powers spread{};
 };
-using PowersOf = oracle::Powers (*)(oracle::Real c, oracle::Real n1, oracle::Complex n2);
+using PowersFunction = oracle::Powers (*)(oracle::Real c, oracle::Real n1, oracle::Complex n2);
 inline Conditioned conditioned(oracle::Real c, oracle::Real n1, oracle::Complex n2, oracle::Real step,
-                               PowersOf powersOf = oracle::powers) {
+                               PowersFunction powers = oracle::powers) {
   using oracle::Real;
-  Conditioned r{powersOf(c, n1, n2), {}};
+  Conditioned r{powers(c, n1, n2), {}};
   for (const Real dc : {-1.0L, 0.0L, 1.0L})
     for (const Real dn : {-1.0L, 1.0L}) {
       const Real near = std::min(Real(1), std::max(Real(0), c * (1 + dc * step)));
       const oracle::Complex move = (std::abs(n2 - n1) < std::abs(n2) ? n2 - n1 : n2) * (dn * step);
-      const oracle::Powers p = powersOf(near, n1, n2 + move);
+      const oracle::Powers p = powers(near, n1, n2 + move);
       const auto grow = [](Real& spread, Real a, Real b) { spread = std::max(spread, std::abs(a - b)); };
       grow(r.spread.rs, p.rs, r.value.rs);
       grow(r.spread.rp, p.rp, r.value.rp);

@@ -36,10 +36,10 @@ TYPED_TEST(EnvironmentTest, OctahedralAxesAndSeams) {
   EXPECT_TRUE(u == R(0.5L) && v == 0) << "-y is v = 0";
   O::octahedralFromDirection(O::make3(0, 0, -1), u, v);
   EXPECT_TRUE(u == 1 && v == 1) << "down is the corners";
-  // All four corners look down.
+  // All four corners are the direction down.
   for (const real a : {real(0), real(1)})
     for (const real b : {real(0), real(1)}) EXPECT_EQ(O::directionFromOctahedral(a, b), O::make3(0, 0, -1));
-  // Both zeros of z lie on the same seam.
+  // +0 and -0 of z map to the same seam.
   real u0, v0, u1, v1;
   O::octahedralFromDirection(O::make3(R(0.6L), R(0.8L), R(0.0L)), u0, v0);
   O::octahedralFromDirection(O::make3(R(0.6L), R(0.8L), R(-0.0L)), u1, v1);

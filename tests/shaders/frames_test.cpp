@@ -1,4 +1,4 @@
-// Reference frames: the one that both ends of a ray agree on, and the rotation to a surface's s direction.
+// Reference frames: the canonical frame of a ray, and the rotation to a surface's s direction.
 #include "tests/shaders/optics_types.h"
 
 namespace malus::test {

@@ -1,6 +1,6 @@
 // Reflectances, cross terms and transmittances against the Jones oracle and against closed forms. An oracle
-// takes the rounded inputs; where the problem itself is ill conditioned (near the critical angle, near
-// grazing) an error is allowed to the size of what three eps in the inputs change.
+// takes the rounded inputs; where the problem is ill conditioned (near the critical angle, near
+// grazing) the error may be as large as the change caused by three eps in the inputs.
 #include "tests/shaders/conditioned.h"
 #include "tests/shaders/optics_types.h"
 
@@ -41,7 +41,7 @@ TYPED_TEST(FresnelTest, DielectricEqualsJones) {
       rp.add(beyond(got.rp, want.value.rp, want.spread.rp, size));
       x.add(beyond(std::abs(Complex(got.xRe, got.xIm) - want.value.x), 0, std::abs(want.spread.x), size));
     }
-  // About ten roundings, of half an eps each, lie between the inputs and R_s; twelve for the others.
+  // About ten roundings of eps/2 from the inputs to R_s; twelve for the others.
   EXPECT_LT(rs.value(), 6);
   EXPECT_LT(rp.value(), 6);
   EXPECT_LT(x.value(), 6);

@@ -138,8 +138,8 @@ void compare(const ComputeDevice& device) {
     std::memcpy(&onDevice, output.data() + i * sizeof(Values), sizeof(Values));
     const auto got = numbers<T>(onDevice), want = numbers<T>(T::values(given[i]));
     if (got == want) continue;
-    // What rounding of the inputs does to each number: a device's division may be 2.5 ulp off, and where the
-    // optics is ill conditioned (critical angle, normal incidence) that is magnified.
+    // Effect of rounded inputs on each number: a device's division may have an error of 2.5 ulp, magnified where
+    // the optics is ill conditioned (critical angle, normal incidence).
     std::vector<real> spread(want.size(), real(0));
     for (int trial = 0; trial < 24; ++trial) {
       auto moved = numbers<T>(given[i]);
@@ -156,7 +156,7 @@ void compare(const ComputeDevice& device) {
       const real beyond = std::abs(got[j] - want[j]) - 2 * spread[j];
       if ((beyond > 0 || std::isnan(beyond)) && j + 2 < want.size())
         worst.add(beyond / std::max(std::abs(want[j]), real(1)));
-      // The last two numbers come back from 16 bits, where a tie may fall to the next step.
+      // The last two numbers are decoded from 16 bits, where a tie may round to the next step.
       const real allowed = j + 2 < want.size() ? 16 * kEps : real(0x1p-10);
       EXPECT_LE(beyond, allowed * std::max(std::abs(want[j]), real(1)))
           << "input " << i << ", number " << j << ": " << got[j] << " on the device, " << want[j] << " in C++";

@@ -1,4 +1,4 @@
-// Importance rows against the Stokes vectors that they weigh: at every step of a path their product is the same.
+// Importance vectors against Stokes vectors: their product is the same at every step of a path.
 #include "tests/shaders/chains.h"
 
 namespace malus::test {

@@ -1,4 +1,4 @@
-// An oracle for the optics, written apart from shaders/: Jones calculus in long double on field vectors in
+// An oracle for the optics, independent of shaders/: Jones calculus in long double on field vectors in
 // space, so that no reference frame has to be rotated. Time e^{+iwt}, waves e^{i(wt - k.r)}, index n - i k.
 // A field is a complex vector perpendicular to its direction; unpolarized light is the incoherent sum of two.
 // jones_test.cpp compares it with Maxwell's boundary conditions and with the rotation of a field in time.
@@ -98,7 +98,7 @@ inline Jones pauli(int i) {
   return {{{{z, -im}, {im, z}}}};
 }
 inline Real trace(const Jones& a) { return (a.m[0][0] + a.m[1][1]).real(); }
-inline Stokes4 stokesOf(Complex ex, Complex ey) {
+inline Stokes4 stokesFromField(Complex ex, Complex ey) {
   Jones c;
   c.m[0] = {ex * std::conj(ex), ex * std::conj(ey)};
   c.m[1] = {ey * std::conj(ex), ey * std::conj(ey)};
@@ -106,7 +106,7 @@ inline Stokes4 stokesOf(Complex ex, Complex ey) {
   for (int i = 0; i < 4; ++i) s[static_cast<std::size_t>(i)] = trace(multiply(pauli(i), c));
   return s;
 }
-inline std::array<Stokes4, 4> muellerOf(const Jones& j) {
+inline std::array<Stokes4, 4> muellerMatrix(const Jones& j) {
   std::array<Stokes4, 4> m{};
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b)
@@ -168,13 +168,13 @@ inline Stokes4 measured(const Beam& beam, const Vec& x) {
   const Vec y = cross(beam.k, x);
   Stokes4 total{};
   for (const Field& e : beam.fields) {
-    const Stokes4 s = stokesOf(dot(e, x), dot(e, y));
+    const Stokes4 s = stokesFromField(dot(e, x), dot(e, y));
     for (std::size_t i = 0; i < 4; ++i) total[i] += s[i];
   }
   return total;
 }
 
-// The frame of a ray that both its ends agree on: x of space, carried by the shortest rotation that takes the
+// The canonical frame of a ray, the same at both ends: the x axis, rotated by the shortest rotation that takes the
 // z axis onto the direction or its opposite, whichever is above the horizon (or so little
 // below that a float may have lost it).
 inline Vec canonicalX(const Vec& k) {

@@ -20,14 +20,14 @@ TEST(JonesTest, S3IsPositiveForClockwiseSeenTowardTheSource) {
       return std::atan2((ey * turn).real(), (ex * turn).real());
     };
     const bool clockwise = angleAt(0.01L) < angleAt(0);
-    const Stokes4 s = stokesOf(ex, ey);
+    const Stokes4 s = stokesFromField(ex, ey);
     EXPECT_NEAR(static_cast<double>(s[3]), clockwise ? 2 : -2, 1e-15);
   }
 }
 
-TEST(JonesTest, LinearLightIsWhereItPoints) {
+TEST(JonesTest, LinearPolarizationHasItsAngle) {
   for (const Real angle : {0.0L, 30.0L, 45.0L, 90.0L, 135.0L}) {
-    const Stokes4 s = stokesOf(std::cos(degrees(angle)), std::sin(degrees(angle)));
+    const Stokes4 s = stokesFromField(std::cos(degrees(angle)), std::sin(degrees(angle)));
     EXPECT_NEAR(static_cast<double>(s[1]), static_cast<double>(std::cos(2 * degrees(angle))), 1e-15);
     EXPECT_NEAR(static_cast<double>(s[2]), static_cast<double>(std::sin(2 * degrees(angle))), 1e-15);
     EXPECT_NEAR(static_cast<double>(s[3]), 0, 1e-15);
@@ -39,7 +39,7 @@ TEST(JonesTest, QuarterWaveWithFastXTurnsPlus45IntoLeftCircular) {
   Jones plate;
   plate.m[0][0] = 1;
   plate.m[1][1] = Complex(0, -1);
-  const auto m = muellerOf(plate);
+  const auto m = muellerMatrix(plate);
   EXPECT_NEAR(static_cast<double>(m[3][2]), -1, 1e-15);
   EXPECT_NEAR(static_cast<double>(m[2][3]), 1, 1e-15);
 }
@@ -85,9 +85,9 @@ TEST(JonesTest, BeamsAgreeWithMuellerMatrices) {
   Jones j;
   j.m[0][0] = a.rs;
   j.m[1][1] = a.rp;
-  const auto m = muellerOf(j);
+  const auto m = muellerMatrix(j);
   const Complex ex(0.3L, 0.4L), ey(-0.6L, 0.2L);
-  const Stokes4 in = stokesOf(ex, ey);
+  const Stokes4 in = stokesFromField(ex, ey);
   const Stokes4 out = measured(reflect(polarized(k, s, ex, ey), n, 1, gold), s);
   for (std::size_t i = 0; i < 4; ++i) {
     Real expected = 0;

@@ -33,7 +33,7 @@ struct List {
 using Methods = List<void MALUS_FOR_EACH_METHOD(MALUS_LIST)>::Types;
 TYPED_TEST_SUITE(MethodTest, Methods, MethodNames);
 
-// What an eye ray brings back from a source of this radiance at the path's end.
+// Returns the payload of a camera ray from a source of this radiance at the end of the path.
 template <class M>
 typename M::Payload trace(const Path& path, real3 radiance = splat3(1)) {
   typename M::Payload p = M::payloadUnpolarized(radiance);
@@ -68,7 +68,7 @@ double difference(const Stokes& a, const Stokes& b, std::size_t components = 4) 
   return worst;
 }
 
-// Two mirrors, the second plane of incidence turned by f against the first.
+// Two mirrors, the second plane of incidence rotated by f from the first.
 Path twoMirrors(const Bounce& first, const Bounce& second, double cosine, double degrees) {
   const oracle::Real f = degrees * std::acos(oracle::Real(-1)) / 180, c = cosine, s = std::sqrt(1 - c * c);
   Path path;
@@ -81,20 +81,20 @@ Path twoMirrors(const Bounce& first, const Bounce& second, double cosine, double
   return path;
 }
 
-// What packing to 16 bits may cost, relative to S0; 0 for methods that do not pack.
+// Error of packing to 16 bits, relative to S0; 0 for methods that do not pack.
 template <class M>
 constexpr double packingLoss() {
   return std::string_view(M::kName) == "stokes-half" ? 1.5e-3 : 0;
 }
 
-TEST(MethodsTest, PayloadSizesAreThoseOfTheDesign) {
+TEST(MethodsTest, PayloadSizesMatchTheDocument) {
   const std::map<std::string, std::size_t> bytes = {
       {"schlick", 12},  {"fresnel", 12},       {"sp", 36},     {"sp-cosine", 28},   {"sp-ratio", 20},
       {"sp-malus", 36}, {"stokes-linear", 36}, {"stokes", 48}, {"stokes-half", 24}, {"importance", 0}};
   std::size_t count = 0;
-#define MALUS_SIZE(M)                                                          \
-  ++count;                                                                     \
-  ASSERT_EQ(bytes.count(M::kName), 1u) << M::kName << " is not in the design"; \
+#define MALUS_SIZE(M)                                                                 \
+  ++count;                                                                            \
+  ASSERT_EQ(bytes.count(M::kName), 1u) << M::kName << " is not in the list of sizes"; \
   EXPECT_EQ(sizeof(M::Payload), bytes.at(M::kName)) << M::kName;
   MALUS_FOR_EACH_METHOD(MALUS_SIZE)
   EXPECT_GE(count, 8u);
@@ -116,7 +116,7 @@ TYPED_TEST(MethodTest, SourcesAreUnpolarizedAndKeepTheirRadiance) {
     const real3 radiance = make3(0.25f, 3, 0.5f);
     const auto p = TypeParam::payloadUnpolarized(radiance);
     EXPECT_LE(difference(TypeParam::payloadStokes(p, d), stokesUnpolarized(radiance)), 3 * packingLoss<TypeParam>());
-    // Received by a surface and sent on unchanged it is still all there.
+    // Received by a surface and sent on unchanged, no light is lost.
     const real3 s = TypeParam::surfaceS(d, n);
     const auto sent = TypeParam::payloadFromSurface(TypeParam::lightAtSurface(p, d, s), d, s);
     EXPECT_LT(difference(TypeParam::payloadStokes(sent, d), stokesUnpolarized(radiance)),
@@ -216,8 +216,8 @@ TEST(MethodsTest, StokesEqualsJonesOverRandomChains) {
   EXPECT_LT(worst.value(), 120);
 }
 
-TEST(MethodsTest, NearNormalIncidenceTurnsByRoundingOverTheSine) {
-  // s is known to about eps / sine on each of the two rays, so polarized light comes back turned by as much;
+TEST(MethodsTest, NearNormalIncidenceRotatesByRoundingOverTheSine) {
+  // s is known to about eps / sine on each of the two rays, so polarized light is rotated by as much;
   // exactly along the axes nothing is lost.
   Draw draw(40);
   const auto worstError = [&](const Vec& d, const Vec& n) {
@@ -277,10 +277,11 @@ TEST(MethodsTest, StokesLinearIsExactForTwoBouncesAndWrongBehindTwoGoldMirrors) 
   }
   const Stokes full = stokesAlong<Method_stokes>(path), linear = stokesAlong<Method_stokes_linear>(path);
   EXPECT_CLOSE(full.s0.x, expectedStokes(path, 0)[0], 60 * kEps * unpolarizedShare(path, 0));
-  EXPECT_GT(std::abs(linear.s0.x - full.s0.x), 0.02f * full.s0.x) << "glass, gold, gold, glass needs circular light";
+  EXPECT_GT(std::abs(linear.s0.x - full.s0.x), 0.02f * full.s0.x)
+      << "glass, gold, gold, glass needs circular polarization";
 }
 
-TEST(MethodsTest, RightAngledPlanesNeedNoMalus) {
+TEST(MethodsTest, AbsoluteCosineIsExactForRightAngles) {
   // At 0 and 90 degrees |cos| and cos^2 are the same, and both are exact.
   for (const double degrees : {0.0, 90.0, 180.0, 270.0})
     for (const Bounce& second : {glassMirror(), metalMirror(kMetals[0])}) {
@@ -302,7 +303,7 @@ TEST(MethodsTest, MalusKeepsTheIntensityOfTwoBouncesAtEveryAngle) {
   }
 }
 
-TEST(MethodsTest, AbsoluteCosinesMakeLight) {
+TEST(MethodsTest, AbsoluteCosinesCreateLight) {
   // Light with I_s = I_p = 1/2, received at 45 degrees, becomes 1.41 times what it was.
   Draw draw(36);
   for (int i = 0; i < 50; ++i) {
@@ -359,13 +360,13 @@ TEST(MethodsTest, RatioKeepsLightWithoutS) {
     light.p = make3(0.1f, 0.2f, 0.3f);
     const auto p = M::payloadFromSurface(light, along, s);
     EXPECT_EQ(p.ratio, 0);
-    // Fully polarized along p, in its own colours; as `sp` says without loss.
+    // Fully polarized along p, with different colours; no loss, as for `sp`.
     Method_sp::SurfaceLight same{light.s, light.p};
     const Stokes got = M::payloadStokes(p, along);
     const Stokes want = Method_sp::payloadStokes(Method_sp::payloadFromSurface(same, along, s), along);
     EXPECT_LT(difference(got, want), 0.3 * 2 * 7e-4);
     EXPECT_EQ(got.s0, light.p);
-    // And none of it is lost at the next surface with the same s.
+    // No light is lost at the next surface with the same s.
     const auto received = M::lightAtSurface(p, along, s);
     EXPECT_NEAR(received.p.y, 0.2f, 1e-5);
     EXPECT_NEAR(received.s.y, 0, 2e-4);

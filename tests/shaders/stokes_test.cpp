@@ -29,7 +29,7 @@ Stokes4 randomStokes(Draw& draw, Real degree) {
 // Light of the ray with direction d, between its canonical frame and the frame of a surface with s direction
 // `across`.
 template <class O, class S, class V>
-S turned(const S& s, const V& d, const V& across, bool toSurface) {
+S rotateStokes(const S& s, const V& d, const V& across, bool toSurface) {
   using real = typename O::real;
   V x, y;
   real cos2, sin2;
@@ -47,7 +47,7 @@ typename O::Stokes along(const Path& path, typename O::Stokes s) {
     const auto n = toReal3<O>(b.n), d = toReal3<O>(path.d[i]);
     const real c = O::clampUnit(-O::dot3(d, n)), n1 = static_cast<real>(b.n1);
     const auto across = O::sDirection(d, n);
-    s = turned<O>(s, toReal3<O>(path.d[i + 1]), across, true);
+    s = rotateStokes<O>(s, toReal3<O>(path.d[i + 1]), across, true);
     if (b.transmits) {
       const auto t = O::dielectricTransmittance(c, n1, static_cast<real>(b.n2[0].real()));
       s = O::stokesInterface(s, one * t.ts, one * t.tp, one * t.x, zero);
@@ -64,7 +64,7 @@ typename O::Stokes along(const Path& path, typename O::Stokes s) {
       }
       s = O::stokesInterface(s, rs, rp, xRe, xIm);
     }
-    s = turned<O>(s, d, across, false);
+    s = rotateStokes<O>(s, d, across, false);
   }
   return s;
 }
@@ -104,7 +104,7 @@ TYPED_TEST(StokesTest, InterfaceIsTheMuellerMatrixOfItsAmplitudes) {
     oracle::Jones j;
     j.m[0][0] = a.rs;
     j.m[1][1] = a.rp;
-    const auto m = oracle::muellerOf(j);
+    const auto m = oracle::muellerMatrix(j);
     const Stokes4 in = randomStokes(draw, draw.unit());
     const auto r = O::conductorReflectance(c, 1, n, k);
     const Stokes4 out = toStokes4(
@@ -197,7 +197,7 @@ TYPED_TEST(StokesTest, FresnelRhombMakesCircularLight) {
   EXPECT_EQ(s.s0.x, 1);
   EXPECT_CLOSE(s.s1.x, 0, kEps);
   EXPECT_CLOSE(s.s2.x, 0, 8 * kEps);  // the phase of two reflections moves by 2 roundings of the angle each
-  EXPECT_CLOSE(s.s3.x, 1, 4 * kEps);  // right circular, as the oracle says:
+  EXPECT_CLOSE(s.s3.x, 1, 4 * kEps);  // right circular, as by the oracle:
   const oracle::Powers p = oracle::powers(std::cos(low), 1.5L, 1);
   EXPECT_CLOSE((p.x * p.x).imag(), 1, 1e-15);
 }
@@ -210,20 +210,20 @@ TYPED_TEST(StokesTest, LoopOfMirrorsIsAProductOfHalfTurns) {
   for (int trial = 0; trial < 50; ++trial) {
     const Complex ex(draw.between(-1, 1), draw.between(-1, 1)), ey(draw.between(-1, 1), draw.between(-1, 1));
     oracle::Field e = oracle::sum({1, 0, 0}, ex, {0, 1, 0}, ey);
-    const Real size = oracle::stokesOf(ex, ey)[0];
-    auto s = toStokes<O>(oracle::stokesOf(ex, ey));  // canonical frame of z: x, y
+    const Real size = oracle::stokesFromField(ex, ey)[0];
+    auto s = toStokes<O>(oracle::stokesFromField(ex, ey));  // canonical frame of z: x, y
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec n = oracle::unit(oracle::along(axes[i + 1], 1, axes[i], -1));
       const Complex en = oracle::dot(e, n);
       for (std::size_t j = 0; j < 3; ++j) e[j] = Real(2) * n[j] * en - e[j];
-      // Here the light itself is followed: its direction is the axis, opposite to that of a camera ray.
-      const auto eyeIn = toReal3<O>(axes[i]) * real(-1), eyeOut = toReal3<O>(axes[i + 1]) * real(-1);
-      const auto across = O::sDirection(eyeIn, toReal3<O>(n));
-      s = turned<O>(s, eyeIn, across, true);
+      // The light travels along the axis, opposite to a camera ray.
+      const auto rayIn = toReal3<O>(axes[i]) * real(-1), rayOut = toReal3<O>(axes[i + 1]) * real(-1);
+      const auto across = O::sDirection(rayIn, toReal3<O>(n));
+      s = rotateStokes<O>(s, rayIn, across, true);
       s = O::stokesInterface(s, O::splat3(1), O::splat3(1), O::splat3(-1), O::splat3(0));
-      s = turned<O>(s, eyeOut, across, false);
+      s = rotateStokes<O>(s, rayOut, across, false);
     }
-    const Stokes4 want = oracle::stokesOf(e[0], e[1]), got = toStokes4(s, 0);
+    const Stokes4 want = oracle::stokesFromField(e[0], e[1]), got = toStokes4(s, 0);
     EXPECT_LT(std::abs(e[2]), 1e-15L);
     for (std::size_t j = 0; j < 4; ++j) EXPECT_CLOSE(got[j], want[j], 8 * kEps * size);
   }

@@ -63,7 +63,7 @@ TYPED_TEST(SurfacePointTest, ErrorBoundContainsTheTrueError) {
     const Vec exact = oracle::along(oracle::along(toVec(p0), b0, toVec(p1), b1), 1, toVec(p2), b2);
     for (std::size_t j = 0; j < 3; ++j) {
       EXPECT_LE(std::abs(toVec(p)[j] - exact[j]), toVec(error)[j]);
-      EXPECT_LE(toVec(error)[j], 3 * size * 8 * kEps) << "and is not much more";
+      EXPECT_LE(toVec(error)[j], 3 * size * 8 * kEps) << "bound is too large";
     }
   }
 }
@@ -91,13 +91,13 @@ TYPED_TEST(SurfacePointTest, OriginsAreOutsideTheErrorBox) {
     const real3 error = O::make3(R(size * 4 * kEps), R(size * 4 * kEps), R(size * 4 * kEps));
     const real3 o = O::rayOrigin(p, error, n, kEps / 2);
     // The corner of the box that reaches farthest along n stays below the origin.
-    Real reach = 0, gone = 0;
+    Real reach = 0, offset = 0;
     for (std::size_t j = 0; j < 3; ++j) {
       reach += toVec(error)[j] * std::abs(toVec(n)[j]);
-      gone += (toVec(o)[j] - toVec(p)[j]) * toVec(n)[j];
+      offset += (toVec(o)[j] - toVec(p)[j]) * toVec(n)[j];
     }
-    EXPECT_GE(gone, reach * (1 - 4 * Real(kEps)));
-    EXPECT_LE(gone, 2 * reach + 4 * kEps * size) << "and no farther than needed";
+    EXPECT_GE(offset, reach * (1 - 4 * Real(kEps)));
+    EXPECT_LE(offset, 2 * reach + 4 * kEps * size) << "offset is too large";
   }
   // A point at 0 with no error stays.
   EXPECT_EQ(O::rayOrigin(O::splat3(0), O::splat3(0), O::make3(0, 0, 1), kEps), O::splat3(0));
@@ -122,8 +122,8 @@ TYPED_TEST(SurfacePointTest, StartsStayInsideAndOffTheEdges) {
     const real margin = R(1e3L) * kEps;
     const real3 start = O::insideTriangle(p, p0, p1, p2, b0, b1, b2, across, margin);
     const Vec n = oracle::unit(toVec(across));
-    EXPECT_CLOSE(oracle::dot(n, toVec(start - p)), 0, 60 * kEps) << "in its plane";
-    EXPECT_LE(std::sqrt(oracle::dot(toVec(start - p), toVec(start - p))), 30 * margin) << "and close";
+    EXPECT_CLOSE(oracle::dot(n, toVec(start - p)), 0, 60 * kEps) << "not in the plane";
+    EXPECT_LE(std::sqrt(oracle::dot(toVec(start - p), toVec(start - p))), 30 * margin) << "too far";
     const auto distance = [&](const real3& a, const real3& b, const real3& at) {
       const Vec edge = toVec(b - a), inward = oracle::unit(oracle::cross(n, edge));
       return oracle::dot(inward, toVec(at - a));
@@ -134,11 +134,11 @@ TYPED_TEST(SurfacePointTest, StartsStayInsideAndOffTheEdges) {
       after = std::min(after, distance(a, b, start));
       sum += std::sqrt(oracle::dot(toVec(b - a), toVec(b - a)));
     }
-    EXPECT_GE(after, std::min(before, Real(0)) - 8 * kEps) << "never out of it";
+    EXPECT_GE(after, std::min(before, Real(0)) - 8 * kEps) << "outside the triangle";
     if (before > 1.01L * margin) {
-      EXPECT_EQ(start, p) << "far from edges nothing moves";
+      EXPECT_EQ(start, p) << "moved far from edges";
     }
-    // Where the inscribed circle is wide and the corners are not too sharp there is room.
+    // With a wide inscribed circle and no sharp corners, the start is off the edges.
     const Real radius = std::sqrt(oracle::dot(toVec(across), toVec(across))) / sum;
     if (radius > 0.1L) {
       ++roomy;

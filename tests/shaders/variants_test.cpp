@@ -20,7 +20,7 @@ namespace {
 using vulkan::Stage;
 using vulkan::Variant;
 
-// As much of a SPIR-V module as the sizes of its ray payloads need. Numbers from the SPIR-V specification.
+// Parses the sizes of ray payloads of a SPIR-V module. Opcodes from the SPIR-V specification.
 class Module {
  public:
   explicit Module(const std::vector<std::uint32_t>& words) {
@@ -36,7 +36,7 @@ class Module {
         case 23:  // OpTypeVector
           sizes_[w[1]] = sizes_.at(w[2]) * w[3];
           break;
-        case 30: {  // OpTypeStruct; one with a member of unknown size (a run-time array) is no payload
+        case 30: {  // OpTypeStruct; with a run-time array it cannot be a payload
           std::uint32_t size = 0;
           bool known = true;
           for (std::uint32_t i = 2; i < length; ++i) {
@@ -70,18 +70,18 @@ std::vector<std::uint32_t> compiled(const Variant& variant, const vulkan::StageS
                              [&](std::string_view path) { return vulkan::includedSource(variant, path); });
 }
 
-// Sets of effects: everything, what the paper's scenes have, mirrors alone, a metal in a constant light.
+// Sets of effects: all, those of the paper's scenes, mirrors only, metal in constant light.
 using shaders::Effect;
-constexpr std::uint32_t setOf(std::initializer_list<Effect> effects) {
+constexpr std::uint32_t effectMask(std::initializer_list<Effect> effects) {
   std::uint32_t bits = 0;
   for (const Effect effect : effects) bits |= shaders::bitOf(effect);
   return bits;
 }
-constexpr std::uint32_t kLit =
-    setOf({Effect::kLambert, Effect::kPaint, Effect::kMetal, Effect::kGlass, Effect::kEmitter, Effect::kPointLights,
-           Effect::kShadows, Effect::kHighlights, Effect::kAmbient, Effect::kEnvironmentMap});
-constexpr std::uint32_t kSets[] = {shaders::kEveryEffect, kLit, setOf({Effect::kPaint, Effect::kMetal}),
-                                   setOf({Effect::kMetal})};
+constexpr std::uint32_t kLit = effectMask({Effect::kLambert, Effect::kPaint, Effect::kMetal, Effect::kGlass,
+                                           Effect::kEmitter, Effect::kPointLights, Effect::kShadows,
+                                           Effect::kHighlights, Effect::kAmbient, Effect::kEnvironmentMap});
+constexpr std::uint32_t kSets[] = {shaders::kEveryEffect, kLit, effectMask({Effect::kPaint, Effect::kMetal}),
+                                   effectMask({Effect::kMetal})};
 
 struct MethodSize {
   const char* name;
@@ -125,12 +125,12 @@ INSTANTIATE_TEST_SUITE_P(Methods, VariantsTest, ::testing::ValuesIn(kMethods), [
   return name;
 });
 
-// Instructions, of a variant's whole pipeline.
+// Instruction counts of the whole pipeline of a variant.
 struct Counts {
   std::size_t words = 0, traces = 0, queries = 0;
   std::vector<std::uint32_t> bindings;
 };
-Counts countsOf(const Variant& variant) {
+Counts countInstructions(const Variant& variant) {
   Counts counts;
   for (const vulkan::StageSource& source : vulkan::stageSources(variant)) {
     const std::vector<std::uint32_t> words = compiled(variant, source);
@@ -151,14 +151,14 @@ Counts countsOf(const Variant& variant) {
   return counts;
 }
 
-// What an effect that is on adds to the paper's scenes' variant; off, its code, its buffers and its rays are not there.
-TEST(VariantsTest, AnEffectThatIsOffCostsNothing) {
+// Adding an effect to the variant of the paper's scenes adds code, buffers and rays; without it they are absent.
+TEST(VariantsTest, DisabledEffectsCostNothing) {
   for (const char* method : {"stokes", "importance"}) {
     Variant off;
     off.method = method;
     off.effects = kLit;
     off.stackSize = std::string(method) == "importance" ? 6 : 0;
-    const Counts without = countsOf(off);
+    const Counts without = countInstructions(off);
     const auto expectBinding = [&](const Counts& c, std::uint32_t binding, bool there) {
       EXPECT_EQ(std::count(c.bindings.begin(), c.bindings.end(), binding) > 0, there) << method << ' ' << binding;
     };
@@ -168,21 +168,21 @@ TEST(VariantsTest, AnEffectThatIsOffCostsNothing) {
       SCOPED_TRACE(std::string(method) + " " + shaders::kCompiledEffects[static_cast<std::size_t>(effect)].macro);
       Variant on = off;
       on.effects |= shaders::bitOf(effect);
-      const Counts with = countsOf(on);
+      const Counts with = countInstructions(on);
       EXPECT_GT(with.words, without.words);
       expectBinding(with, 12, effect != Effect::kSky);
       expectBinding(with, 13, effect == Effect::kTextures);
-      // More trace sites where an effect sends rays of its own; a loop has its two.
+      // Effects that trace additional rays add trace sites; an iterative method always has two.
       const bool traces = effect == Effect::kPolarizingElement || effect == Effect::kRoughness;
       if (off.stackSize == 0)
         EXPECT_EQ(with.traces > without.traces, traces);
       else
         EXPECT_EQ(with.queries, without.queries);
     }
-    // The other way: what the variant has and a scene of mirrors does not need.
+    // Conversely, a scene of mirrors needs less than this variant.
     Variant mirrors = off;
-    mirrors.effects = setOf({Effect::kPaint, Effect::kMetal});
-    const Counts few = countsOf(mirrors);
+    mirrors.effects = effectMask({Effect::kPaint, Effect::kMetal});
+    const Counts few = countInstructions(mirrors);
     EXPECT_LT(few.words, without.words);
     if (off.stackSize == 0)  // the camera's rays, a mirror ray from either surface
       EXPECT_EQ(few.traces, 3u);
@@ -192,33 +192,33 @@ TEST(VariantsTest, AnEffectThatIsOffCostsNothing) {
                                 Effect::kEnvironmentMap, Effect::kGlass, Effect::kLambert, Effect::kEmitter}) {
       Variant less = off;
       less.effects &= ~shaders::bitOf(effect);
-      EXPECT_LT(countsOf(less).words, without.words)
+      EXPECT_LT(countInstructions(less).words, without.words)
           << shaders::kCompiledEffects[static_cast<std::size_t>(effect)].macro;
     }
   }
 }
 
-TEST(VariantsTest, EveryStageIsThere) {
+TEST(VariantsTest, StageCounts) {
   // Ray generation, two misses, a closest hit for each of six kinds of surface; without lights and with one kind,
   // three.
   EXPECT_EQ(vulkan::stageSources({}).size(), 9u);
   Variant metal;
-  metal.effects = setOf({Effect::kMetal});
+  metal.effects = effectMask({Effect::kMetal});
   EXPECT_EQ(vulkan::stageSources(metal).size(), 3u);
 }
 
-TEST(VariantsTest, LoopsHaveOneStageAndNoPayload) {
+TEST(VariantsTest, IterativeMethodsHaveOneStageAndNoPayload) {
 #define MALUS_NAME(M) f32::M::kName,
-  for (const char* loop : {MALUS_FOR_EACH_ITERATIVE(MALUS_NAME)})
+  for (const char* method : {MALUS_FOR_EACH_ITERATIVE(MALUS_NAME)})
     for (int flags = 0; flags < 16; ++flags) {
       Variant variant;
-      variant.method = loop;
+      variant.method = method;
       variant.stackSize = 6;
       variant.effects = kSets[flags % 4];
       variant.fourAnalysers = (flags & 4) != 0;
       variant.countRays = (flags & 8) == 0;
       variant.checkNumerics = (flags & 8) != 0;
-      SCOPED_TRACE(std::string(loop) + " flags " + std::to_string(flags));
+      SCOPED_TRACE(std::string(method) + " flags " + std::to_string(flags));
       ASSERT_EQ(vulkan::stageSources(variant).size(), 1u);
       const Module module(compiled(variant, vulkan::stageSources(variant).front()));
       EXPECT_TRUE(module.incoming.empty());

@@ -1,4 +1,4 @@
-// The small forms that everything else is written in.
+// Vector functions.
 #include "tests/shaders/optics_types.h"
 
 namespace malus::test {

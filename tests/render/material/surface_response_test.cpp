@@ -18,7 +18,7 @@ std::array<oracle::Stokes4, 4> diagonal(Complex s, Complex p) {
   oracle::Jones j;
   j.m[0][0] = s;
   j.m[1][1] = p;
-  return oracle::muellerOf(j);
+  return oracle::muellerMatrix(j);
 }
 
 void expectMatrix(const std::array<double, 16>& got, const std::array<oracle::Stokes4, 4>& want, double allowed) {

@@ -38,8 +38,7 @@ void checkOptions(const Options& options) {
     throw Error("prep", "relative weld tolerance out of range", "0 to 1", fmt::to_string(options.weldRelative));
   checkSimplifyBounds(options.simplify);
   if (!options.simplify.any()) return;
-  if (options.asIs)
-    throw Error("prep --simplify", "simplification needs a cleaned mesh", "\"asIs\": false");
+  if (options.asIs) throw Error("prep --simplify", "simplification needs a cleaned mesh", "\"asIs\": false");
   const Cleaning& steps = options.steps;
   if (!steps.degenerate || !steps.duplicates || !steps.orient || !steps.fans)
     throw Error("prep --simplify", "simplification needs an oriented manifold",

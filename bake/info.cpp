@@ -46,13 +46,13 @@ std::string encodingText(const pack::Pack& pack) {
   return text;
 }
 
-// The pack's effects by their names of today. If the pack is older than some effects, all are found again.
+// The pack's effects by their current names. If the pack is older than some effects, all are determined again.
 std::vector<pack::Effect> currentEffects(const pack::Scene& scene) {
   std::vector<std::string> missing = effectNames();
   const std::size_t known = missing.size();
   std::vector<pack::Effect> effects = scene.effects;
   for (pack::Effect& e : effects) {
-    if (const auto effect = shaders::effectNamed(e.name)) e.name = shaders::nameOf(*effect);
+    if (const auto effect = shaders::effectNamed(e.name)) e.name = shaders::effectName(*effect);
     std::erase(missing, e.name);
   }
   const bool older = !missing.empty() && missing.size() + effects.size() == known;
@@ -131,8 +131,8 @@ std::string infoText(const pack::Pack& pack, double tolerance) {
                                          "  without polarization the relative error of the intensity is at most "
                                          "{:.3g}, {:.3g}, {:.3g} (r, g, b)\n",
                                          bound.x, bound.y, bound.z);
-  text += fmt::format("  the deepest bounce that can change a pixel by more than {:g} of the light there is {}\n",
-                      tolerance, deepestBounce(scene, scene.depth, tolerance));
+  text += fmt::format("  deepest bounce that can change a pixel by more than {:g} of its radiance: {}\n", tolerance,
+                      deepestBounce(scene, scene.depth, tolerance));
   text += "\nsections\n";
   for (const pack::Section& s : pack.sections)
     text +=

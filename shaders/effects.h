@@ -42,10 +42,10 @@ inline constexpr auto kCompiledEffects = std::to_array<CompiledEffect>({
 });
 
 // Bit of a compiled effect in a variant.
-constexpr std::uint32_t bitOf(Effect effect) { return 1u << static_cast<std::uint32_t>(effect); }
+constexpr std::uint32_t effectBit(Effect effect) { return 1u << static_cast<std::uint32_t>(effect); }
 inline constexpr std::uint32_t kEveryEffect = (1u << kCompiledEffects.size()) - 1;
 
-constexpr std::string_view nameOf(Effect effect) { return kEffects[static_cast<std::size_t>(effect)].name; }
+constexpr std::string_view effectName(Effect effect) { return kEffects[static_cast<std::size_t>(effect)].name; }
 
 // The listed effect with a name or an alias; nothing if there is none.
 constexpr std::optional<Effect> effectNamed(std::string_view name) {

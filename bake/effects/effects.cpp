@@ -32,7 +32,7 @@ std::vector<pack::Effect> findEffects(const pack::Scene& scene, const ImageReque
   const EffectQuery query(scene, request);
   std::vector<pack::Effect> effects;
   for (const EffectRule& rule : effectRules()) {
-    const std::string_view name = shaders::nameOf(rule.effect);
+    const std::string_view name = shaders::effectName(rule.effect);
     if (name.empty()) continue;
     const bool on = rule.isOn(query);
     effects.push_back({std::string(name), on, rule.reason(query, on)});
@@ -45,7 +45,7 @@ std::uint32_t findCompiledEffects(const pack::Scene& scene, const ImageRequest& 
   std::uint32_t bits = 0;
   for (const EffectRule& rule : effectRules())
     if (static_cast<std::size_t>(rule.effect) < shaders::kCompiledEffects.size() && rule.isOn(query))
-      bits |= shaders::bitOf(rule.effect);
+      bits |= shaders::effectBit(rule.effect);
   return bits;
 }
 

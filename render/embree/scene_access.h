@@ -11,7 +11,7 @@ namespace malus::embree {
 // Effects compiled into this translation unit.
 static constexpr std::uint32_t kTileEffects = 0
 #define MALUS_SHADER_ROW(id, macro, build, name, alias, description) \
-  | (MALUS_EFFECT_##macro * shaders::bitOf(shaders::Effect::k##id))
+  | (MALUS_EFFECT_##macro * shaders::effectBit(shaders::Effect::k##id))
 #define MALUS_RULE_ROW(id, name, alias, description)
 #include "shaders/effects.def"
     ;

@@ -13,12 +13,12 @@ using shaders::Effect;
 std::uint32_t compiledEffects(const pack::Scene& scene, const RenderParameters& parameters) {
   if (parameters.everyEffect) return shaders::kEveryEffect;
   const std::uint32_t needed = bake::findCompiledEffects(scene, {parameters.depth, parameters.analyser, false, false});
-  return parameters.shadows ? needed : needed & ~shaders::bitOf(Effect::kShadows);
+  return parameters.shadows ? needed : needed & ~shaders::effectBit(Effect::kShadows);
 }
 
 std::uint32_t pathStackSize(std::uint32_t effects, std::uint32_t depth) {
-  std::uint32_t size = (effects & shaders::bitOf(Effect::kGlass)) != 0 ? std::max(depth, 1u) : 1;
-  if ((effects & shaders::bitOf(Effect::kRoughness)) != 0) size += gpu::kFacets;
+  std::uint32_t size = (effects & shaders::effectBit(Effect::kGlass)) != 0 ? std::max(depth, 1u) : 1;
+  if ((effects & shaders::effectBit(Effect::kRoughness)) != 0) size += gpu::kFacets;
   return size;
 }
 

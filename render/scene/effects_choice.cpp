@@ -20,7 +20,7 @@ std::string withoutPolarization(const MethodInfo& method, bool linear, bool circ
   return circular ? method.withoutCircular : method.name;
 }
 
-// The cheapest exact method. If Stokes vectors are asked for it carries them, even where they are 0.
+// Chooses the cheapest exact method. If Stokes vectors are requested it carries them, even if they are 0.
 EffectsChoice chooseAutomatically(const MethodInfo& method, const std::vector<pack::Effect>& effects,
                                   const bake::ImageRequest& request) {
   EffectsChoice choice;
@@ -35,7 +35,7 @@ EffectsChoice chooseAutomatically(const MethodInfo& method, const std::vector<pa
   return choice;
 }
 
-// Text of the warning that an effect is left out.
+// Warning that an effect is left out, with a bound of the error.
 std::string warningText(Effect effect, const pack::Scene& scene, const bake::ImageRequest& request) {
   std::string size = "the error can be as large as its light";
   if (isPolarization(effect)) {
@@ -43,7 +43,8 @@ std::string warningText(Effect effect, const pack::Scene& scene, const bake::Ima
     size = fmt::format("the relative error of the unpolarized intensity is at most {:.3g}, {:.3g}, {:.3g} (r, g, b)",
                        bound.x, bound.y, bound.z);
   }
-  return fmt::format("--effects leaves out {}, which this scene needs: {}", shaders::nameOf(effect), size);
+  return fmt::format("--effects leaves out {0}, which this scene needs: {1}; add {0} to --effects to keep it",
+                     shaders::effectName(effect), size);
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ EffectsChoice chooseEffects(const std::vector<std::string>& asked, const std::st
     }
   choice.method = withoutPolarization(methodNamed(method), off.contains(Effect::kLinearPolarization),
                                       off.contains(Effect::kCircularPolarization));
-  // The same method carries no polarization, or keeps it anyway.
+  // A method that is not replaced carries no polarization or keeps it, so polarization causes no warning.
   for (const Effect effect : off)
     if (!isPolarization(effect) || choice.method != method)
       choice.warnings.push_back({effect, warningText(effect, scene, request)});

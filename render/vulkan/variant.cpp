@@ -13,7 +13,7 @@ namespace malus::vulkan {
 
 using shaders::Effect;
 
-bool has(const Variant& variant, Effect effect) { return (variant.effects & shaders::bitOf(effect)) != 0; }
+bool has(const Variant& variant, Effect effect) { return (variant.effects & shaders::effectBit(effect)) != 0; }
 
 bool isIterative(const Variant& variant) { return variant.stackSize > 0; }
 

@@ -335,7 +335,7 @@ TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
   const auto choice = render::chooseEffects(kept, "stokes", scene, request);
   ASSERT_EQ(choice.off, std::vector<std::string>{expected.effect});
   ASSERT_EQ(choice.warnings.size(), 1u);
-  EXPECT_EQ(shaders::nameOf(choice.warnings[0].effect), expected.effect);
+  EXPECT_EQ(shaders::effectName(choice.warnings[0].effect), expected.effect);
   EXPECT_NE(choice.warnings[0].text.find(expected.effect), std::string::npos);
 }
 

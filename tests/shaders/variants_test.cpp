@@ -74,7 +74,7 @@ std::vector<std::uint32_t> compiled(const Variant& variant, const vulkan::StageS
 using shaders::Effect;
 constexpr std::uint32_t effectMask(std::initializer_list<Effect> effects) {
   std::uint32_t bits = 0;
-  for (const Effect effect : effects) bits |= shaders::bitOf(effect);
+  for (const Effect effect : effects) bits |= shaders::effectBit(effect);
   return bits;
 }
 constexpr std::uint32_t kLit = effectMask({Effect::kLambert, Effect::kPaint, Effect::kMetal, Effect::kGlass,
@@ -167,7 +167,7 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
                                 Effect::kRoughness, Effect::kSky, Effect::kPolarizedEmitters}) {
       SCOPED_TRACE(std::string(method) + " " + shaders::kCompiledEffects[static_cast<std::size_t>(effect)].macro);
       Variant on = off;
-      on.effects |= shaders::bitOf(effect);
+      on.effects |= shaders::effectBit(effect);
       const Counts with = countInstructions(on);
       EXPECT_GT(with.words, without.words);
       expectBinding(with, 12, effect != Effect::kSky);
@@ -191,7 +191,7 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
     for (const Effect effect : {Effect::kPointLights, Effect::kShadows, Effect::kAmbient, Effect::kHighlights,
                                 Effect::kEnvironmentMap, Effect::kGlass, Effect::kLambert, Effect::kEmitter}) {
       Variant less = off;
-      less.effects &= ~shaders::bitOf(effect);
+      less.effects &= ~shaders::effectBit(effect);
       EXPECT_LT(countInstructions(less).words, without.words)
           << shaders::kCompiledEffects[static_cast<std::size_t>(effect)].macro;
     }

@@ -9,7 +9,7 @@
 
 namespace malus::render {
 
-// Bits of shaders::Effect; all of them if the parameters ask for every effect.
+// Bits of shaders::Effect; all of them if parameters.everyEffect is set.
 std::uint32_t compiledEffects(const pack::Scene& scene, const RenderParameters& parameters);
 
 // Most paths that an iterative method defers at once (shaders/iterative/camera_path.h): one per interaction with glass,

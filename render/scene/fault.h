@@ -12,7 +12,7 @@ namespace malus::render {
 
 struct Faults {
   std::uint64_t count = 0;          // unphysical values
-  std::optional<gpu::Fault> first;  // of the first pixel in reading order, the first that occurred
+  std::optional<gpu::Fault> first;  // the first to occur in the first pixel, row by row
 
   // Adds a fault; those of one pixel must be added in the order of their occurrence. width: of the whole image.
   void note(const gpu::Fault& fault, std::uint32_t width);

@@ -13,13 +13,13 @@ namespace malus::render {
 // Polarization that a method carries from surface to surface: none, S1 and S2, or S1, S2 and S3.
 enum class CarriedPolarization { none, linear, full };
 
-// approximate: a model with an error of its own. exact: the intensity is exact where the components that are not
-// carried are 0. packed: as exact, rounded to 16 bits.
+// approximate: a simplified model. exact: the intensity is exact where the components that are not carried are 0.
+// packed: as exact, rounded to 16 bits.
 enum class Accuracy { approximate, packed, exact };
 
 struct MethodInfo {
   std::string name;
-  std::size_t payloadBytes;  // per ray, what a recursive method's ray returns; 0 for an iterative one
+  std::size_t payloadBytes;  // per ray of a recursive method: its result; 0 for an iterative one
   bool hasStokes;            // images can have Stokes channels; those of an iterative method on request (--stokes)
   bool isIterative;          // a loop along the camera path; else recursive
   std::size_t pathBytes;     // per path of an iterative method: origin, direction, depth and throughput; else 0
@@ -31,7 +31,7 @@ struct MethodInfo {
 
   bool carriesLinear() const { return polarization != CarriedPolarization::none; }
   bool carriesCircular() const { return polarization == CarriedPolarization::full; }
-  // Exact and with all of the Stokes vector: what other methods are measured against.
+  // Exact and with the whole Stokes vector: the reference of the other methods.
   bool isComplete() const { return accuracy == Accuracy::exact && carriesCircular(); }
 };
 
@@ -43,7 +43,7 @@ const MethodInfo& methodNamed(std::string_view name);  // name or alias; throws 
 std::vector<std::string> methodNames();
 std::vector<std::string> methodAliases();
 
-const MethodInfo& baselineMethod();           // the one to which `malus compare` relates times: the first
+const MethodInfo& baselineMethod();           // baseline of the times of `malus compare`: the first
 const MethodInfo& completeRecursiveMethod();  // the first recursive method that is complete: stokes
 
 }  // namespace malus::render

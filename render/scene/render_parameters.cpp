@@ -7,12 +7,12 @@ namespace malus::render {
 
 namespace {
 
-// Cosine and sine of an angle in degrees, exact at multiples of 90, so that a filter along an axis has no
-// trace of another component.
-struct Turn {
+// Cosine and sine of an angle in degrees, exact at multiples of 90, so that other components of a filter
+// along an axis are exactly 0.
+struct CosSin {
   double cos, sin;
 };
-Turn turnOf(double degrees) {
+CosSin exactCosSin(double degrees) {
   const double whole = std::fmod(degrees, 360.0), quarters = std::nearbyint(whole / 90);
   const double rest = (whole - quarters * 90) * std::numbers::pi / 180, c = std::cos(rest), s = std::sin(rest);
   switch ((static_cast<int>(quarters) + 4) % 4) {
@@ -30,17 +30,18 @@ Turn turnOf(double degrees) {
 }  // namespace
 
 Analyser linearPolarizer(double degrees) {
-  const Turn twice = turnOf(2 * std::fmod(degrees, 180.0));
+  const CosSin twice = exactCosSin(2 * std::fmod(degrees, 180.0));
   return {0.5, 0.5 * twice.cos, 0.5 * twice.sin, 0};
 }
 
 Analyser circularAnalyser(Handedness handedness) { return {0.5, 0, 0, handedness == Handedness::right ? 0.5 : -0.5}; }
 
 Analyser behindWavePlate(const Analyser& analyser, const WavePlate& plate) {
-  const Turn axis = turnOf(2 * std::fmod(plate.axisDegrees, 180.0)), delay = turnOf(plate.retardanceDegrees);
+  const CosSin axis = exactCosSin(2 * std::fmod(plate.axisDegrees, 180.0)),
+               delay = exactCosSin(plate.retardanceDegrees);
   const auto [w, q, u, v] = analyser;
-  // ImportanceVector times R(-a): its components along and across the plate's axes; times G: the delay; times R(a):
-  // back.
+  // Multiply the row by R(-a), which gives its components along and across the plate's axes, by G, which delays them,
+  // and by R(a).
   const double along = q * axis.cos + u * axis.sin, across = u * axis.cos - q * axis.sin;
   const double delayed = across * delay.cos - v * delay.sin, circular = across * delay.sin + v * delay.cos;
   return {w, along * axis.cos - delayed * axis.sin, along * axis.sin + delayed * axis.cos, circular};

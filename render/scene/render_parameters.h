@@ -44,7 +44,7 @@ struct RenderParameters {
   std::uint32_t depth = 0;    // most specular interactions along a path
   Analyser analyser = kNoFilter;
   bool shadows = true;         // false: nothing blocks a point light
-  bool everyEffect = false;    // compile in every effect, whether the scene calls for it or not
+  bool everyEffect = false;    // compile in every effect, even those that the scene does not need
   double tolerance = 0;        // of iterative methods: share of a source's radiance that a path may lose
   bool stokes = false;         // of iterative methods: Stokes vectors too, by four analysers
   bool checkNumerics = false;  // find unphysical values (fault.h); slow

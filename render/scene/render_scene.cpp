@@ -19,7 +19,7 @@ glm::dvec3 roundTripPhase(const pack::Coating& coating) { return 2 * coating.thi
 
 namespace {
 
-f64::Reflectance reflectanceOf(const pack::Material& m, double c, int colour) {
+f64::Reflectance reflectance(const pack::Material& m, double c, int colour) {
   const bool metal = pack::isConductor(m.kind);
   const double n3 = metal ? m.eta[colour] : m.eta.y, k3 = metal ? m.k[colour] : 0;
   if (m.coating.thicknessNm > 0)
@@ -27,7 +27,7 @@ f64::Reflectance reflectanceOf(const pack::Material& m, double c, int colour) {
   return metal ? f64::conductorReflectance(c, m.outsideEta, n3, k3) : f64::dielectricReflectance(c, m.outsideEta, n3);
 }
 
-gpu::MaterialExtra extraOf(const pack::Material& m) {
+gpu::MaterialExtra makeExtra(const pack::Material& m) {
   gpu::MaterialExtra e{};
   // Only glass has an inside: the other surfaces see the outer medium from both sides.
   e.absorption = glm::vec3(m.kind == pack::MaterialKind::glass ? m.absorption : m.outsideAbsorption);
@@ -63,7 +63,7 @@ glm::dvec3 hemisphereTransmittance(const pack::Material& m) {
   for (int i = 0; i < kSteps; ++i) {
     const double c = (i + 0.5) / kSteps;
     for (int colour = 0; colour < 3; ++colour) {
-      const f64::Reflectance r = reflectanceOf(m, c, colour);
+      const f64::Reflectance r = reflectance(m, c, colour);
       sum[colour] += 2 * c * (1 - 0.5 * (r.rs + r.rp)) / kSteps;
     }
   }
@@ -86,7 +86,7 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     g.highlightExponent = m.highlightExponent;
     g.kind = surfaceKind(m.kind);
     result.materials.push_back(g);
-    result.extras.push_back(extraOf(m));
+    result.extras.push_back(makeExtra(m));
   }
   for (const pack::PointLight& light : scene.lights)
     result.lights.push_back({glm::vec3(light.position), glm::vec3(light.intensity)});
@@ -115,7 +115,7 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
 }
 
 glm::dvec2 facetPoint(std::size_t i) {
-  // Vogel's spiral: equal areas, each point turned by the golden angle.
+  // Vogel's spiral: equal areas, each point rotated by the golden angle.
   const double radius = std::sqrt((static_cast<double>(i) + 0.5) / gpu::kFacets),
                angle = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
   return {radius * std::cos(angle), radius * std::sin(angle)};

@@ -38,7 +38,7 @@ class PrunedFunction {
 
   Words words;
   std::vector<Id> calls;
-  std::set<Id> removed;  // results that are gone
+  std::set<Id> removed;  // results of removed instructions
 
  private:
   void add(Instruction i) {

@@ -30,10 +30,10 @@ int main(int argc, char** argv) {
       parameters.everyEffect = effects == "all";
       if (effects.starts_with("DEPTH=")) parameters.depth = static_cast<std::uint32_t>(std::stoul(effects.substr(6)));
       embree::Renderer renderer(scene, 1);
-      renderer.render(method, parameters);  // the scheduler starts up
+      renderer.render(method, parameters);  // starts the scheduler
       CALLGRIND_ZERO_STATS;
       renderer.render(method, parameters);
-      CALLGRIND_DUMP_STATS_AT("picture");
+      CALLGRIND_DUMP_STATS_AT("image");
     }
   } catch (const Error& error) {
     std::fprintf(stderr, "instructions_probe: %s\n", error.what());

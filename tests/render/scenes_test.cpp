@@ -28,8 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 const std::vector<std::string> kRgb = {"R", "G", "B"};
 
-// A scene as a renderer gets it: baked, written, read back. Each is baked once for all tests.
-const pack::Pack& packOf(const std::string& name) {
+// Returns a scene as a renderer gets it: baked, written, read back. Each scene is baked once for all tests.
+const pack::Pack& scenePack(const std::string& name) {
   static std::map<std::string, pack::Pack> packs;
   const auto at = packs.find(name);
   if (at != packs.end()) return at->second;
@@ -83,7 +83,7 @@ void expectClose(const image::Image& a, const image::Image& b, const std::string
 class Scenes : public testing::TestWithParam<std::string> {};
 
 TEST_P(Scenes, EqualTheStoredImages) {
-  const pack::Pack& pack = packOf(GetParam());
+  const pack::Pack& pack = scenePack(GetParam());
   const bool update = std::getenv("MALUS_UPDATE_REFERENCES") != nullptr;
   for (const std::string method : {"schlick", "fresnel", "sp", "reference"}) {
     const fs::path stored = fs::path(MALUS_REFERENCES) / fmt::format("{}-{}.exr", GetParam(), method);
@@ -105,20 +105,20 @@ TEST_P(Scenes, EqualTheStoredImages) {
 }
 
 TEST_P(Scenes, AgreeBetweenTheRenderers) {
-  const pack::Pack& pack = packOf(GetParam());
+  const pack::Pack& pack = scenePack(GetParam());
   for (const std::string method : {"schlick", "fresnel", "sp", "stokes"})
     expectClose(rendered(pack, "vulkan", method), rendered(pack, "embree", method), "renderers", method);
 }
 
 TEST_P(Scenes, StokesEqualsTheDoublePrecisionReference) {
-  const pack::Pack& pack = packOf(GetParam());
+  const pack::Pack& pack = scenePack(GetParam());
   const image::Image reference = rendered(pack, "reference", "reference");
   for (const std::string renderer : {"vulkan", "embree"})
     expectClose(rendered(pack, renderer, "stokes"), reference, "reference", renderer);
 }
 
 TEST_P(Scenes, EveryValueIsOneThatLightCanHave) {
-  const pack::Scene& scene = packOf(GetParam()).scene;
+  const pack::Scene& scene = scenePack(GetParam()).scene;
   render::RenderParameters parameters = smallView(scene);
   parameters.checkNumerics = true;
   const auto expectSound = [&](const render::RenderResult& result, const std::string& what) {
@@ -134,8 +134,8 @@ TEST_P(Scenes, EveryValueIsOneThatLightCanHave) {
 }
 
 TEST_P(Scenes, PolarizationIsVisible) {
-  // What the scenes are made for: the exact unpolarized equation is off by more than 5 % in many pixels.
-  const pack::Pack& pack = packOf(GetParam());
+  // The scenes show polarization: the relative error of the exact unpolarized equation is over 5 % in many pixels.
+  const pack::Pack& pack = scenePack(GetParam());
   const image::Image truth = rendered(pack, "reference", "reference"), fresnel = rendered(pack, "embree", "fresnel");
   std::size_t visible = 0;
   const auto count = static_cast<std::size_t>(truth.width * truth.height);

@@ -121,12 +121,12 @@ TEST(Mosaic, FilesHoldTheValues) {
         if (name == "ImageDescription") description = std::get<std::string>(value);
       EXPECT_NE(description.find("90 45 / 135 0"), std::string::npos) << extension;
       writeMosaic(again, m);
-      const auto bytesOf = [](const fs::path& p) {
+      const auto readBytes = [](const fs::path& p) {
         std::ifstream file(p, std::ios::binary);
         return std::string(std::istreambuf_iterator<char>(file), {});
       };
-      EXPECT_EQ(bytesOf(path), bytesOf(again)) << "equal images give equal files";
-      EXPECT_EQ(bytesOf(path).find("DateTime"), std::string::npos);
+      EXPECT_EQ(readBytes(path), readBytes(again)) << "equal images give equal files";
+      EXPECT_EQ(readBytes(path).find("DateTime"), std::string::npos);
       fs::remove(path);
       fs::remove(again);
     }

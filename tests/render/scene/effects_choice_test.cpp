@@ -1,4 +1,4 @@
-// --effects: what is taken in place of a method, what is left out, and what is said of it.
+// --effects: the method that replaces another, the effects that are left out, and the warnings about them.
 #include "render/scene/effects_choice.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ bake::ImageRequest intensityAt(std::uint32_t depth) {
   return request;
 }
 
-TEST(EffectsChoice, AutoTakesTheCheapestExactMethod) {
+TEST(EffectsChoice, AutoChoosesTheCheapestExactMethod) {
   const pack::Scene one = mirrors(false), two = mirrors(true);
   const auto chosen = [](const char* method, const pack::Scene& scene, const bake::ImageRequest& request) {
     return chooseEffects({"auto"}, method, scene, request).method;
@@ -39,7 +39,7 @@ TEST(EffectsChoice, AutoTakesTheCheapestExactMethod) {
   EXPECT_EQ(chosen("stokes-half", one, intensityAt(6)), "fresnel");
   EXPECT_EQ(chosen("importance", one, intensityAt(6)), "fresnel-iterative");
   EXPECT_FALSE(chooseEffects({"auto"}, "stokes", one, intensityAt(6)).why.empty());
-  // Methods that are not exact are what they are, and so is everything with "all".
+  // Methods that are not exact are not replaced, and no method is with "all".
   for (const char* method : {"schlick", "fresnel", "sp", "sp-ratio", "sp-malus"})
     EXPECT_EQ(chosen(method, one, intensityAt(6)), method);
   EXPECT_EQ(chooseEffects({"all"}, "stokes", one, intensityAt(6)).method, "stokes");
@@ -48,7 +48,7 @@ TEST(EffectsChoice, AutoTakesTheCheapestExactMethod) {
   EXPECT_EQ(chosen("importance", two, intensityAt(6)), "importance");
   EXPECT_EQ(chosen("stokes", two, intensityAt(3)), "stokes-linear");
   EXPECT_EQ(chosen("stokes", two, intensityAt(1)), "fresnel");
-  // Who asks for Stokes vectors gets them.
+  // Requested Stokes vectors are recorded.
   bake::ImageRequest stokes = intensityAt(6);
   stokes.linearStokes = stokes.circularStokes = true;
   EXPECT_EQ(chosen("stokes", two, stokes), "stokes");

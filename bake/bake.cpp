@@ -32,12 +32,13 @@ pack::Camera makeCamera(const SceneDescription& d, const glm::dvec3& origin) {
   pack::Camera camera;
   const glm::dvec3 toTarget = d.cameraTarget - d.cameraPosition;
   if (glm::length(toTarget) == 0)
-    throw Error(d.file.string(), "camera.target: is the camera's position", "another point");
+    throw Error(d.file.string(), "camera.target: equals camera.position", "another point");
   camera.position = d.cameraPosition - origin;
   camera.forward = glm::normalize(toTarget);
   const glm::dvec3 right = glm::cross(camera.forward, d.cameraUp);
   if (glm::length(right) <= 1e-9 * glm::length(d.cameraUp))
-    throw Error(d.file.string(), "camera.up: points along the view", "another direction");
+    throw Error(d.file.string(), "camera.up: is parallel to the view",
+                "a direction that is not parallel to target - position");
   camera.right = glm::normalize(right);
   camera.up = glm::cross(camera.right, camera.forward);
   camera.verticalFovDegrees = d.verticalFovDegrees;
@@ -56,8 +57,8 @@ void requireAxisInPlane(const pack::Mesh& mesh, const pack::Material& material, 
     const double length = glm::length(across);
     if (length > 0 && std::abs(glm::dot(across / length, material.axis)) > 1 - 1e-6)
       throw Error(file.string(),
-                  fmt::format("mesh '{}': face {} is at right angles to its material's axis", mesh.name, i),
-                  fmt::format("an axis of '{}' that is not parallel to the normals of its faces", material.name));
+                  fmt::format("mesh '{}': the normal of face {} is parallel to the axis of its material", mesh.name, i),
+                  fmt::format("another axis of material '{}'", material.name));
   }
 }
 

@@ -14,8 +14,7 @@
 namespace malus::bake {
 
 // {name, title, packHash, origin, resolution, depth, exposureEv, camera, environment, lights[], materials[],
-// textures[],
-//  meshes[{name, file, material, openSurface, vertices, triangles, map: if the pack has it}]}
+//  textures[], meshes[{name, file, material, openSurface, vertices, triangles, map: if the pack has it}]}
 nlohmann::json sceneJson(const pack::Pack& pack);
 
 // {name, type, eta, k, ..., highlight: null without one}; the fields of SRFX unless the material is plain.

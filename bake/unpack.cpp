@@ -67,17 +67,20 @@ void writeTexture(const pack::Texture& texture, const fs::path& file) {
 json unpack(const pack::Pack& pack, const fs::path& folder) {
   const pack::Scene& scene = pack.scene;
   std::error_code failed;
-  // Somebody's scene, which looks alike, is not written over.
+  // Overwrite only what unpack wrote: a source scene.json has no packHash.
   if (fs::exists(folder / "scene.json", failed)) {
     const json old = json::parse(readTextFile(folder / "scene.json"), nullptr, false);
     if (!old.is_object() || !old.contains("packHash"))
-      throw Error((folder / "scene.json").string(), "is there and was not unpacked from a pack", "another folder");
+      throw Error((folder / "scene.json").string(), "exists and was not written by 'malus unpack'",
+                  "an empty folder, or one that 'malus unpack' wrote; choose it with --output");
     fs::remove_all(folder / "meshes", failed);
     fs::remove_all(folder / "textures", failed);
     fs::remove(folder / "environment.exr", failed);
   }
   fs::create_directories(folder / "meshes", failed);
-  if (failed) throw Error(folder.string(), "cannot make the folder", "", failed.message());
+  if (failed)
+    throw Error(folder.string(), "cannot create the folder", "a writable folder; choose it with --output",
+                failed.message());
 
   for (std::size_t i = 0; i < scene.meshes.size(); ++i)
     writeFile(folder / meshFile(i), std::string_view(plyText(scene.meshes[i])));

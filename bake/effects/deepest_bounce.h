@@ -5,8 +5,8 @@
 
 namespace malus::bake {
 
-// Returns the largest number of interactions, at most `depth`, after which light can change a pixel by more than
-// `tolerance` of its radiance at the last one. Conservative: between each pair of flat faces the most grazing ray
+// Returns the largest number of interactions, at most `depth`, at the last of which light can still change a pixel
+// by more than `tolerance` of its radiance. Conservative: between each pair of flat faces the most grazing ray
 // bounds the reflectance, and the chain of faces with the largest product is taken; glass, polarizing elements, thin
 // films, maps, curved and rough surfaces count as a reflectance of 1. Returns `depth` for a scene with more than
 // kMostFaces faces of interfaces.

@@ -14,25 +14,25 @@
 
 namespace malus::bake {
 
-// What is asked of an image besides the scene. The baker asks for the intensity without a filter at the depth of the
-// scene; a renderer knows more and applies the same rules again.
+// Settings of an image that its effects depend on. The baker assumes the intensity without a filter at the depth of the
+// scene; a renderer knows the actual settings and applies the same rules again.
 struct ImageRequest {
   std::uint32_t depth = 0;
   std::array<double, 4> analyser = {1, 0, 0, 0};  // first row of the filter's Mueller matrix
-  bool linearStokes = false;                      // S1, S2, DoLP or AoLP are asked for
-  bool circularStokes = false;                    // S3 is asked for
+  bool linearStokes = false;                      // S1, S2, DoLP or AoLP are requested
+  bool circularStokes = false;                    // S3 is requested
 };
 
 // The listed effects in the order of shaders/effects.def, each with its reason.
 std::vector<pack::Effect> findEffects(const pack::Scene& scene, const ImageRequest& request);
 std::vector<pack::Effect> findEffects(const pack::Scene& scene);  // for the baker
 
-// Bits of shaders::Effect: what the shaders need for the image.
+// Bits (shaders::effectBit) of the effects that the shaders need for the image.
 std::uint32_t findCompiledEffects(const pack::Scene& scene, const ImageRequest& request);
 
 bool isOn(const std::vector<pack::Effect>& effects, shaders::Effect effect);
 bool isOn(const std::vector<pack::Effect>& effects, std::string_view name);  // name or alias
-std::vector<std::string> effectNames();                                      // of the listed ones
+std::vector<std::string> effectNames();                                      // listed effects only
 
 // The listed effect with a name or an alias. Throws Error for any other name.
 shaders::Effect effectNamed(std::string_view name);

@@ -20,7 +20,7 @@ bool hasHighlights(const EffectQuery& q) {
 
 bool isLitByPointLights(const EffectQuery& q) { return !q.scene.lights.empty() && (isDiffuse(q) || hasHighlights(q)); }
 
-// A constant reason for each case.
+// Returns one of two constant reasons.
 std::function<std::string(const EffectQuery&, bool)> either(const char* on, const char* off) {
   return [on, off](const EffectQuery&, bool isOn) { return isOn ? on : off; };
 }

@@ -6,13 +6,13 @@ namespace malus::bake {
 using pack::Material;
 using shaders::Effect;
 
-EffectRule materialRule(Effect effect, const EffectQuery::Predicate& holds,
+EffectRule materialRule(Effect effect, const EffectQuery::Predicate& predicate,
                         const std::function<void(Material&)>& removeFrom) {
   EffectRule rule;
   rule.effect = effect;
-  rule.isOn = [holds](const EffectQuery& q) { return q.any(holds); };
-  rule.reason = [holds](const EffectQuery& q, bool on) {
-    return on ? fmt::format("materials: {}", q.names(holds)) : "no material has it";
+  rule.isOn = [predicate](const EffectQuery& q) { return q.any(predicate); };
+  rule.reason = [predicate](const EffectQuery& q, bool on) {
+    return on ? fmt::format("materials: {}", q.names(predicate)) : "no material has it";
   };
   if (removeFrom)
     rule.remove = [removeFrom](pack::Scene& scene) {
@@ -23,7 +23,7 @@ EffectRule materialRule(Effect effect, const EffectQuery::Predicate& holds,
 
 namespace {
 
-// As rule, for an effect of reflections.
+// The same rule for an effect that needs a reflection.
 EffectRule ifReflecting(EffectRule rule) {
   rule.isOn = [isOn = rule.isOn](const EffectQuery& q) { return q.reflects() && isOn(q); };
   rule.reason = [reason = rule.reason](const EffectQuery& q, bool on) {

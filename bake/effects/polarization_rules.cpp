@@ -7,7 +7,7 @@ using shaders::Effect;
 
 namespace {
 
-// Linear polarization: asked for, or two diattenuators on one path, the filter being one.
+// Linear polarization is needed if it is requested, or if one path has two diattenuators, the filter included.
 bool needsLinear(const EffectQuery& q) {
   const PolarizingPaths& p = q.paths();
   return p.diattenuators >= 2 || ((q.request.linearStokes || q.hasLinearFilter()) && p.canPolarize());
@@ -20,7 +20,7 @@ std::string linearReason(const EffectQuery& q, bool on) {
       return "no path has two diattenuating surfaces";
     return fmt::format("no path has two diattenuating surfaces: {} are not visible from each other", p.interfaces);
   }
-  if (q.request.linearStokes) return "S1 and S2 are asked for";
+  if (q.request.linearStokes) return "S1 and S2 are requested";
   if (p.diattenuators >= 2 && p.hasPolarizedSources())
     return fmt::format("polarized light ({}{}{}) reaches {}; not needed at depth 0", p.polarizedSky ? "sky" : "",
                        p.polarizedSky && !p.polarizedEmitters.empty() ? ", " : "", p.polarizedEmitters, p.interfaces);
@@ -33,7 +33,7 @@ std::string linearReason(const EffectQuery& q, bool on) {
 
 // A phase shifter (metal, total reflection, wave plate, thin film) behind a diattenuator makes circular light. It
 // changes an intensity if two shifters are strictly between two diattenuators, the first of which may be the filter; if
-// the filter passes one handedness, or S3 is asked for, one shifter suffices.
+// the filter passes one handedness, or S3 is requested, one shifter suffices.
 bool circularIsRecorded(const EffectQuery& q) {
   return (q.request.circularStokes || q.hasCircularFilter()) && q.paths().diattenuators >= 2;
 }
@@ -47,7 +47,7 @@ std::string circularReason(const EffectQuery& q, bool on) {
   const std::string& shifters = q.paths().phaseShifters;
   if (!on) return "no path has two phase shifters between two diattenuators";
   if (circularIsRecorded(q))
-    return q.request.circularStokes ? fmt::format("S3 is asked for, made by {}", shifters)
+    return q.request.circularStokes ? fmt::format("S3 is requested, made by {}", shifters)
                                     : fmt::format("the filter passes one handedness; circular light by {}", shifters);
   return fmt::format(
       "paths of depth {} can have two phase shifters ({}) between two diattenuators; not needed at depth <= {}",

@@ -1,4 +1,4 @@
-// Diattenuating and phase-shifting elements that one path of light can contain: what decides whether polarization
+// Diattenuating and phase-shifting elements that one path of light can contain. They decide whether polarization
 // changes the image (shaders/optics/CONVENTIONS.md, "When polarization may be left out").
 #pragma once
 

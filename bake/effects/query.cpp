@@ -15,14 +15,14 @@ EffectQuery::EffectQuery(const pack::Scene& queriedScene, const ImageRequest& qu
     if (used[i]) used_.push_back(&scene.materials[i]);
 }
 
-bool EffectQuery::any(const Predicate& holds) const {
-  return std::any_of(used_.begin(), used_.end(), [&](const Material* m) { return holds(*m); });
+bool EffectQuery::any(const Predicate& predicate) const {
+  return std::any_of(used_.begin(), used_.end(), [&](const Material* m) { return predicate(*m); });
 }
 
-std::string EffectQuery::names(const Predicate& holds) const {
+std::string EffectQuery::names(const Predicate& predicate) const {
   std::vector<std::string_view> names;
   for (const Material* m : used_)
-    if (holds(*m)) names.emplace_back(m->name);
+    if (predicate(*m)) names.emplace_back(m->name);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -1,4 +1,4 @@
-// A scene and what is asked of its image, as the rules of the effects read them.
+// A scene and the settings of its image, as the rules of the effects read them.
 #pragma once
 
 #include <functional>
@@ -23,14 +23,14 @@ class EffectQuery {
   const ImageRequest& request;
 
   // Over the materials that a mesh uses.
-  bool any(const Predicate& holds) const;
-  std::string names(const Predicate& holds) const;  // "gold, glass"
+  bool any(const Predicate& predicate) const;
+  std::string names(const Predicate& predicate) const;  // "gold, glass"
 
   bool hasLinearFilter() const { return request.analyser[1] != 0 || request.analyser[2] != 0; }
   bool hasCircularFilter() const { return request.analyser[3] != 0; }
   bool reflects() const { return request.depth >= 1; }
   bool hasEnvironment() const { return scene.environment.size > 0 || isPositive(scene.environment.radiance); }
-  // Found at the first call: it may compare every interface with every other one.
+  // Computed by the first call, because it may compare every interface with every other one.
   const PolarizingPaths& paths() const;
 
  private:

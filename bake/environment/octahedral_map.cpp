@@ -22,7 +22,9 @@ class LatLong {
   LatLong(const image::Image& image, std::string_view where, double scale)
       : width_(image.width), height_(image.height) {
     const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
-    if (r < 0 || g < 0 || b < 0) throw Error(where, "environment image has no colour", "channels R, G and B");
+    if (r < 0 || g < 0 || b < 0)
+      throw Error(where, "environment image has no colour", "channels R, G and B",
+                  fmt::format("{}", fmt::join(image.channels, ", ")));
     const auto channels = image.channels.size();
     texels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     for (std::size_t i = 0; i < texels_.size(); ++i) {
@@ -59,7 +61,7 @@ class LatLong {
   std::vector<glm::dvec3> texels_;
 };
 
-glm::dvec3 turnedAboutY(const glm::dvec3& d, double degrees) {
+glm::dvec3 rotateAboutY(const glm::dvec3& d, double degrees) {
   const double c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
   return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
 }
@@ -98,7 +100,7 @@ void bakeEnvironment(const image::Image& image, std::string_view where, double s
     for (const double dv : {0.25, 0.75})
       for (const double du : {0.25, 0.75})
         sum +=
-            source.at(turnedAboutY(f64::directionFromOctahedral((i + du) / size, (j + dv) / size), -rotationDegrees));
+            source.at(rotateAboutY(f64::directionFromOctahedral((i + du) / size, (j + dv) / size), -rotationDegrees));
     return sum * 0.25;
   };
   environment.size = static_cast<std::uint32_t>(size);
@@ -132,7 +134,7 @@ void bakeEnvironment(const image::Image& image, std::string_view where, double s
     for (int x = 0; x < source.width(); ++x) {
       const double azimuth = ((x + 0.5) / source.width() - 0.5) * 2 * kPi;
       const glm::dvec3 d(std::sin(middle) * std::sin(azimuth), std::cos(middle), -std::sin(middle) * std::cos(azimuth));
-      moments.add(turnedAboutY(d, rotationDegrees), source.texel(x, y) * solidAngle);
+      moments.add(rotateAboutY(d, rotationDegrees), source.texel(x, y) * solidAngle);
     }
   }
   environment.irradiance = moments.coefficients();

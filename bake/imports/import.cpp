@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxNameBytes = 200;
 
-// Cuts between two characters of UTF-8.
+// Shortens a name to kMaxNameBytes at most, at a boundary of UTF-8 characters.
 std::string shortened(std::string name) {
   if (name.size() <= kMaxNameBytes) return name;
   std::size_t end = kMaxNameBytes;
@@ -30,10 +30,10 @@ std::string shortened(std::string name) {
   return name;
 }
 
-[[noreturn]] void failUnknown(const ImportDescription& description, std::string_view what, const std::string& name,
-                              const std::vector<std::string>& names) {
+[[noreturn]] void failUnknown(const ImportDescription& description, std::string_view what, std::string_view key,
+                              const std::string& name, const std::vector<std::string>& names) {
   const std::string near = nearestName(name, names);
-  throw Error(description.file.string(), fmt::format("has no {} '{}' that the scene names", what, name),
+  throw Error(description.file.string(), fmt::format("has no {} '{}', which '{}' of the import names", what, name, key),
               near.empty() ? fmt::format("one of its {}", names.size()) : fmt::format("'{}'", near));
 }
 
@@ -46,7 +46,8 @@ class MaterialIndices {
     std::vector<std::string> known = {""};
     for (const prep::SourceMaterial& material : source.materials) known.push_back(material.name);
     for (const auto& [name, ignored] : description.materials)
-      if (std::find(known.begin(), known.end(), name) == known.end()) failUnknown(description, "material", name, known);
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        failUnknown(description, "material", "materials", name, known);
   }
 
   std::uint32_t of(const std::optional<std::size_t>& material) {
@@ -113,7 +114,7 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
   for (const prep::SourceInstance& instance : source.instances) known.push_back(instance.name);
   for (const std::string& name : description.openSurfaces)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      failUnknown(description, "part or instance", name, known);
+      failUnknown(description, "part or instance", "openSurfaces", name, known);
   const std::set<std::string> openSurfaces(description.openSurfaces.begin(), description.openSurfaces.end());
 
   // Prepare every part in its own space, as a body or as an open surface, if an instance needs it.

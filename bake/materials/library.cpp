@@ -6,7 +6,7 @@
 
 namespace malus::bake {
 
-extern const std::string_view kMaterialsJson;  // made from bake/materials.json by the build
+extern const std::string_view kMaterialsJson;  // generated from bake/materials.json by the build
 
 const std::vector<OpticalConstants>& materialLibrary() {
   static const std::vector<OpticalConstants> kLibrary = [] {

@@ -16,8 +16,8 @@ struct OpticalConstants {
   std::string source;  // publication
 };
 
-const std::vector<OpticalConstants>& materialLibrary();       // by name
-const OpticalConstants* findMaterial(std::string_view name);  // nullptr: unknown
+const std::vector<OpticalConstants>& materialLibrary();       // sorted by name
+const OpticalConstants* findMaterial(std::string_view name);  // nullptr if unknown
 std::vector<std::string> materialNames();
 
 }  // namespace malus::bake

@@ -23,7 +23,7 @@ struct Pack {
   Scene scene;
   std::vector<std::string> compression;  // per mesh: "edgebreaker" or "sequential"
   std::vector<DracoData> geometry;       // per mesh: the place of its bytes
-  Encodings encodings;                   // how it was encoded; see known()
+  Encodings encodings;                   // parameters and errors of the encoding; see known()
   bool hasSourceMap() const { return !scene.meshes.empty() && !scene.meshes.front().sourceVertices.empty(); }
 };
 

@@ -46,7 +46,7 @@ pack::Texture bakeTexture(const image::Image& image, const TextureDescription& d
       value = value * d.scale + d.offset;
       if (!(value >= d.low && value <= d.high))
         throw Error(d.file.string(), "contains a value out of the range of the material",
-                    fmt::format("{:g} to {:g}", d.low, d.high),
+                    fmt::format("{:g} to {:g} after 'scale' and 'offset' of the map", d.low, d.high),
                     fmt::format("{} at ({}, {})", value, i % texture.width, i / texture.width));
       texture.texels[i][static_cast<int>(c)] = static_cast<float>(value);
     }

@@ -252,9 +252,9 @@ TEST_F(Bake, CameraAxes) {
   EXPECT_EQ(camera.right, glm::dvec3(1, 0, 0));
   EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
   scene_["camera"]["target"] = {0, 0, 5};
-  EXPECT_TRUE(contains(error(), "camera.target: is the camera's position"));
+  EXPECT_TRUE(contains(error(), "camera.target"));
   scene_["camera"]["target"] = {0, -3, 5};
-  EXPECT_TRUE(contains(error(), "camera.up: points along the view"));
+  EXPECT_TRUE(contains(error(), "camera.up: is parallel"));
   scene_["camera"]["up"] = {0, 0, 0};
   EXPECT_TRUE(contains(error(), "camera.up"));
 }

@@ -20,7 +20,7 @@ WAVELENGTHS_NM = (630, 532, 465)  # of the colours 0, 1, 2
 
 
 class Unpacked:
-    """A scene pack that was taken apart into a folder."""
+    """A scene pack, unpacked into a folder."""
 
     def __init__(self, folder: pathlib.Path):
         self.folder = pathlib.Path(folder)

@@ -6,7 +6,7 @@ import math
 from .mesh import Soup
 from .shapes import aimed, belt, box, lathe, loft, placed, rounded_rectangle, slab
 
-UPRIGHT = placed(rotate_degrees=(-90.0, 0.0, 0.0))  # slabs grow along +z: turns that to +y
+UPRIGHT = placed(rotate_degrees=(-90.0, 0.0, 0.0))  # slabs extend along +z: rotates +z to +y
 
 
 def bolt(radius=0.0066, height=0.006):
@@ -15,7 +15,7 @@ def bolt(radius=0.0066, height=0.006):
 
 
 def _turned(profile, n):
-    """Turned about y and closed by a flat polygon at the top only."""
+    """Lathed about y and closed by a flat polygon at the top only."""
     return loft([[(r * math.cos(2 * math.pi * i / n), y, -r * math.sin(2 * math.pi * i / n)) for i in range(n)]
                  for r, y in profile], cap_first=False)
 

@@ -31,7 +31,7 @@ image needs more reflections and is black, the upper half has a band per number 
 Closed form at the centre, after 64 reflections at 30 degrees, red / green / blue: (R_s^64 + R_p^64)/2 times 1 / 0.8 /
 0.6 of the warm panel = {decimals([a[0] * w for a, w in zip(s, (1.0, 0.8, 0.6))])}, S1 = {decimals(
         [a[1] * w for a, w in zip(s, (1.0, 0.8, 0.6))])}.
-Ray-tracing pipelines need not recurse that deep: a Vulkan device that cannot must report an error.
+A Vulkan device whose recursion limit is lower must report an error.
 """
     materials = {"silver": SILVER, "warm": emitter(1.0, 0.8, 0.6), "cool": emitter(0.3, 0.5, 1.0)}
     return write_hard(folder, "Two facing mirrors: 64 bounces, the depth at which paths end and rounding has grown.",

@@ -4,7 +4,7 @@
 function(malus_read_effects)
   set(table ${PROJECT_SOURCE_DIR}/shaders/effects.def)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
-  file(STRINGS ${table} rows REGEX "^MALUS_(SURFACE|SHADER)_ROW\\(")
+  file(STRINGS ${table} rows REGEX "^MALUS_(SOURCE|SURFACE|SHADER)_ROW\\(")
   set(effects "")
   foreach(row IN LISTS rows)
     if(NOT row MATCHES "^MALUS_[A-Z]+_ROW\\([A-Za-z]+, ([A-Z_]+), (plain|lit|every), ")

@@ -32,11 +32,12 @@ struct CompiledEffect {
   const char* macro;       // "MALUS_EFFECT_GLASS"
   const char* identifier;  // "Glass": of a kind of surface, shadeGlass is its function
   bool isSurface;
+  std::string_view build;  // smallest build of the Embree renderer that contains it
 };
 // Index: the value of the effect.
 inline constexpr auto kCompiledEffects = std::to_array<CompiledEffect>({
-#define MALUS_SURFACE_ROW(id, macro, build, name, alias, description) {"MALUS_EFFECT_" #macro, #id, true},
-#define MALUS_SHADER_ROW(id, macro, build, name, alias, description) {"MALUS_EFFECT_" #macro, #id, false},
+#define MALUS_SURFACE_ROW(id, macro, build, name, alias, description) {"MALUS_EFFECT_" #macro, #id, true, #build},
+#define MALUS_SHADER_ROW(id, macro, build, name, alias, description) {"MALUS_EFFECT_" #macro, #id, false, #build},
 #define MALUS_RULE_ROW(id, name, alias, description)
 #include "shaders/effects.def"
 });

@@ -19,6 +19,9 @@ void removeSurface(Effect surface, Material& m) {
   if (surfaceEffect(m.kind) != surface) return;
   if (surface == Effect::kGlass) {
     m.kind = MaterialKind::mirrorGlass;
+  } else if (pack::isClear(m.kind)) {  // not a body: invisible if its index is that of the medium
+    m.eta = glm::dvec3(m.outsideEta);
+    m.transmittanceParallel = m.transmittanceCrossed = glm::dvec3(1.0);
   } else if (surface == Effect::kPolarizingElement) {  // a grey filter of the same mean transmittance
     m.transmittanceParallel = m.transmittanceCrossed = (m.transmittanceParallel + m.transmittanceCrossed) * 0.5;
     m.retardanceDegrees = glm::dvec3(0.0);

@@ -248,13 +248,13 @@ struct Tracer {
     }
 
     // Handle interfaces, from the index on this side to the index beyond.
-    const bool glass = pack::hasInside(m.kind);
-    if (glass && depth == 0) return unpolarized(dvec3(0));
+    const bool clear = pack::isClear(m.kind), body = pack::hasInside(m.kind);
+    if (clear && depth == 0) return unpolarized(dvec3(0));
     const double inside = h.surface.eta.y;
-    const double n1 = !glass || h.outside ? m.outsideEta : inside, n2 = !glass || h.outside ? inside : m.outsideEta;
-    dvec3 refracted(0);
+    const double n1 = !body || h.outside ? m.outsideEta : inside, n2 = !body || h.outside ? inside : m.outsideEta;
+    dvec3 refracted = d;
     bool total = false;
-    if (glass) {
+    if (body) {
       refracted = f64::refractedDirection(d, h.normal, h.c, n1, n2);
       total = f64::refractionTerms(h.c, n1, n2).total;
       if (!total && glm::dot(refracted, h.face) >= 0) {
@@ -271,7 +271,7 @@ struct Tracer {
 
     // Sum the outgoing light in the frame of the surface: diffuse light through the interface, the reflected mirror
     // ray, the transmitted refracted ray. Then rotate it to the canonical frame of the ray.
-    Light toCamera = glass ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
+    Light toCamera = clear ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
     std::array<Light, 4> parts = {unpolarized(diffuse), unpolarized(highlight), Light{}, Light{}};
     const dmat4 toRay = glm::transpose(toSurface(d, s));
     if (m.roughness > 0 && !behindRough && depth > 0) {
@@ -283,7 +283,7 @@ struct Tracer {
           rotated(toSurface(mirror, s), trace(h.position, queryAbove(h), mirror, depth - 1, behindRough));
       parts[2] = arriving;
       toCamera = toCamera + interface.reflection * (arriving + unpolarized(highlight));
-      if (glass && !total) {
+      if (clear && !total) {
         const Light below =
             rotated(toSurface(refracted, s), trace(h.position, queryBelow(h), refracted, depth - 1, behindRough));
         toCamera = toCamera + interface.transmission * below;

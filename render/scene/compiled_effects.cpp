@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bake/effects/effects.h"
+#include "render/scene/render_scene.h"
 #include "shaders/effects.h"
 #include "shaders/gpu/constants.h"
 
@@ -17,7 +18,10 @@ std::uint32_t compiledEffects(const pack::Scene& scene, const RenderParameters& 
 }
 
 std::uint32_t pathStackSize(std::uint32_t effects, std::uint32_t depth) {
-  std::uint32_t size = (effects & shaders::effectBit(Effect::kGlass)) != 0 ? std::max(depth, 1u) : 1;
+  std::uint32_t branching = 0;  // kinds of surface that reflect and transmit
+  for (const pack::MaterialKindInfo& kind : pack::kMaterialKinds)
+    if (pack::isClear(kind.kind)) branching |= 1u << surfaceKind(kind.kind);
+  std::uint32_t size = (effects & branching) != 0 ? std::max(depth, 1u) : 1;
   if ((effects & shaders::effectBit(Effect::kRoughness)) != 0) size += gpu::kFacets;
   return size;
 }

@@ -13,6 +13,19 @@ namespace malus::vulkan {
 
 using shaders::Effect;
 
+namespace {
+
+// Whether the shaders read MaterialExtra: for every effect that the paper's scenes do not have, except the sky.
+bool readsMaterialExtras(const Variant& variant) {
+  for (std::size_t i = 0; i < shaders::kCompiledEffects.size(); ++i)
+    if ((variant.effects >> i & 1) != 0 && shaders::kCompiledEffects[i].build == "every" &&
+        static_cast<Effect>(i) != Effect::kSky)
+      return true;
+  return false;
+}
+
+}  // namespace
+
 bool has(const Variant& variant, Effect effect) { return (variant.effects & shaders::effectBit(effect)) != 0; }
 
 bool isIterative(const Variant& variant) { return variant.stackSize > 0; }
@@ -41,6 +54,7 @@ std::string preamble(const Variant& variant) {
     text += fmt::format("#define {} {}\n", effect.macro, variant.effects >> i & 1);
     if (effect.isSurface) text += fmt::format("#define k{} {}u\n", effect.identifier, i);
   }
+  text += fmt::format("#define MALUS_MATERIAL_EXTRAS {}\n", readsMaterialExtras(variant) ? 1 : 0);
   if (variant.fourAnalysers) text += "#define MALUS_FOUR_ANALYSERS\n";
   if (variant.countRays) text += "#define MALUS_COUNT_RAYS\n";
   if (variant.checkNumerics) text += "#define MALUS_CHECK_NUMERICS\n";

@@ -26,39 +26,11 @@ FN PathLight environmentLight(IN(CameraPath) p) {
   return unpolarizedLight(p.throughput, environmentRadiance(p.d));
 }
 
-// Whether a surface only emits or is diffuse without an interface.
-FN bool isSource(word kind) {
-  if (kEffectEmitter) {
-    if (kind == kEmitter) return true;
-  }
-  if (kEffectLambert) {
-    if (kind == kLambert) return true;
-  }
-  return false;
-}
-
 FN PathLight sourceLight(IN(Hit) h, IN(Material) m, IN(Throughput) c) {
   if (kEffectEmitter) {
     if (m.kind == kEmitter) return emitterLight(h, m, c);
   }
   return unpolarizedLight(c, directLight(h, m, h.normal).diffuse);
-}
-
-// Whether light of a layer below leaves through the surface's interface.
-FN bool hasBase(word kind) { return kind == kPaint || kind == kMetal; }
-
-// The steps of a kind of surface that reflects or transmits.
-FN Scattering surfaceScattering(INOUT(Hit) h, IN(Material) m) {
-  if (kEffectGlass) {
-    if (m.kind == kGlass) return glassScattering(h, m);
-  }
-  if (kEffectPolarizingElement) {
-    if (m.kind == kPolarizingElement) return polarizingElementScattering(h);
-  }
-  if (kEffectMetal) {
-    if (m.kind == kMetal) return metalScattering(h, m);
-  }
-  return paintScattering(h, m);
 }
 
 // Checks the light that reaches the camera from here, and that the throughput is finite.

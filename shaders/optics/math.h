@@ -30,11 +30,13 @@ FN real sqrtR(real x) { return std::sqrt(x); }
 FN real absR(real x) { return std::abs(x); }
 FN real floorR(real x) { return std::floor(x); }
 FN real expR(real x) { return std::exp(x); }
+FN real logR(real x) { return std::log(x); }
 #else
 FN real sqrtR(real x) { return sqrt(x); }
 FN real absR(real x) { return abs(x); }
 FN real floorR(real x) { return floor(x); }
 FN real expR(real x) { return real(exp(float(x))); }
+FN real logR(real x) { return real(log(float(x))); }
 #endif
 
 FN real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }

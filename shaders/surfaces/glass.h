@@ -26,7 +26,7 @@ FN Refraction refractAtGlass(INOUT(Hit) h, IN(Material) m) {
   return r;
 }
 
-FN Scattering glassScattering(INOUT(Hit) h, IN(Material) m) {
+FN Scattering scatterGlass(INOUT(Hit) h, IN(Material) m) {
   Refraction r = refractAtGlass(h, m);
   Scattering s;
   s.frameNormal = h.normal;

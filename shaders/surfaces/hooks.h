@@ -30,8 +30,7 @@ const bool kCheckNumerics = false;
 #endif
 
 MaterialExtra materialExtra(word material) {
-#if MALUS_EFFECT_POLARIZING_ELEMENT || MALUS_EFFECT_TEXTURES || MALUS_EFFECT_ABSORPTION || MALUS_EFFECT_COATINGS || \
-    MALUS_EFFECT_ROUGHNESS || MALUS_EFFECT_POLARIZED_EMITTERS
+#if MALUS_MATERIAL_EXTRAS
   return extras[material];
 #else
   MaterialExtra unused;

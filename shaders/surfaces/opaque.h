@@ -1,7 +1,7 @@
 // Opaque interfaces, paint, mirror glass and metal: they reflect, and diffuse light of the layer below leaves through
 // them with T = 1 - R (section 2 of the paper).
 
-FN Scattering paintScattering(IN(Hit) h, IN(Material) m) {
+FN Scattering scatterPaint(IN(Hit) h, IN(Material) m) {
   Scattering s;
   s.frameNormal = h.normal;
   s.reflection = coatedDielectricTerms(h.c, m.outsideEta, m.eta.y, h.material);
@@ -13,7 +13,7 @@ FN Scattering paintScattering(IN(Hit) h, IN(Material) m) {
   return s;
 }
 
-FN Scattering metalScattering(IN(Hit) h, IN(Material) m) {
+FN Scattering scatterMetal(IN(Hit) h, IN(Material) m) {
   Scattering s;
   s.frameNormal = h.normal;
   s.reflection = coatedConductorTerms(h.c, m, h.material);

@@ -28,7 +28,7 @@ FN FresnelTerms polarizingElementTerms(word material) {
                                                            e.retardanceCos.z, e.retardanceSin.z));
 }
 
-FN Scattering polarizingElementScattering(IN(Hit) h) {
+FN Scattering scatterPolarizingElement(IN(Hit) h, IN(Material) m) {
   Scattering s;
   s.frameNormal = polarizingElementNormal(h);
   s.transmission = polarizingElementTerms(h.material);

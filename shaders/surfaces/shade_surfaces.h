@@ -9,28 +9,6 @@ FN Payload shadeLambert(IN(Hit) h, IN(Material) m) {
   return sent;
 }
 
-FN Payload shadePaint(IN(Hit) h, IN(Material) m) {
-  Scattering s = paintScattering(h, m);
-  return shadeOpaque(h, m, s);
-}
-
-FN Payload shadeMetal(IN(Hit) h, IN(Material) m) {
-  Scattering s = metalScattering(h, m);
-  return shadeOpaque(h, m, s);
-}
-
-FN Payload shadeGlass(Hit h, IN(Material) m) {
-  if (!canScatter(h)) return black();
-  Scattering s = glassScattering(h, m);
-  return shadeTransparent(h, m, s);
-}
-
-FN Payload shadePolarizingElement(IN(Hit) h, IN(Material) m) {
-  if (!canScatter(h)) return black();
-  Scattering s = polarizingElementScattering(h);
-  return shadeTransmitting(h, s);
-}
-
 FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
   real3 radiance = emission(h, m);
   if (kEffectAbsorption) radiance = radiance * mediumTransmittance(h);
@@ -46,3 +24,16 @@ FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
   if (kCheckNumerics) checkSent(h, sent, slack);
   return sent;
 }
+
+#define MALUS_RULE_ROW(id, name, alias, description)
+#define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
+#define MALUS_SOURCE_ROW(id, macro, build, name, alias, description)
+#define MALUS_SURFACE_ROW(id, macro, build, name, alias, description) \
+  FN Payload shade##id(INOUT(Hit) h, IN(Material) m) {                \
+    if (!canScatter(h) && !hasBase(k##id)) return black();            \
+    Scattering s = scatter##id(h, m);                                 \
+    if (hasBase(k##id)) return shadeOpaque(h, m, s);                  \
+    if (s.reflects) return shadeTransparent(h, m, s);                 \
+    return shadeTransmitting(h, s);                                   \
+  }
+#include "shaders/effects.def"

@@ -3,6 +3,7 @@
 // GLSL after the scene's buffers.
 // clang-format off
 #include "shaders/surfaces/steps.h"
+#include "shaders/surfaces/surface_kinds.h"
 #include "shaders/surfaces/check.h"
 #include "shaders/surfaces/textures.h"
 #include "shaders/surfaces/direct_light.h"

@@ -24,6 +24,7 @@ FN real sqrtR(real a) { return {std::sqrt(a.lane[0]), std::sqrt(a.lane[1])}; }
 FN real absR(real a) { return {std::abs(a.lane[0]), std::abs(a.lane[1])}; }
 FN real floorR(real a) { return {std::floor(a.lane[0]), std::floor(a.lane[1])}; }
 FN real expR(real a) { return {std::exp(a.lane[0]), std::exp(a.lane[1])}; }
+FN real logR(real a) { return {std::log(a.lane[0]), std::log(a.lane[1])}; }
 
 FN real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 FN real3 cross3(real3 a, real3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }

@@ -70,15 +70,16 @@ void expectSameNumbers(const LaneStruct& l, const Struct& a, const Struct& b, co
 // Fields of the structs that mix numbers, masks and words.
 #define MALUS_HIT(X) \
   X(d) X(position) X(start) X(error) X(face) X(normal) X(c) X(outside) X(depth) X(material) X(travelled)
-#define MALUS_MATERIAL(X)                                                                           \
-  X(eta)                                                                                            \
-  X(k)                                                                                              \
-  X(albedo) X(radiance) X(hemisphereTransmittance) X(outsideEta) X(basicScale) X(highlightStrength) \
-      X(highlightExponent) X(kind)
-#define MALUS_EXTRA(X)                                                                                            \
-  X(absorption)                                                                                                   \
-  X(outsideAbsorption)                                                                                            \
-  X(axis) X(degree) X(transmittanceParallel) X(transmittanceCrossed) X(retardanceCos) X(retardanceSin) X(filmEta) \
+#define MALUS_MATERIAL(X) \
+  X(eta)                  \
+  X(k)                    \
+  X(albedo)               \
+  X(radiance) X(hemisphereTransmittance) X(outsideEta) X(basicScale) X(highlightStrength) X(highlightExponent) X(kind)
+#define MALUS_EXTRA(X)                                                                                    \
+  X(absorption)                                                                                           \
+  X(outsideAbsorption)                                                                                    \
+  X(axis)                                                                                                 \
+  X(degree) X(transmittanceParallel) X(transmittanceCrossed) X(retardanceCos) X(retardanceSin) X(filmEta) \
       X(roundTripPhase) X(roughness) X(albedoMap) X(etaMap) X(kMap) X(mapOrigin) X(mapU) X(mapV)
 
 // Both lanes' scalar inputs, and the two of them packed.
@@ -190,19 +191,19 @@ void expectSameScattering(const LaneScattering& l, const Scattering& a, const Sc
 template <class S, class L>
 void compareScattering(Inputs<S, L>& in) {
   {
-    MALUS_RUN([](auto& s, auto& h, auto& m, auto&) { return s.paintScattering(h, m); })
+    MALUS_RUN([](auto& s, auto& h, auto& m, auto&) { return s.scatterPaint(h, m); })
     expectSameScattering(lane, first, second, "paint");
   }
   {
-    MALUS_RUN([](auto& s, auto& h, auto& m, auto&) { return s.metalScattering(h, m); })
+    MALUS_RUN([](auto& s, auto& h, auto& m, auto&) { return s.scatterMetal(h, m); })
     expectSameScattering(lane, first, second, "metal");
   }
   {
-    MALUS_RUN([](auto& s, auto h, auto& m, auto&) { return s.glassScattering(h, m); })
+    MALUS_RUN([](auto& s, auto h, auto& m, auto&) { return s.scatterGlass(h, m); })
     expectSameScattering(lane, first, second, "glass");
   }
   {
-    MALUS_RUN([](auto& s, auto& h, auto&, auto&) { return s.polarizingElementScattering(h); })
+    MALUS_RUN([](auto& s, auto& h, auto& m, auto&) { return s.scatterPolarizingElement(h, m); })
     expectSameScattering(lane, first, second, "polarizing element");
   }
   {
@@ -294,9 +295,9 @@ void comparePaths() {
         if (bounce == 0)
           p.throughput = steps.startThroughput(h.d, upward, scalar(1), scalar(behind.x), scalar(behind.y), scalar(0));
         steps.scaleThroughput(p.throughput, steps.mediumTransmittance(h));
-        auto s = steps.glassScattering(h, m);
-        if (kind == 1) s = steps.metalScattering(h, m);
-        if (kind == 2) s = steps.polarizingElementScattering(h);
+        auto s = steps.scatterGlass(h, m);
+        if (kind == 1) s = steps.scatterMetal(h, m);
+        if (kind == 2) s = steps.scatterPolarizingElement(h, m);
         steps.rotateToSurface(p.throughput, h.d, s.frameNormal);
         const auto diffuse = steps.diffuseExit(p.throughput, steps.opaqueTerms(h.c, m, h.material), m.albedo);
         if (kind == 2) {

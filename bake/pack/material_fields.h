@@ -140,12 +140,20 @@ void visitMaterial(Visitor&& visit, Materials&... m) {
         m.polarization...);
   visit(Field{.name = "transmittanceParallel",
               .high = 1,
-              .text = "transmittance of power for a field parallel to the axis",
+              .text = "transmittance of power for a field parallel to the axis; of thin glass: transmittance",
               .section = kSurfaces,
+              .isFeature = true,
               .kinds = only(MaterialKind::polarizer),
               .key = Key::optional,
               .shape = Shape::numberOrVector,
               .alias = "along"},
+        m.transmittanceParallel...);
+  visit(Field{.name = "transmittance",
+              .high = 1,
+              .text = "internal transmittance of a pane at normal incidence, without its interfaces",
+              .kinds = only(MaterialKind::thinGlass),
+              .key = Key::optional,
+              .shape = Shape::numberOrVector},
         m.transmittanceParallel...);
   visit(Field{.name = "transmittanceCrossed",
               .high = 1,

@@ -59,6 +59,14 @@ Interface evaluateInterface(const Surface& surface, double c, double n1, double 
       result.meanTransmittance[colour] = 1 - (film.reflected.rs + film.reflected.rp) / 2;
       continue;
     }
+    if (m.kind == pack::MaterialKind::thinGlass) {
+      const f64::ThinGlass pane = f64::thinGlass(c, n1, n2, m.transmittanceParallel[colour]);
+      const f64::Reflectance &back = pane.reflected, &through = pane.transmitted;
+      result.reflection[i] = interfaceMatrix(back.rs, back.rp, back.xRe, back.xIm);
+      result.transmission[i] = interfaceMatrix(through.rs, through.rp, through.xRe, through.xIm);
+      result.meanTransmittance[colour] = (through.rs + through.rp) / 2;
+      continue;
+    }
     const f64::Reflectance r = metal ? f64::conductorReflectance(c, n1, n3, k3) : f64::dielectricReflectance(c, n1, n2);
     const double cross = metal ? 0 : f64::dielectricTransmittance(c, n1, n2).x;
     result.reflection[i] = interfaceMatrix(r.rs, r.rp, r.xRe, r.xIm);

@@ -4,6 +4,7 @@
 #include "shaders/optics/complex.h"
 #include "shaders/optics/fresnel.h"
 #include "shaders/optics/film.h"
+#include "shaders/optics/thin_glass.h"
 #include "shaders/optics/schlick.h"
 #include "shaders/optics/directions.h"
 #include "shaders/optics/frames.h"

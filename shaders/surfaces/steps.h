@@ -11,6 +11,7 @@
 #include "shaders/surfaces/opaque.h"
 #include "shaders/surfaces/glass.h"
 #include "shaders/surfaces/polarizing_element.h"
+#include "shaders/surfaces/thin_glass.h"
 #include "shaders/surfaces/facet.h"
 #include "shaders/surfaces/emission.h"
 #include "shaders/surfaces/point_light.h"

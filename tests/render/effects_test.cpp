@@ -193,6 +193,52 @@ TEST(EffectClosedForms, GlassTakesWhatBeerAndLambertSay) {
   expectEverywhere(scene, 0, {t * std::exp(-0.475), 0, 0, 0}, 2e-6);
 }
 
+// A pane met at 60 degrees, between an environment and a panel: as thin glass, or as the two faces of a slab.
+pack::Scene obliquePane(bool isThin, double transmittance, bool isPolarized) {
+  pack::Scene scene = test::emptyScene(24);
+  const double half = std::sqrt(0.75), thickness = 0.1;
+  test::look(scene, {4 * half, 0.013, 2}, {0, 0.013, 0});
+  scene.environment.radiance = {0.2, 0.4, 0.8};
+  Material pane = test::dielectric(isThin ? MaterialKind::thinGlass : MaterialKind::glass, 1.5);
+  if (isThin) pane.transmittanceParallel = glm::dvec3(transmittance);
+  if (!isThin) pane.absorption = glm::dvec3(-std::log(transmittance) / thickness);
+  const std::uint32_t material = test::addMaterial(scene, pane);
+  test::addSquare(scene, material, {0, 0, 0}, {0, 0, 1}, 3);
+  if (!isThin) test::addSquare(scene, material, {0, 0, -thickness}, {0, 0, -1}, 3);
+  for (pack::Mesh& mesh : scene.meshes) mesh.openSurface = true;
+  if (isPolarized) {
+    Material polarizer = sheet(MaterialKind::polarizer, 40);
+    test::addSquare(scene, test::addMaterial(scene, polarizer), {0, 0, -0.5}, {0, 0, 1}, 20);
+  }
+  test::addSquare(scene, test::addMaterial(scene, test::emitter({3, 2, 1})), {0, 0, -1}, {0, 0, 1}, 40);
+  return scene;
+}
+
+TEST(EffectClosedForms, ThinGlassSumsInternalReflections) {
+  // One interface at 60 degrees, n = 1.5, without absorption: T' = T/(2 - T), R' = 1 - T'. s is the image's y axis.
+  const double c = 0.5, t = std::sqrt(1.5 * 1.5 - 0.75), rs = std::pow((c - t) / (c + t), 2),
+               rp = std::pow((2.25 * c - t) / (2.25 * c + t), 2);
+  const double ts = (1 - rs) / (1 + rs), tp = (1 - rp) / (1 + rp);
+  const auto expected = [&](double behind, double front) {
+    return Stokes{(behind * (ts + tp) + front * (2 - ts - tp)) / 2, (behind - front) * (tp - ts) / 2, 0, 0};
+  };
+  const pack::Scene scene = obliquePane(true, 1, false);
+  expectEverywhere(scene, 0, expected(3, 0.2), 3e-6);
+  expectEverywhere(scene, 2, expected(1, 0.8), 3e-6);
+}
+
+TEST(EffectClosedForms, ThinGlassEqualsARenderedSlab) {
+  const auto thin = everywhere(obliquePane(true, 0.9, true)), slab = everywhere(obliquePane(false, 0.9, true));
+  for (const auto& [name, result] : thin) {
+    const std::size_t middle = result.pixels.size() / result.channels / 2;
+    for (std::size_t colour = 0; colour < 3; ++colour) {
+      const Stokes a = stokesAt(result, middle, colour), b = stokesAt(slab.at(name), middle, colour);
+      EXPECT_GT(std::abs(b[2]), 0.05 * b[0]) << "the light is polarized at an angle";
+      for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(a[k], b[k], 2e-5) << name << ", S" << k;
+    }
+  }
+}
+
 TEST(EffectClosedForms, QuarterWaveCoatingTakesTheReflectionAway) {
   // An index of sqrt(1.5) and a quarter of the green wavelength: nothing of it is reflected, all of it goes through.
   pack::Scene scene = along(1);
@@ -285,6 +331,7 @@ const std::map<std::string, EffectScene>& scenes() {
       {"polarizing-sheets", {"polarizing-elements", 0.1}},
       {"coating", {"coatings", 0.1}},
       {"rough-reflection", {"roughness", 0.05}},
+      {"thin-glass", {"thin-glass", 0.02}},
   };
   return kScenes;
 }

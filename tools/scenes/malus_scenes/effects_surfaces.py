@@ -5,10 +5,10 @@ import math
 from .chain import Chain, tile
 from .hard_glass import floor
 from .hard_media import upright
-from .hard_scene import BLACK_GLASS, BREWSTER, GOLD, GOLD_INDEX, camera, decimals, emitter, reflectances, write_hard
+from .hard_scene import BLACK_GLASS, BREWSTER, GLASS, GOLD, GOLD_INDEX, camera, decimals, emitter, reflectances, write_hard
 from .texture_files import write_exr, write_png
 from .scene import Part
-from .shapes import quad
+from .shapes import box, quad
 from .vectors import unit
 
 SIZE = (401, 301)
@@ -149,3 +149,31 @@ and both glass tiles are black.
         parts.append(Part(name, name, upright(-1.8, 0.25, low, low + 0.1, -0.4), flat=True))
     return write_hard(folder, "Rough metal and rough black glass: mirror images blur and are less polarized.", text,
                       camera(position, (-0.02, 0.0, -0.4), 37.0), parts, materials, 4, resolution=(441, 241))
+
+
+def thin_glass(folder):
+    lines = []
+    for degrees in (0.0, 60.0, 80.0):
+        ts, tp = ((1 - r) / (1 + r) for r in reflectances(degrees))
+        lines.append(f"{degrees:.0f} degrees: {decimals([(ts + tp) / 2])}")
+    text = f"""\
+Three windows in front of an emitting panel of radiance 1: on the left a pane of thin glass, in the middle a body of
+glass 4 mm thick, on the right a tinted pane of thin glass with an internal transmittance of 0.9 / 0.6 / 0.3. The floor
+is black glass and reflects the windows.
+
+S0 of the panel through the left and the middle window, all internal reflections: (T_s + T_p)/2 with
+T = (1 - R)/(1 + R) of one interface:
+{chr(10).join(lines)}.
+The left and the middle window are the same; the body takes an interaction per internal reflection, the pane one in all.
+"""
+    parts = [Part("pane", "pane", upright(-1.55, -0.55, 0.0, 1.4, 0.0), flat=True),
+             Part("body", "glass", box((1.0, 1.4, 0.004), (0.0, 0.7, 0.0)), flat=True),
+             Part("tinted", "tinted", upright(0.55, 1.55, 0.0, 1.4, 0.0), flat=True),
+             Part("panel", "lamp", upright(-4.0, 4.0, -0.5, 4.0, -1.5), flat=True),
+             Part("floor", "floor", floor(4.0, 0.0, 3.0, 0.2), flat=True)]
+    materials = {"pane": {"type": "thin-glass", "eta": 1.5},
+                 "tinted": {"type": "thin-glass", "eta": 1.5, "transmittance": [0.9, 0.6, 0.3]},
+                 "glass": GLASS, "floor": BLACK_GLASS, "lamp": emitter(1.0)}
+    return write_hard(folder, "Thin glass: a pane as one surface, next to a body of glass.", text,
+                      camera((0.0, 1.1, 3.4), (0.0, 0.55, 0.0), 40.0), parts, materials, 12, resolution=SIZE,
+                      environment={"radiance": [0.1, 0.1, 0.12]})

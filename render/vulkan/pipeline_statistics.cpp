@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "render/vulkan/bindings.h"
 #include "render/vulkan/check.h"
 #include "render/vulkan/pipeline.h"
+#include "shaders/effects.h"
 
 namespace malus::vulkan {
 
@@ -49,13 +51,21 @@ void fillFields(StageStatistics& stage) {
       stage.*field.member = found->second;
 }
 
-// "closest hit: paint" for the stage "shaders/stages/paint.rchit".
+// "closest hit: paint" for a kind of surface, "miss: shadow" for the stage "shaders/stages/shadow.rmiss".
 std::string stageName(const StageSource& source) {
+  if (source.stage == Stage::raygen) return "ray generation";
+  if (source.stage == Stage::closestHit) {
+    std::string kind(
+        std::string_view(shaders::kCompiledEffects[source.kind].macro).substr(sizeof("MALUS_EFFECT_") - 1));
+    std::transform(kind.begin(), kind.end(), kind.begin(), [](char c) {
+      return c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    });
+    return "closest hit: " + kind;
+  }
   const std::string_view path = source.path;
   const std::size_t begin = path.rfind('/') + 1;
   const std::string_view name = path.substr(begin, path.rfind('.') - begin);
-  if (source.stage == Stage::raygen) return "ray generation";
-  return fmt::format("{}: {}", source.stage == Stage::miss ? "miss" : "closest hit", name);
+  return fmt::format("miss: {}", name);
 }
 
 std::uint64_t toInteger(const VkPipelineExecutableStatisticKHR& s) {

@@ -26,6 +26,8 @@ FN Refraction refractAtGlass(INOUT(Hit) h, IN(Material) m) {
   return r;
 }
 
+CONST int kShapeGlass = kTransparentShape;
+
 FN Scattering scatterGlass(INOUT(Hit) h, IN(Material) m) {
   Refraction r = refractAtGlass(h, m);
   Scattering s;

@@ -1,6 +1,8 @@
 // Opaque interfaces, paint, mirror glass and metal: they reflect, and diffuse light of the layer below leaves through
 // them with T = 1 - R (section 2 of the paper).
 
+CONST int kShapePaint = kOpaqueShape;
+
 FN Scattering scatterPaint(IN(Hit) h, IN(Material) m) {
   Scattering s;
   s.frameNormal = h.normal;
@@ -12,6 +14,8 @@ FN Scattering scatterPaint(IN(Hit) h, IN(Material) m) {
   if (kEffectCoatings) s.coloured = hasFilm(h.material);
   return s;
 }
+
+CONST int kShapeMetal = kOpaqueShape;
 
 FN Scattering scatterMetal(IN(Hit) h, IN(Material) m) {
   Scattering s;

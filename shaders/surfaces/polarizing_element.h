@@ -28,6 +28,8 @@ FN FresnelTerms polarizingElementTerms(word material) {
                                                            e.retardanceCos.z, e.retardanceSin.z));
 }
 
+CONST int kShapePolarizingElement = kTransmittingShape;
+
 FN Scattering scatterPolarizingElement(IN(Hit) h, IN(Material) m) {
   Scattering s;
   s.frameNormal = polarizingElementNormal(h);

@@ -28,12 +28,12 @@ FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
 #define MALUS_RULE_ROW(id, name, alias, description)
 #define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
 #define MALUS_SOURCE_ROW(id, macro, build, name, alias, description)
-#define MALUS_SURFACE_ROW(id, macro, build, name, alias, description) \
-  FN Payload shade##id(INOUT(Hit) h, IN(Material) m) {                \
-    if (!canScatter(h) && !hasBase(k##id)) return black();            \
-    Scattering s = scatter##id(h, m);                                 \
-    if (hasBase(k##id)) return shadeOpaque(h, m, s);                  \
-    if (s.reflects) return shadeTransparent(h, m, s);                 \
-    return shadeTransmitting(h, s);                                   \
+#define MALUS_SURFACE_ROW(id, macro, build, name, alias, description)      \
+  FN Payload shade##id(INOUT(Hit) h, IN(Material) m) {                     \
+    if (kShape##id != kOpaqueShape && !canScatter(h)) return black();      \
+    Scattering s = scatter##id(h, m);                                      \
+    if (kShape##id == kOpaqueShape) return shadeOpaque(h, m, s);           \
+    if (kShape##id == kTransparentShape) return shadeTransparent(h, m, s); \
+    return shadeTransmitting(h, s);                                        \
   }
 #include "shaders/effects.def"

@@ -1,5 +1,7 @@
 // A thin pane of glass as one surface (shaders/optics/thin_glass.h). Both sides are in the medium of outsideEta.
 
+CONST int kShapeThinGlass = kTransparentShape;
+
 FN Scattering scatterThinGlass(INOUT(Hit) h, IN(Material) m) {
   real3 internal = materialExtra(h.material).transmittanceParallel;
   ThinGlass red = thinGlass(h.c, m.outsideEta, m.eta.y, internal.x);

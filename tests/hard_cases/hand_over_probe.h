@@ -1,11 +1,13 @@
 // Light passed between two surfaces in one method, whose file is included before this one.
 
 FN HandOverOut handOverProbe(GIVEN_PARAMETER(HandOverIn)) {
-  Stokes sent = stokesUnpolarized(GIVEN.radiance);
-  sent.s1 = GIVEN.radiance * GIVEN.light.x;
-  sent.s2 = GIVEN.radiance * GIVEN.light.y;
-  sent.s3 = GIVEN.radiance * GIVEN.light.z;
-  Payload p = payloadFromSurface(lightFromStokes(sent), GIVEN.d, GIVEN.from);
+  // Of radiance 1 first, so that every colour has the same polarization to the last bit.
+  Stokes sent = stokesUnpolarized(splat3(R(1.0)));
+  sent.s1 = splat3(GIVEN.light.x);
+  sent.s2 = splat3(GIVEN.light.y);
+  sent.s3 = splat3(GIVEN.light.z);
+  SurfaceLight light = lightScale(lightFromStokes(sent), GIVEN.radiance);
+  Payload p = payloadFromSurface(light, GIVEN.d, GIVEN.from);
   Stokes s = payloadStokes(p, GIVEN.d);
   HandOverOut r;
   r.s0 = s.s0;

@@ -12,6 +12,7 @@
 
 #include "render/vulkan/glsl_compiler.h"
 #include "render/vulkan/variant.h"
+#include "shaders/gpu/scene.h"
 #include "shaders/methods/methods.h"
 
 namespace malus::test {
@@ -163,8 +164,8 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
       EXPECT_EQ(std::count(c.bindings.begin(), c.bindings.end(), binding) > 0, there) << method << ' ' << binding;
     };
     for (const std::uint32_t binding : {12u, 13u, 14u}) expectBinding(without, binding, false);
-    for (const Effect effect : {Effect::kPolarizingElement, Effect::kTextures, Effect::kAbsorption, Effect::kCoatings,
-                                Effect::kRoughness, Effect::kSky, Effect::kPolarizedEmitters}) {
+    for (const Effect effect : {Effect::kPolarizingElement, Effect::kThinGlass, Effect::kTextures, Effect::kAbsorption,
+                                Effect::kCoatings, Effect::kRoughness, Effect::kSky, Effect::kPolarizedEmitters}) {
       SCOPED_TRACE(std::string(method) + " " + shaders::kCompiledEffects[static_cast<std::size_t>(effect)].macro);
       Variant on = off;
       on.effects |= shaders::effectBit(effect);
@@ -173,7 +174,8 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
       expectBinding(with, 12, effect != Effect::kSky);
       expectBinding(with, 13, effect == Effect::kTextures);
       // Effects that trace additional rays add trace sites; an iterative method always has two.
-      const bool traces = effect == Effect::kPolarizingElement || effect == Effect::kRoughness;
+      const bool traces =
+          effect == Effect::kPolarizingElement || effect == Effect::kThinGlass || effect == Effect::kRoughness;
       if (off.stackSize == 0)
         EXPECT_EQ(with.traces > without.traces, traces);
       else
@@ -199,9 +201,8 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
 }
 
 TEST(VariantsTest, StageCounts) {
-  // Ray generation, two misses, a closest hit for each of six kinds of surface; without lights and with one kind,
-  // three.
-  EXPECT_EQ(vulkan::stageSources({}).size(), 9u);
+  // Ray generation, two misses, a closest hit per kind of surface; without lights and with one kind, three.
+  EXPECT_EQ(vulkan::stageSources({}).size(), 3u + std::size_t{gpu::kSurfaceKinds});
   Variant metal;
   metal.effects = effectMask({Effect::kMetal});
   EXPECT_EQ(vulkan::stageSources(metal).size(), 3u);

@@ -65,6 +65,7 @@ TEST(Effects, AllOfThemInOrder) {
   EXPECT_EQ(names, (std::vector<std::string>{"metal",
                                              "glass",
                                              "polarizing-elements",
+                                             "thin-glass",
                                              "point-lights",
                                              "shadows",
                                              "highlights",

@@ -376,7 +376,7 @@ TEST(CorruptPack, MaterialOutOfBounds) {
   constexpr std::size_t kEta = 4, kK = 28, kOutside = 52;  // after the kind
   for (std::size_t at = kGlass + kEta; at + 8 <= kGlass + 116; at += 8)
     EXPECT_TRUE(contains(errorWith("MATL", at, kNan), "not finite")) << at;
-  EXPECT_TRUE(contains(errorWith("MATL", kGlass, 8u), "type is out of range"));
+  EXPECT_TRUE(contains(errorWith("MATL", kGlass, pack::kMaterialKindCount), "type is out of range"));
   EXPECT_TRUE(contains(errorWith("MATL", kGlass + kEta, 1e4), "eta[0]"));
   EXPECT_TRUE(contains(errorWith("MATL", kGlass + kEta, 1e-4), "too small"));
   EXPECT_TRUE(contains(errorWith("MATL", kGlass + kK, 0.5), "dielectric"));

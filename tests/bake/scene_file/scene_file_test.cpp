@@ -252,9 +252,9 @@ TEST(SceneFile, Ranges) {
 }
 
 TEST(SceneFile, Materials) {
-  EXPECT_TRUE(
-      contains(errorOfMaterial(R"({"type": "marble", "albedo": 1})"),
-               "expected lambert, paint, mirror-glass, metal, glass, emitter, polarizer, wave-plate, found 'marble'"));
+  EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "marble", "albedo": 1})"),
+                       "expected lambert, paint, mirror-glass, metal, glass, emitter, polarizer, wave-plate, "
+                       "thin-glass, found 'marble'"));
   const std::string preset = errorOfMaterial(R"({"type": "metal", "preset": "golt"})");
   EXPECT_TRUE(contains(preset, "materials.floor.preset: unknown material 'golt'; expected 'gold'")) << preset;
   EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "metal", "preset": "gold", "k": 1})"), "exclude each other"));

@@ -7,7 +7,7 @@ using shaders::Effect;
 
 namespace {
 
-// What is below the interface: a diffuse surface, black without an albedo.
+// Leaves the diffuse surface below the interface, which is black without an albedo.
 void removeInterface(Material& m) {
   m.kind = MaterialKind::lambert;
   m.eta = glm::dvec3(1.0);

@@ -25,7 +25,7 @@ glm::vec3 unit(const glm::vec3& normal) {
   return length > 0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0);
 }
 
-std::array<std::uint32_t, 3> bitsOf(const glm::vec3& n) {
+std::array<std::uint32_t, 3> floatBits(const glm::vec3& n) {
   const glm::vec3 oneZero = n + 0.0f;
   return {std::bit_cast<std::uint32_t>(oneZero.x), std::bit_cast<std::uint32_t>(oneZero.y),
           std::bit_cast<std::uint32_t>(oneZero.z)};
@@ -70,7 +70,7 @@ AuthoredNormals addAuthoredNormals(Mesh& mesh, double creaseDegrees) {
   std::vector<std::uint32_t> leader(normals.size());
   for (std::uint32_t corner = 0; corner < normals.size(); ++corner) {
     const std::uint32_t v = mesh.triangles[corner / 3][static_cast<int>(corner % 3)];
-    const auto [found, isNew] = firstCorner.try_emplace({v, bitsOf(normals[corner])}, corner);
+    const auto [found, isNew] = firstCorner.try_emplace({v, floatBits(normals[corner])}, corner);
     if (isNew) stored.emplace_back(v, corner);
     leader[corner] = found->second;
   }
@@ -80,16 +80,16 @@ AuthoredNormals addAuthoredNormals(Mesh& mesh, double creaseDegrees) {
     if (named[v] == 0) stored.emplace_back(v, kNoSource);
   std::sort(stored.begin(), stored.end());
   result.counts.added = stored.size() - mesh.positions.size();
-  std::vector<std::uint32_t> from, vertexOf(normals.size(), 0);
+  std::vector<std::uint32_t> from, newVertex(normals.size(), 0);
   std::vector<glm::vec3> vertexNormals;
   for (const auto& [v, corner] : stored) {
-    if (corner != kNoSource) vertexOf[corner] = static_cast<std::uint32_t>(from.size());
+    if (corner != kNoSource) newVertex[corner] = static_cast<std::uint32_t>(from.size());
     from.push_back(v);
     vertexNormals.push_back(corner == kNoSource ? glm::vec3(0, 0, 1) : normals[corner]);
   }
   std::vector<glm::uvec3> triangles(mesh.triangles.size());
   for (std::uint32_t corner = 0; corner < normals.size(); ++corner)
-    triangles[corner / 3][static_cast<int>(corner % 3)] = vertexOf[leader[corner]];
+    triangles[corner / 3][static_cast<int>(corner % 3)] = newVertex[leader[corner]];
   selectVertices(mesh, from, std::vector<std::uint32_t>(mesh.positions.size(), 0));
   mesh.triangles = std::move(triangles);
   mesh.normals = std::move(vertexNormals);

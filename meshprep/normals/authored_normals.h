@@ -1,5 +1,5 @@
-// Normals as the file has them, one a corner: corners of a vertex with equal normals share a vertex, others do not.
-// Corners without one, or with one of no length, get what the crease angle gives them (crease_normals.h).
+// Normals of the file, one per corner. Corners of a vertex with equal normals share a vertex, others do not. Corners
+// without a normal, or with one of length 0, get that of the crease angle (crease_normals.h).
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct AuthoredNormals {
   Findings against;           // triangles with a normal that points to their back
 };
 
-// mesh.cornerNormals must be there. Where a triangle was turned over (mesh.flipped), its normals turn with it if all of
-// them would point to its back. Vertices keep their order, those of one vertex by their first corners; one of no
-// triangle stays, with any normal.
+// mesh.cornerNormals must not be empty. The normals of a flipped triangle (mesh.flipped) are negated if all of them
+// would point to its back. Vertices keep their order, those of one vertex by their first corners; one of no triangle
+// stays, with any normal.
 AuthoredNormals addAuthoredNormals(Mesh& mesh, double creaseDegrees);
 
 }  // namespace malus::prep

@@ -71,25 +71,25 @@ NormalCounts addPieceNormals(Mesh& mesh, const IsSmooth& isSmooth) {
   }
 
   // Step 4: pieces of every vertex, in the order of their first corners.
-  std::vector<std::vector<std::uint32_t>> piecesOf(mesh.positions.size());
+  std::vector<std::vector<std::uint32_t>> vertexPieces(mesh.positions.size());
   for (std::uint32_t corner = 0; corner < 3 * triangleCount; ++corner)
     if (pieces.find(corner) == corner)
-      piecesOf[mesh.triangles[corner / 3][static_cast<int>(corner % 3)]].push_back(corner);
+      vertexPieces[mesh.triangles[corner / 3][static_cast<int>(corner % 3)]].push_back(corner);
 
   // Step 5: a stored vertex for each.
   NormalCounts counts;
-  std::vector<std::uint32_t> vertexOf(3 * triangleCount, kNone);
+  std::vector<std::uint32_t> newVertex(3 * triangleCount, kNone);
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> normals;
   std::vector<std::uint32_t> sources;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    if (piecesOf[v].empty()) {  // of no triangle: it stays, with any normal
+    if (vertexPieces[v].empty()) {  // of no triangle: it stays, with any normal
       positions.push_back(mesh.positions[v]);
       if (!mesh.sourceVertices.empty()) sources.push_back(mesh.sourceVertices[v]);
       normals.emplace_back(0, 0, 1);
     }
-    for (const std::uint32_t piece : piecesOf[v]) {
-      vertexOf[piece] = static_cast<std::uint32_t>(positions.size());
+    for (const std::uint32_t piece : vertexPieces[v]) {
+      newVertex[piece] = static_cast<std::uint32_t>(positions.size());
       positions.push_back(mesh.positions[v]);
       if (!mesh.sourceVertices.empty()) sources.push_back(mesh.sourceVertices[v]);
       const double length = glm::length(sums[piece]);
@@ -101,7 +101,7 @@ NormalCounts addPieceNormals(Mesh& mesh, const IsSmooth& isSmooth) {
   }
   counts.added = positions.size() - mesh.positions.size();
   for (std::uint32_t corner = 0; corner < 3 * triangleCount; ++corner)
-    mesh.triangles[corner / 3][static_cast<int>(corner % 3)] = vertexOf[pieces.find(corner)];
+    mesh.triangles[corner / 3][static_cast<int>(corner % 3)] = newVertex[pieces.find(corner)];
   mesh.positions = std::move(positions);
   mesh.normals = std::move(normals);
   mesh.sourceVertices = std::move(sources);

@@ -13,8 +13,7 @@
 // At grazing incidence R and X tend to 1 and the plain denominators cancel. The forms here use
 //   1 - R^2 = T (2 - T),   1 - X^2 = T_s + T_p - T_s T_p,   1 - q a^2 = (1 - a^2) + a^2 (1 - q).
 
-// Mueller terms of the pane in the s and p frame of its surface, for light that is reflected and light that goes
-// through.
+// Mueller terms of the pane in the s and p frame of its surface, for reflected and transmitted light.
 struct ThinGlass {
   Reflectance reflected;
   Reflectance transmitted;  // rs, rp: T_s', T_p'; xRe: Y'; xIm: 0

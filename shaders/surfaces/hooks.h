@@ -17,7 +17,7 @@
 //   bool findHit(origin, direction, depth, out hit)
 //     Returns whether the ray meets a surface, and the nearest hit. Iterative methods only.
 //   mask visible(origin, direction, distance)
-//     Returns whether no surface lies on the ray within the distance.
+//     Returns whether no surface blocks the ray within the distance.
 //   void noteFault(hit, stokes, kind, colour, slack)
 //     Records an unphysical value: its kind (shaders/gpu/fault.h), the colour's index, the rounding error allowed.
 //     Called only if kCheckNumerics.

@@ -1,5 +1,5 @@
-// What a surface does with a ray: the specular rays that follow it and the terms that multiply their light. Without a
-// reflected ray its two fields are not set, and likewise for the transmitted ray.
+// Interaction of a ray with a surface: the specular rays that follow it and the terms that multiply their light.
+// Without a reflected ray its two fields are not set, and likewise for the transmitted ray.
 
 // Rays of a kind of surface, as a compile-time constant kShape<id> beside its step: drivers of the other shapes are
 // removed from its code.

@@ -31,14 +31,14 @@ constexpr const char* kText =
     "layout(local_size_x = 64) in;\n"
     "layout(set = 0, binding = 0, scalar) readonly buffer Input { Given given[]; };\n"
     "layout(set = 0, binding = 1, scalar) writeonly buffer Output { Values values[]; };\n"
-    "void main() { uint i = gl_GlobalInvocationID.x; if (i < given.length()) values[i] = valuesOf(given[i]); }\n";
+    "void main() { uint i = gl_GlobalInvocationID.x; if (i < given.length()) values[i] = computeValues(given[i]); }\n";
 
 struct Single {
   using real = float;
   using real3 = f32::real3;
   using Given = f32::Given;
   using Values = f32::Values;
-  static Values values(const Given& g) { return f32::valuesOf(g); }
+  static Values values(const Given& g) { return f32::computeValues(g); }
   static constexpr const char* kMacros = "";
 };
 struct Double {
@@ -46,7 +46,7 @@ struct Double {
   using real3 = f64::real3;
   using Given = f64::Given;
   using Values = f64::Values;
-  static Values values(const Given& g) { return f64::valuesOf(g); }
+  static Values values(const Given& g) { return f64::computeValues(g); }
   static constexpr const char* kMacros = "#define MALUS_DOUBLE\n";
 };
 

@@ -60,7 +60,7 @@ struct Values {
   real fraction;  // as above
 };
 
-FN Values valuesOf(Given g) {
+FN Values computeValues(Given g) {
   Values r;
   r.dielectric = dielectricReflectance(g.c, g.n1, g.n2);
   r.transmittance = dielectricTransmittance(g.c, g.n1, g.n2);

@@ -46,16 +46,38 @@ function(malus_generate_method_structs extra folder)
                  FIELDS ${MALUS_METHOD_FIELDS})
 endfunction()
 
+# Sets <output_list> to <roots>, paths from the top folder, and all files of shaders/ that they include.
+function(malus_follow_includes roots output_list)
+  set(pending ${roots})
+  set(found "")
+  while(pending)
+    list(POP_FRONT pending path)
+    if(path IN_LIST found OR NOT EXISTS ${PROJECT_SOURCE_DIR}/${path})  # methods/selected.h is chosen at run time
+      continue()
+    endif()
+    list(APPEND found ${path})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${path})
+    file(STRINGS ${PROJECT_SOURCE_DIR}/${path} includes REGEX "^#include \"shaders/")
+    list(TRANSFORM includes REPLACE "^#include \"([^\"]+)\".*$" "\\1")
+    list(APPEND pending ${includes})
+  endwhile()
+  set(${output_list} ${found} PARENT_SCOPE)
+endfunction()
+
 # The GLSL sources that the Vulkan renderer compiles at run time, embedded: appends C++ files in <folder> to the
 # list <output_list>.
 function(malus_embed_shaders extra folder output_list)
   malus_read_methods("${extra}")
   set(generated_sources "")
-  file(GLOB paths CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-       ${PROJECT_SOURCE_DIR}/shaders/effects.def ${PROJECT_SOURCE_DIR}/shaders/gpu/*.* ${PROJECT_SOURCE_DIR}/shaders/optics/*.h
-       ${PROJECT_SOURCE_DIR}/shaders/iterative/*.h ${PROJECT_SOURCE_DIR}/shaders/methods/*.h
-       ${PROJECT_SOURCE_DIR}/shaders/surfaces/*.* ${PROJECT_SOURCE_DIR}/shaders/stages/*.*)
-  list(FILTER paths EXCLUDE REGEX "\\.md$")
+  set(roots gpu/language.glsl gpu/constants.h gpu/scene.h gpu/fault.h optics/math.h optics/all.h stages/camera_path.rgen
+            stages/environment.rmiss stages/raygen.rgen stages/shadow.rmiss stages/surface.rchit)
+  list(TRANSFORM roots PREPEND shaders/)
+  foreach(method IN LISTS methods)
+    string(REPLACE "|" ";" fields "${method}")
+    list(GET fields 4 include)
+    list(APPEND roots ${include})
+  endforeach()
+  malus_follow_includes("${roots}" paths)
   list(TRANSFORM paths REPLACE "^(.+)$" "\\1|${PROJECT_SOURCE_DIR}/\\1" OUTPUT_VARIABLE entries)
   foreach(method IN LISTS methods)
     string(REPLACE "|" ";" fields "${method}")

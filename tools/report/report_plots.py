@@ -46,7 +46,7 @@ def _axes(width=kWidth, height=kHeight):
     return figure, axes
 
 
-def _spread(wanted: list, gap: float, low: float, high: float) -> list:
+def spread(wanted: list, gap: float, low: float, high: float) -> list:
     """Returns positions close to the requested ones, ascending, at least gap apart, within low..high if possible."""
     places = []
     for value in wanted:
@@ -64,7 +64,7 @@ def _labels(figure, axes, points: list) -> None:
     box = axes.get_window_extent()
     points = sorted(points, key=lambda p: axes.transData.transform(p[:2])[1])
     heights = [axes.transData.transform(p[:2])[1] for p in points]
-    places = _spread(heights, 12.5 * figure.dpi / 72, box.y0, box.y1)
+    places = spread(heights, 12.5 * figure.dpi / 72, box.y0, box.y1)
     for (x, y, name, colour, bold), place in zip(points, places):
         at = axes.transAxes.inverted().transform((box.x1, place))
         axes.annotate(name, xy=(x, y), xytext=(1.04, at[1]), textcoords="axes fraction", va="center", ha="left",

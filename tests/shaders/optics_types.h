@@ -49,7 +49,7 @@ namespace malus::test {
     MALUS_FORWARD(space, cisTwoPi)                         \
     MALUS_FORWARD(space, complexSqrtLower)                 \
     MALUS_FORWARD(space, thinFilm)                         \
-    MALUS_FORWARD(space, thinGlass)                         \
+    MALUS_FORWARD(space, thinGlass)                        \
     MALUS_FORWARD(space, rayleighDegree)                   \
     MALUS_FORWARD(space, rayleighPhase)                    \
     MALUS_FORWARD(space, facetNormal)                      \

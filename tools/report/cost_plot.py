@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Plots error against time, one panel per scene, from the results.json of `malus compare`: the plot of README.md.
 
     cost_plot.py RESULTS.json FILE.svg [RENDERER]     RENDERER: embree by default
@@ -29,7 +29,8 @@ def draw(axes, scene: str, rows: list) -> None:
     axes.grid(True, color="#808080", alpha=0.25, linewidth=0.5)
     axes.autoscale_view()
     box = axes.get_window_extent()
-    rows = sorted(rows, key=lambda r: r["error"]["relRms"])
+    # Of equal errors the fastest has the lowest label, so that leader lines do not cross.
+    rows = sorted(rows, key=lambda r: (float(f"{r['error']['relRms']:.2g}"), r["ratioToSchlick"]["median"]))
     points = [(r["ratioToSchlick"]["median"], r["error"]["relRms"]) for r in rows]
     wanted = [axes.transData.transform(p)[1] for p in points]
     for row, point, height in zip(rows, points, spread(wanted, 13, box.y0, box.y1)):

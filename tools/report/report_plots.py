@@ -106,7 +106,7 @@ def error_against_time(group, renderer: str) -> str:
         axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
         axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
     axes.yaxis.set_minor_formatter(ticker.NullFormatter())
-    figure.subplots_adjust(left=0.17, right=0.75, top=0.97, bottom=0.13)
+    figure.subplots_adjust(left=0.17, right=0.7, top=0.97, bottom=0.13)
     _labels(figure, axes, [(r["medianMs"], height(r), r["method"], kInk, r in front) for r in rows])
     return _svg(figure, f"Error against time: {group.scene}, {group.width} x {group.height}, depth {group.depth}, "
                         f"{renderer}")

@@ -162,7 +162,7 @@ void addNormalOptions(CLI::App& prep, Options& options) {
           "--normals", options.normals,
           "Source of normals: crease (smooth except at sharp edges), smoothing (groups of the file) or authored "
           "(normals of the file)")
-      ->transform(CLI::CheckedTransformer(kNormals))
+      ->transform(CLI::CheckedTransformer(kNormals).description("{crease,smoothing,authored}"))
       ->type_name("KIND")
       ->default_str("crease");
   prep.add_option("--crease", options.creaseDegrees, "Smallest angle of a sharp edge [degrees]")

@@ -1,5 +1,8 @@
 #include "render/method_option.h"
 
+#include <string>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "meshprep/base/console.h"
@@ -16,7 +19,9 @@ CLI::Validator methodName() {
                 console::note(fmt::format("method name '{}' is deprecated; use '{}'", text, method.name));
               text = method.name;
             } catch (const Error& error) {
-              return error.what();
+              // CLI11 puts the option in front of the message, as Error does.
+              const std::string_view message = error.what(), option = "--method: ";
+              return std::string(message.starts_with(option) ? message.substr(option.size()) : message);
             }
             return {};
           },

@@ -23,12 +23,13 @@ inline constexpr std::uint32_t kDielectric = 1 << 1;  // Fresnel interface of re
 inline constexpr std::uint32_t kConductor = 1 << 2;   // Fresnel interface of complex index
 inline constexpr std::uint32_t kTransmits = 1 << 3;   // specular light passes through
 inline constexpr std::uint32_t kBody = 1 << 4;        // bounds a closed body that light travels through
-inline constexpr std::uint32_t kPolarizing = 1 << 5;  // polarizing element with an axis, without a Fresnel interface
-inline constexpr std::uint32_t kEmits = 1 << 6;       // has a radiance
-inline constexpr std::uint32_t kDiffuse = 1 << 7;     // may have an albedo
-inline constexpr std::uint32_t kCoatable = 1 << 8;    // may have a thin film
-inline constexpr std::uint32_t kRough = 1 << 9;       // may have a roughness
-inline constexpr std::uint32_t kIndexMap = 1 << 10;   // may have its index in a texture
+inline constexpr std::uint32_t kPolarizing =
+    1 << 5;  // polarizing element without a Fresnel interface: needs a unit axis, not along a face normal
+inline constexpr std::uint32_t kEmits = 1 << 6;      // has a radiance
+inline constexpr std::uint32_t kDiffuse = 1 << 7;    // may have an albedo
+inline constexpr std::uint32_t kCoatable = 1 << 8;   // may have a thin film
+inline constexpr std::uint32_t kRough = 1 << 9;      // may have a roughness
+inline constexpr std::uint32_t kIndexMap = 1 << 10;  // may have its index in a texture
 inline constexpr std::uint32_t kOpaqueInterface = kInterface | kCoatable | kRough | kIndexMap;
 }  // namespace material_traits
 

@@ -75,13 +75,12 @@ void expectSameNumbers(const LaneStruct& l, const Struct& a, const Struct& b, co
   X(k)                    \
   X(albedo)               \
   X(radiance) X(hemisphereTransmittance) X(outsideEta) X(basicScale) X(highlightStrength) X(highlightExponent) X(kind)
-#define MALUS_EXTRA(X)                                                                                            \
-  X(absorption)                                                                                                   \
-  X(outsideAbsorption)                                                                                            \
-  X(axis)                                                                                                         \
-  X(degree)                                                                                                       \
-  X(transmittanceParallel) X(transmittanceCrossed) X(retardanceCos) X(retardanceSin) X(filmEta) X(roundTripPhase) \
-      X(roughness) X(albedoMap) X(etaMap) X(kMap) X(mapOrigin) X(mapU) X(mapV)
+// clang-format off
+#define MALUS_EXTRA(X)                                                                                        \
+  X(absorption) X(outsideAbsorption) X(axis) X(degree) X(transmittanceParallel) X(transmittanceCrossed)       \
+  X(retardanceCos) X(retardanceSin) X(filmEta) X(roundTripPhase) X(roughness) X(albedoMap) X(etaMap) X(kMap)  \
+  X(mapOrigin) X(mapU) X(mapV)
+// clang-format on
 
 // Both lanes' scalar inputs, and the two of them packed.
 template <class S, class L>

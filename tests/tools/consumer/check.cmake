@@ -37,7 +37,7 @@ set(malus ${work}/prefix/${BINDIR}/malus)
 expect_files(${work}/prefix/share/malus/report/compare_report.py
   ${work}/prefix/share/bash-completion/completions/malus)
 
-# A release build contains no path of the source or build tree; assertions and debug information do.
+# A release build contains no path of the source or build tree; debug information does.
 if(BUILD_TYPE STREQUAL Release)
   file(READ ${malus} binary HEX)
   foreach(path IN ITEMS ${SOURCE} ${BUILD})

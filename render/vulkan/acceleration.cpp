@@ -83,7 +83,7 @@ Acceleration::Level Acceleration::build(const Device& device, VkAccelerationStru
                             device.functions().destroyAccelerationStructure,
                             fmt::format("vkCreateAccelerationStructureKHR ({})", purpose));
 
-  const VkDeviceSize alignment = device.scratchAlignment();
+  const VkDeviceSize alignment = device.capabilities().minAccelerationStructureScratchOffsetAlignment;
   const Buffer scratch(device, fmt::format("scratch of the {}", purpose), sizes.buildScratchSize + alignment,
                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);

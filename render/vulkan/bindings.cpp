@@ -78,12 +78,12 @@ Bindings::Bindings(const Device& device) : device_(device), layout_(createBindin
 }
 
 void Bindings::bind(Binding binding, const Buffer& buffer) {
-  if (buffer.sizeBytes() > device_.maxStorageBufferBytes())
+  if (buffer.sizeBytes() > device_.capabilities().maxStorageBufferRange)
     throw Error(fmt::format("Vulkan device '{}'", device_.physical().name),
                 fmt::format("cannot bind the buffer '{}'", kRows[static_cast<std::uint32_t>(binding)].name),
                 fmt::format("at most {} bytes; reduce the scene's meshes or textures or the image, or use another "
                             "device (--device) or --backend embree",
-                            device_.maxStorageBufferBytes()),
+                            device_.capabilities().maxStorageBufferRange),
                 fmt::format("{} bytes", buffer.sizeBytes()));
   const VkDescriptorBufferInfo info{buffer.get(), 0, VK_WHOLE_SIZE};
   VkWriteDescriptorSet write = makeWrite(set_, binding);

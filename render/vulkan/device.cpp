@@ -38,51 +38,17 @@ class Commands {
 
 Device::Device(const Instance& instance, const std::string& wanted, bool statistics)
     : physical_(choosePhysicalDevice(instance, wanted)) {
-  readProperties();
-  const std::uint32_t queueFamily = findQueueFamily();
-  createDevice(queueFamily,
-               statistics && hasExtension(physical_.handle, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME));
-  vkGetDeviceQueue(get(), queueFamily, 0, &queue_);
+  createDevice(statistics && capabilities().pipelineExecutableInfo);
+  vkGetDeviceQueue(get(), capabilities().queueFamily, 0, &queue_);
   VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-  pool.queueFamilyIndex = queueFamily;
+  pool.queueFamilyIndex = capabilities().queueFamily;
   pool_ = create(get(), vkCreateCommandPool, pool, vkDestroyCommandPool, "vkCreateCommandPool");
 }
 
-void Device::readProperties() {
-  vkGetPhysicalDeviceMemoryProperties(physical_.handle, &memory_);
-  rayTracing_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR;
-  VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
-  rayTracing_.pNext = &acceleration;
-  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-  properties.pNext = &rayTracing_;
-  vkGetPhysicalDeviceProperties2(physical_.handle, &properties);
-  rayTracing_.pNext = nullptr;
-  maxStorageBufferBytes_ = properties.properties.limits.maxStorageBufferRange;
-  timestampPeriodNs_ = static_cast<double>(properties.properties.limits.timestampPeriod);
-  scratchAlignment_ = std::max(1u, acceleration.minAccelerationStructureScratchOffsetAlignment);
-  hasRayQueries_ = hasExtension(physical_.handle, VK_KHR_RAY_QUERY_EXTENSION_NAME);
-}
-
-// Ray tracing needs a queue for compute work. Its timestamps may be missing.
-std::uint32_t Device::findQueueFamily() {
-  std::uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(physical_.handle, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(physical_.handle, &count, families.data());
-  const auto family = std::find_if(families.begin(), families.end(),
-                                   [](const auto& f) { return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0; });
-  if (family == families.end())
-    throw Error("Vulkan", fmt::format("device '{}' has no compute queue", physical_.name),
-                "another device from 'malus --list-devices' (--device) or --backend embree");
-  if (family->timestampValidBits == 0) timestampPeriodNs_ = 0;
-  return static_cast<std::uint32_t>(family - families.begin());
-}
-
-void Device::createDevice(std::uint32_t queueFamily, bool statistics) {
+void Device::createDevice(bool statistics) {
   const float priority = 1;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
-  queue.queueFamilyIndex = queueFamily;
+  queue.queueFamilyIndex = capabilities().queueFamily;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
 
@@ -97,7 +63,7 @@ void Device::createDevice(std::uint32_t queueFamily, bool statistics) {
     features.executables.pipelineExecutableInfo = VK_TRUE;
     features.append(features.executables);
   }
-  if (hasRayQueries_) {
+  if (capabilities().rayQuery) {
     extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
     features.queries.rayQuery = VK_TRUE;
     features.append(features.queries);
@@ -116,8 +82,8 @@ void Device::createDevice(std::uint32_t queueFamily, bool statistics) {
 }
 
 std::uint32_t Device::maxDepth() const {
-  const std::uint32_t limit = rayTracing_.maxRayRecursionDepth;
-  return limit < 2 ? 0 : limit - 2;
+  const std::uint64_t limit = std::min<std::uint64_t>(capabilities().maxRayRecursionDepth, UINT32_MAX);
+  return limit < 2 ? 0 : static_cast<std::uint32_t>(limit) - 2;
 }
 
 void Device::requireDepth(std::uint32_t depth) const {
@@ -128,8 +94,9 @@ void Device::requireDepth(std::uint32_t depth) const {
 }
 
 std::uint32_t Device::findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const {
-  for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
-    if ((allowed & (1u << i)) != 0 && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+  const VkPhysicalDeviceMemoryProperties& memory = capabilities().memory;
+  for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+    if ((allowed & (1u << i)) != 0 && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
   throw Error("Vulkan", fmt::format("device '{}' has no memory type with property flags {:#x}", physical_.name, wanted),
               "another device from 'malus --list-devices' (--device) or --backend embree");
 }

@@ -25,11 +25,7 @@ class Device {
   VkDevice get() const { return device_.get(); }
   const DeviceFunctions& functions() const { return functions_; }
   const PhysicalDevice& physical() const { return physical_; }
-  const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rayTracing() const { return rayTracing_; }
-  VkDeviceSize maxStorageBufferBytes() const { return maxStorageBufferBytes_; }
-  std::uint32_t scratchAlignment() const { return scratchAlignment_; }  // bytes
-  double timestampPeriodNs() const { return timestampPeriodNs_; }       // 0: the queue has no timestamps
-  bool hasRayQueries() const { return hasRayQueries_; }
+  const Capabilities& capabilities() const { return physical_.capabilities; }
   bool hasStatistics() const { return functions_.getPipelineExecutableStatistics != nullptr; }
 
   // Most specular interactions of a recursive method: the camera ray, and the shadow ray of the last hit, use two
@@ -45,17 +41,9 @@ class Device {
   void submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const;
 
  private:
-  void readProperties();
-  std::uint32_t findQueueFamily();
-  void createDevice(std::uint32_t queueFamily, bool statistics);
+  void createDevice(bool statistics);
 
   PhysicalDevice physical_;
-  VkPhysicalDeviceMemoryProperties memory_{};
-  VkPhysicalDeviceRayTracingPipelinePropertiesKHR rayTracing_{};
-  VkDeviceSize maxStorageBufferBytes_ = 0;
-  std::uint32_t scratchAlignment_ = 1;
-  double timestampPeriodNs_ = 0;
-  bool hasRayQueries_ = false;
   OwnedDevice device_;
   DeviceFunctions functions_;
   VkQueue queue_ = VK_NULL_HANDLE;

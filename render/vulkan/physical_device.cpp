@@ -4,11 +4,11 @@
 #include <cctype>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
-#include "render/vulkan/device_features.h"
 
 namespace malus::vulkan {
 
@@ -21,18 +21,17 @@ constexpr const char* kChooseDevice =
     "a usable device from 'malus --list-devices' (--device), a newer driver, or --backend embree";
 
 // Empty: the renderer can use the device.
-std::string findProblem(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
-  if (properties.apiVersion < VK_API_VERSION_1_2)
-    return fmt::format("supports Vulkan {}.{}; 1.2 or later is required", VK_API_VERSION_MAJOR(properties.apiVersion),
-                       VK_API_VERSION_MINOR(properties.apiVersion));
+std::string findProblem(const Capabilities& device) {
+  if (device.apiVersion < VK_API_VERSION_1_2)
+    return fmt::format("supports Vulkan {}.{}; 1.2 or later is required", VK_API_VERSION_MAJOR(device.apiVersion),
+                       VK_API_VERSION_MINOR(device.apiVersion));
   for (const char* extension : requiredExtensions())
-    if (!hasExtension(device, extension)) return fmt::format("missing extension {}", extension);
-  DeviceFeatures features;
-  vkGetPhysicalDeviceFeatures2(device, &features.all);
-  if (!features.pipeline.rayTracingPipeline) return "missing feature rayTracingPipeline";
-  if (!features.acceleration.accelerationStructure) return "missing feature accelerationStructure";
-  if (!features.core12.bufferDeviceAddress) return "missing feature bufferDeviceAddress";
-  if (!features.core12.scalarBlockLayout) return "missing feature scalarBlockLayout";
+    if (!device.has(extension)) return fmt::format("missing extension {}", extension);
+  if (!device.rayTracingPipeline) return "missing feature rayTracingPipeline";
+  if (!device.accelerationStructure) return "missing feature accelerationStructure";
+  if (!device.bufferDeviceAddress) return "missing feature bufferDeviceAddress";
+  if (!device.scalarBlockLayout) return "missing feature scalarBlockLayout";
+  if (!device.hasComputeQueue) return "no queue for compute work";
   return {};
 }
 
@@ -93,15 +92,6 @@ const std::vector<const char*>& requiredExtensions() {
   return kExtensions;
 }
 
-bool hasExtension(VkPhysicalDevice device, std::string_view extension) {
-  std::uint32_t count = 0;
-  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const VkExtensionProperties& e) { return extension == e.extensionName; });
-}
-
 std::vector<PhysicalDevice> listPhysicalDevices(const Instance& instance) {
   std::vector<PhysicalDevice> result;
   for (VkPhysicalDevice handle : instance.physicalDevices()) {
@@ -109,9 +99,10 @@ std::vector<PhysicalDevice> listPhysicalDevices(const Instance& instance) {
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &driver;
     vkGetPhysicalDeviceProperties2(handle, &properties);
+    Capabilities capabilities = readCapabilities(handle);
     result.push_back({handle, properties.properties.deviceName,
-                      fmt::format("{} {}", driver.driverName, driver.driverInfo),
-                      findProblem(handle, properties.properties), properties.properties.deviceType});
+                      fmt::format("{} {}", driver.driverName, driver.driverInfo), findProblem(capabilities),
+                      properties.properties.deviceType, std::move(capabilities)});
   }
   if (result.empty()) throw Error("Vulkan", "no device found", kInstallDriver);
   return result;

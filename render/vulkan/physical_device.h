@@ -2,11 +2,11 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <vulkan/vulkan.h>
 
+#include "render/vulkan/capabilities.h"
 #include "render/vulkan/instance.h"
 
 namespace malus::vulkan {
@@ -17,6 +17,7 @@ struct PhysicalDevice {
   std::string driver;   // "llvmpipe Mesa 25.0.7"
   std::string problem;  // "missing extension VK_KHR_ray_tracing_pipeline"; empty: usable
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+  Capabilities capabilities;
 };
 
 // At least one, in the order in which the loader enumerates them, which numbers them for --device. Throws Error: none.
@@ -31,7 +32,5 @@ const PhysicalDevice* findDefaultDevice(const std::vector<PhysicalDevice>& devic
 
 // Extensions that every device must have.
 const std::vector<const char*>& requiredExtensions();
-
-bool hasExtension(VkPhysicalDevice device, std::string_view extension);
 
 }  // namespace malus::vulkan

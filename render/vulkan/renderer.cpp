@@ -93,7 +93,7 @@ std::string Renderer::device() const {
 std::vector<std::string> Renderer::methods() const {
   std::vector<std::string> names;
   for (const render::MethodInfo& m : render::methods())
-    if (!m.isIterative || impl_->device.hasRayQueries()) names.emplace_back(m.name);
+    if (!m.isIterative || impl_->device.capabilities().rayQuery) names.emplace_back(m.name);
   return names;
 }
 
@@ -104,8 +104,8 @@ std::uint32_t Renderer::maxDepth(std::string_view method) const {
 void Renderer::Impl::requireSupported(std::string_view method, const render::RenderParameters& parameters) const {
   if (!render::methodNamed(method).isIterative)
     device.requireDepth(parameters.depth);
-  else if (!device.hasRayQueries())
-    throw Error("--method", fmt::format("device '{}' lacks VK_KHR_ray_query", device.physical().name),
+  else if (!device.capabilities().rayQuery)
+    throw Error("--method", fmt::format("device '{}' lacks ray queries", device.physical().name),
                 "a recursive method, another device (--device) or --backend embree", fmt::format("'{}'", method));
 }
 

@@ -13,7 +13,7 @@ VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) {
 }
 
 std::vector<std::byte> readHandles(const Device& device, VkPipeline pipeline, std::uint32_t groups) {
-  std::vector<std::byte> handles(std::size_t{device.rayTracing().shaderGroupHandleSize} * groups);
+  std::vector<std::byte> handles(device.capabilities().shaderGroupHandleSize * groups);
   check(device.functions().getRayTracingShaderGroupHandles(device.get(), pipeline, 0, groups, handles.size(),
                                                            handles.data()),
         "vkGetRayTracingShaderGroupHandlesKHR");
@@ -25,7 +25,7 @@ std::vector<std::byte> readHandles(const Device& device, VkPipeline pipeline, st
 ShaderTable::ShaderTable(const Device& device, VkPipeline pipeline, const std::vector<StageSource>& groups,
                          const render::RenderScene& scene)
     : device_(device) {
-  const auto& limits = device.rayTracing();
+  const Capabilities& limits = device.capabilities();
   const std::size_t handleBytes = limits.shaderGroupHandleSize;
   const VkDeviceSize stride = alignUp(handleBytes, limits.shaderGroupHandleAlignment),
                      base = limits.shaderGroupBaseAlignment;

@@ -14,7 +14,7 @@ class Timestamps {
 
   void begin(VkCommandBuffer commands) const;
   void end(VkCommandBuffer commands) const;
-  // Waits for both. Empty: the device has no timestamps. Throws Error.
+  // Waits for both. Empty: the queue has no timestamps. Throws Error.
   std::optional<double> readMs() const;
 
  private:

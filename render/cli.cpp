@@ -199,7 +199,6 @@ void runRender(const RenderArguments& a) {
   if (settings.needsLinear) requireStokes(job.backend(), job.method(), a.stokesOption());
 
   const std::string backend = backendInfo(job.backend()).name;
-  console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, backend, job.method()));
   RenderResult result = job.render();
   if (result.faults.count > 0) throw Error(a.pack, describe(result.faults, pack.scene));
   if (a.intensity) result = withoutStokes(std::move(result));

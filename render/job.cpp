@@ -83,7 +83,14 @@ Job::Job(const pack::Pack& pack, const JobSettings& settings)
   parameters_.checkNumerics = settings_.checkNumerics;
 }
 
-RenderResult Job::render() { return renderImage(renderer(), settings_.method, parameters_, settings_.countRays); }
+RenderResult Job::render() {
+  const std::string title =
+      fmt::format("rendering {} with {} {}", scene().name, backendInfo(settings_.backend).name, method());
+  console::progress(title);
+  renderer().setProgress(
+      [title](double fraction) { console::progress(fmt::format("{}: {:.0f} %", title, 100 * fraction)); });
+  return renderImage(renderer(), settings_.method, parameters_, settings_.countRays);
+}
 
 Renderer& Job::renderer() {
   if (!renderer_) renderer_ = makeRenderer(settings_.backend, scene(), {settings_.device, settings_.threads});

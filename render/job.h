@@ -50,7 +50,7 @@ class Job {
   Job(const pack::Pack& pack, const JobSettings& settings);
   Job(pack::Pack&& pack, const JobSettings& settings) = delete;
 
-  // Throws as Renderer::render() does.
+  // Reports progress to the console. Throws as Renderer::render() does.
   RenderResult render();
 
   Backend backend() const { return settings_.backend; }

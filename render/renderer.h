@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "render/backend.h"
@@ -29,8 +31,13 @@ class Renderer {
   // Largest RenderParameters::depth that the device can render by a method.
   virtual std::uint32_t maxDepth(std::string_view method) const = 0;
 
+  // report: called with the fraction of the image that is finished, at most once per second, by renderers that render
+  // in parts.
+  void setProgress(std::function<void(double)> report) { progress_ = std::move(report); }
+
   // Renders parameters.region. method: one of methods(), ignored by a backend without methods. Throws Error: an unknown
-  // or unsupported method, a depth over maxDepth(method).
+  // or unsupported method, a depth over maxDepth(method). Throws Interrupted (meshprep/base/interrupt.h) within an
+  // InterruptScope, between the parts of an image.
   virtual RenderResult render(std::string_view method, const RenderParameters& parameters) = 0;
   // Renders once more, untimed, to count camera, specular and shadow rays. Needed only if render() left Cost::rays
   // at 0. Throws as render() does.
@@ -40,6 +47,10 @@ class Renderer {
 
  protected:
   Renderer() = default;
+  const std::function<void(double)>& progress() const { return progress_; }
+
+ private:
+  std::function<void(double)> progress_;
 };
 
 }  // namespace malus::render

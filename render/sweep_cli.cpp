@@ -96,7 +96,6 @@ void runSweep(const SweepArguments& a) {
   const fs::path folder = a.folder;
   const OutputFolder made(folder);
   const std::string method = job.method(), backend = backendInfo(job.backend()).name;
-  console::progress(fmt::format("rendering {} with {} {}", pack.scene.name, backend, method));
   const RenderResult rendered = job.render();
   const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
 

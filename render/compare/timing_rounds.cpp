@@ -39,6 +39,7 @@ void timeRounds(Comparison& comparison, std::vector<RowGroup>& groups, std::uint
         if (!row.ok()) continue;
         try {
           renderTimed(row, group);
+        } catch (const Interrupted&) {  // the loops end by interrupted()
         } catch (const Error& error) {
           row.status = error.what();
         }

@@ -106,6 +106,8 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
     try {
       table.add(index, row, renderRow(row, group, reference, output));
       comparison.devices[backendInfo(backend).name] = (*group.renderers)[backend].device();
+    } catch (const Interrupted&) {
+      break;
     } catch (const Error& error) {
       row.status = error.what();
     }

@@ -16,13 +16,14 @@ inline constexpr std::size_t kColourChannels = gpu::kColourChannels;
 inline constexpr std::size_t kStokesChannels = gpu::kStokesChannels;
 
 struct Cost {
-  double buildMs = 0;      // acceleration structure
-  double uploadMs = 0;     // upload of the scene to the device
-  double compileMs = 0;    // shaders and pipeline, if this render used them first
-  double traceMs = 0;      // rays and shading alone; on a GPU by its own clock
-  double readBackMs = 0;   // copy of the image from the device
-  double wallMs = 0;       // tracing and read-back by the clock of the caller
-  std::uint64_t rays = 0;  // camera, specular and shadow rays; 0 if not counted
+  double buildMs = 0;          // acceleration structure
+  double uploadMs = 0;         // upload of the scene to the device
+  double compileMs = 0;        // shaders and pipeline, if this render used them first
+  double traceMs = 0;          // rays and shading alone; on a GPU by its own clock
+  double readBackMs = 0;       // copy of the image from the device
+  double wallMs = 0;           // tracing and read-back by the clock of the caller
+  std::uint64_t launches = 0;  // submissions to the device; 0: it has none
+  std::uint64_t rays = 0;      // camera, specular and shadow rays; 0 if not counted
 };
 
 struct RenderResult {

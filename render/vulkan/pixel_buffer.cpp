@@ -17,10 +17,9 @@ void PixelBuffer::reserve(std::size_t floats, Bindings& bindings) {
 
 void PixelBuffer::recordCopy(VkCommandBuffer commands, std::size_t floats) const {
   const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT,
-                                VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_HOST_READ_BIT};
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR,
-                       VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
-                       nullptr);
+                                VK_ACCESS_TRANSFER_READ_BIT};
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1,
+                       &barrier, 0, nullptr, 0, nullptr);
   const VkBufferCopy copy{0, 0, floats * sizeof(float)};
   vkCmdCopyBuffer(commands, pixels_.get(), copy_.get(), 1, &copy);
 }

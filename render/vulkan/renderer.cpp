@@ -1,17 +1,21 @@
 #include "render/vulkan/renderer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <map>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "bake/pack/format.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/interrupt.h"
 #include "render/scene/methods.h"
 #include "render/scene/render_scene.h"
 #include "render/vulkan/acceleration.h"
 #include "render/vulkan/host_buffers.h"
+#include "render/vulkan/launches.h"
 #include "render/vulkan/pipeline.h"
 #include "render/vulkan/pixel_buffer.h"
 #include "render/vulkan/scene_buffers.h"
@@ -26,6 +30,9 @@ namespace {
 double durationMs(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
+// Most bytes of the pixels of a launch: a copy of the whole image would exceed the memory of some devices.
+constexpr std::uint64_t kMaxPixelBytes = std::uint64_t{1} << 27;
+
 double elapsedMs(Clock::time_point start) { return durationMs(start, Clock::now()); }
 
 // A compiled variant for one scene.
@@ -61,7 +68,10 @@ struct Renderer::Impl {
 
   void requireSupported(std::string_view method, const render::RenderParameters& parameters) const;
   const Program& program(const Variant& variant, std::uint32_t recursion);
-  void dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels);
+  double dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels);
+  std::uint64_t maxLaunchPixels(std::size_t channels) const;
+  void launchAll(const Program& program, const Variant& variant, const render::RenderParameters& parameters,
+                 render::RenderResult& image);
   render::RenderResult trace(const Variant& variant, const render::RenderParameters& parameters);
   gpu::Faults findFaults(const Variant& variant, const render::RenderParameters& parameters);
   render::Faults checkNumerics(Variant variant, const render::RenderParameters& parameters);
@@ -80,6 +90,8 @@ struct Renderer::Impl {
   PixelBuffer pixels;
   Timestamps timestamps;
   std::map<std::pair<Variant, std::uint32_t>, std::unique_ptr<const Program>> programs;  // by variant and recursion
+  std::map<std::pair<Variant, std::uint32_t>, LaunchSize> launchSizes;                   // by variant and depth
+  std::function<void(double)> progress;
 };
 
 Renderer::Renderer(const pack::Scene& scene, const Options& options) : impl_(std::make_unique<Impl>(scene, options)) {}
@@ -116,9 +128,10 @@ const Program& Renderer::Impl::program(const Variant& variant, std::uint32_t rec
   return *programs.emplace(key, std::move(made)).first->second;
 }
 
-// Traces the camera's region, copies it to the host and waits.
-void Renderer::Impl::dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels) {
+// Traces the camera's region, copies it to the host and waits. Returns the time of the submission in milliseconds.
+double Renderer::Impl::dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels) {
   host.camera.write(camera);
+  const auto start = Clock::now();
   device.submit("trace", [&](VkCommandBuffer commands) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, program.pipeline.get());
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, program.pipeline.layout(), 0, 1,
@@ -128,6 +141,47 @@ void Renderer::Impl::dispatch(const Program& program, const gpu::CameraParameter
     timestamps.end(commands);
     pixels.recordCopy(commands, std::size_t{camera.regionWidth} * camera.regionHeight * channels);
   });
+  return elapsedMs(start);
+}
+
+// Most pixels of a launch by the device's limits, at least 1.
+std::uint64_t Renderer::Impl::maxLaunchPixels(std::size_t channels) const {
+  const Capabilities& limits = device.capabilities();
+  const std::uint64_t bytes = std::min({limits.maxStorageBufferRange, limits.maxMemoryAllocationSize, kMaxPixelBytes});
+  return std::max<std::uint64_t>(1, std::min(bytes / (channels * sizeof(float)), limits.maxRayDispatchInvocationCount));
+}
+
+// Renders the image launch by launch. Adds to its cost.
+void Renderer::Impl::launchAll(const Program& program, const Variant& variant,
+                               const render::RenderParameters& parameters, render::RenderResult& image) {
+  const std::uint64_t perPixel = std::uint64_t{parameters.samples} * parameters.samples,
+                      most = maxLaunchPixels(image.channels);
+  gpu::CameraParameters camera = render::makeCameraParameters(scene, parameters);
+  LaunchSize& size = launchSizes[{variant, parameters.depth}];
+  size.beginImage();
+  auto reported = Clock::now();
+  for (LaunchRegions regions(parameters.region); !regions.isDone(); ++image.cost.launches) {
+    const std::span to = std::span(image.pixels).subspan(regions.nextPixel() * image.channels);
+    const render::Region part = regions.next(std::min(size.pixels(perPixel), most));
+    const std::uint64_t count = std::uint64_t{part.width} * part.height;
+    camera.regionX = part.x;
+    camera.regionY = part.y;
+    camera.regionWidth = part.width;
+    camera.regionHeight = part.height;
+    host.rayCount.write(0);
+    const double ms = dispatch(program, camera, image.channels);
+    size.add(count, perPixel, ms);
+    image.cost.traceMs += timestamps.readMs().value_or(ms);
+    image.cost.rays += host.rayCount.read();
+    const auto reading = Clock::now();
+    pixels.read(to.first(count * image.channels));
+    image.cost.readBackMs += elapsedMs(reading);
+    if (interrupted()) throw Interrupted();
+    if (progress && elapsedMs(reported) > 1000) {
+      progress(static_cast<double>(regions.nextPixel() * image.channels) / static_cast<double>(image.pixels.size()));
+      reported = Clock::now();
+    }
+  }
 }
 
 render::RenderResult Renderer::Impl::trace(const Variant& variant, const render::RenderParameters& parameters) {
@@ -140,14 +194,13 @@ render::RenderResult Renderer::Impl::trace(const Variant& variant, const render:
   image.height = parameters.region.height;
   image.channels = render::hasStokes(render::methodNamed(variant.method), parameters) ? render::kStokesChannels
                                                                                       : render::kColourChannels;
-  image.pixels.resize(image.channels * image.width * image.height);
-  pixels.reserve(image.pixels.size(), bindings);
-  host.rayCount.write(0);
-  const gpu::CameraParameters camera = render::makeCameraParameters(scene, parameters);
+  const std::size_t count = std::size_t{image.width} * image.height;
+  image.pixels.resize(image.channels * count);
+  pixels.reserve(image.channels * std::min<std::uint64_t>(count, maxLaunchPixels(image.channels)), bindings);
 
   // Drivers finish compiling at the first trace: trace one pixel before the timed trace.
   if (isFirstUse && !variant.countRays && !variant.checkNumerics) {
-    gpu::CameraParameters onePixel = camera;
+    gpu::CameraParameters onePixel = render::makeCameraParameters(scene, parameters);
     onePixel.regionWidth = onePixel.regionHeight = 1;
     dispatch(chosen, onePixel, image.channels);
   }
@@ -156,14 +209,8 @@ render::RenderResult Renderer::Impl::trace(const Variant& variant, const render:
   image.cost.compileMs = isFirstUse ? elapsedMs(preparing) : 0;
 
   const auto tracing = Clock::now();
-  dispatch(chosen, camera, image.channels);
-  const double dispatchMs = elapsedMs(tracing);
-  const auto reading = Clock::now();
-  pixels.read(image.pixels);
-  image.cost.readBackMs = elapsedMs(reading);
+  launchAll(chosen, variant, parameters, image);
   image.cost.wallMs = elapsedMs(tracing);
-  image.cost.traceMs = timestamps.readMs().value_or(dispatchMs);
-  image.cost.rays = host.rayCount.read();
   instance.requireNoMessages();
   return image;
 }
@@ -192,6 +239,7 @@ render::Faults Renderer::Impl::checkNumerics(Variant variant, const render::Rend
 
 render::RenderResult Renderer::render(std::string_view method, const render::RenderParameters& parameters) {
   impl_->requireSupported(method, parameters);
+  impl_->progress = progress();
   const Variant variant = variantFor(impl_->scene, method, parameters);
   render::RenderResult image = impl_->trace(variant, parameters);
   image.device = device();

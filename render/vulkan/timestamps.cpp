@@ -20,7 +20,7 @@ void Timestamps::begin(VkCommandBuffer commands) const {
 }
 
 void Timestamps::end(VkCommandBuffer commands) const {
-  if (pool_) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR, pool_.get(), 1);
+  if (pool_) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool_.get(), 1);
 }
 
 std::optional<double> Timestamps::readMs() const {

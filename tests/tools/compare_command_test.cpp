@@ -128,6 +128,21 @@ TEST_F(Compare, InterruptingKeepsTheFinishedRounds) {
   EXPECT_TRUE(contains(finished.err, "interrupted")) << finished.err;
 }
 
+TEST_F(Compare, InterruptingAnImageOfSeveralLaunchesKeepsTheFinishedRounds) {
+  Start start;
+  start.environment = {{"MALUS_DEVICE", "llvmpipe"}};
+  start.sendSignalWhen = [](std::string_view err) { return contains(err, "round 2"); };
+  start.sendSignal = SIGINT;
+  const Finished finished = malus({"-v", "compare", pack(), "-o", report(), "--backends", "vulkan", "--methods",
+                                   "stokes", "--width", "100", "--rounds", "100000", "--no-report"},
+                                  start);
+  ASSERT_EQ(finished.exitCode, 130) << finished.err;
+  const json document = results();
+  const auto rounds = document.at("settings").at("rounds").get<std::size_t>();
+  EXPECT_GE(rounds, 1u);
+  for (const json& row : document.at("rows")) EXPECT_EQ(row.at("samplesMs").size(), rounds);
+}
+
 TEST_F(Compare, MaxErrorChoosesAMethodAndCachesItsMeasurements) {
   Start start;
   start.environment = {{"XDG_CACHE_HOME", folder_ / "cache"}};

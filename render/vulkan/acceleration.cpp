@@ -2,7 +2,30 @@
 
 #include <fmt/format.h>
 
+#include "meshprep/base/error.h"
+
 namespace malus::vulkan {
+
+namespace {
+
+// Throws Error if a bottom-level structure cannot have the scene's meshes or triangles.
+void requireCounts(const Device& device, const render::RenderScene& scene) {
+  const auto require = [&](std::string_view what, std::uint64_t count, std::uint64_t limit, const char* name) {
+    if (count > limit)
+      throw Error(fmt::format("Vulkan device '{}'", device.physical().name),
+                  fmt::format("the scene has too many {}", what),
+                  fmt::format("at most {} ({}); reduce the scene, or use another device (--device) or --backend embree",
+                              limit, name),
+                  fmt::format("{}", count));
+  };
+  const Capabilities& limits = device.capabilities();
+  require("meshes", scene.meshes.size(), limits.maxGeometryCount, "maxGeometryCount");
+  std::uint64_t triangles = 0;
+  for (const std::uint32_t count : scene.meshTriangles) triangles += count;
+  require("triangles", triangles, limits.maxPrimitiveCount, "maxPrimitiveCount");
+}
+
+}  // namespace
 
 Acceleration::Acceleration(const Device& device, const render::RenderScene& scene, const Buffer& positions,
                            const Buffer& triangles)
@@ -12,6 +35,7 @@ Acceleration::Acceleration(const Device& device, const render::RenderScene& scen
 // record.
 Acceleration::Level Acceleration::buildBottom(const Device& device, const render::RenderScene& scene,
                                               const Buffer& positions, const Buffer& triangles) {
+  requireCounts(device, scene);
   std::vector<VkAccelerationStructureGeometryKHR> geometries;
   std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -74,7 +98,7 @@ Acceleration::Level Acceleration::build(const Device& device, VkAccelerationStru
   result.storage =
       Buffer(device, purpose, sizes.accelerationStructureSize,
              VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-             VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+             kDeviceMemory);
   VkAccelerationStructureCreateInfoKHR createInfo{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
   createInfo.buffer = result.storage.get();
   createInfo.size = sizes.accelerationStructureSize;
@@ -85,8 +109,7 @@ Acceleration::Level Acceleration::build(const Device& device, VkAccelerationStru
 
   const VkDeviceSize alignment = device.capabilities().minAccelerationStructureScratchOffsetAlignment;
   const Buffer scratch(device, fmt::format("scratch of the {}", purpose), sizes.buildScratchSize + alignment,
-                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, kDeviceMemory);
   info.dstAccelerationStructure = result.structure.get();
   info.scratchData.deviceAddress = (scratch.address() + alignment - 1) / alignment * alignment;
   const VkAccelerationStructureBuildRangeInfoKHR* const first = ranges.data();

@@ -57,6 +57,17 @@ Owned<VkDescriptorSetLayout> createBindingsLayout(const Device& device) {
                 "vkCreateDescriptorSetLayout");
 }
 
+void requireBindable(const Device& device, std::string_view name, VkDeviceSize bytes) {
+  const std::uint64_t limit = device.capabilities().maxStorageBufferRange;
+  if (bytes > limit)
+    throw Error(fmt::format("Vulkan device '{}'", device.physical().name),
+                fmt::format("cannot bind the buffer '{}'", name),
+                fmt::format("at most {} bytes (maxStorageBufferRange); reduce the scene's meshes or textures, or use "
+                            "another device (--device) or --backend embree",
+                            limit),
+                fmt::format("{} bytes", bytes));
+}
+
 Bindings::Bindings(const Device& device) : device_(device), layout_(createBindingsLayout(device)) {
   std::array<VkDescriptorPoolSize, 2> sizes{{{VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 0},  //
                                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 0}}};
@@ -78,13 +89,7 @@ Bindings::Bindings(const Device& device) : device_(device), layout_(createBindin
 }
 
 void Bindings::bind(Binding binding, const Buffer& buffer) {
-  if (buffer.sizeBytes() > device_.capabilities().maxStorageBufferRange)
-    throw Error(fmt::format("Vulkan device '{}'", device_.physical().name),
-                fmt::format("cannot bind the buffer '{}'", kRows[static_cast<std::uint32_t>(binding)].name),
-                fmt::format("at most {} bytes; reduce the scene's meshes or textures or the image, or use another "
-                            "device (--device) or --backend embree",
-                            device_.capabilities().maxStorageBufferRange),
-                fmt::format("{} bytes", buffer.sizeBytes()));
+  requireBindable(device_, kRows[static_cast<std::uint32_t>(binding)].name, buffer.sizeBytes());
   const VkDescriptorBufferInfo info{buffer.get(), 0, VK_WHOLE_SIZE};
   VkWriteDescriptorSet write = makeWrite(set_, binding);
   write.pBufferInfo = &info;

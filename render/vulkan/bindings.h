@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "render/vulkan/buffer.h"
 
@@ -18,6 +19,9 @@ enum class Binding : std::uint32_t {
 
 // device: must outlive the layout. Throws Error.
 Owned<VkDescriptorSetLayout> createBindingsLayout(const Device& device);
+
+// Throws Error if a buffer of this size cannot be bound (maxStorageBufferRange).
+void requireBindable(const Device& device, std::string_view name, VkDeviceSize bytes);
 
 class Bindings {
  public:

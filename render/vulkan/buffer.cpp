@@ -9,7 +9,7 @@
 namespace malus::vulkan {
 
 Buffer::Buffer(const Device& device, std::string_view purpose, VkDeviceSize sizeBytes, VkBufferUsageFlags usage,
-               VkMemoryPropertyFlags memory)
+               MemoryUse memory)
     : device_(&device), sizeBytes_(std::max<VkDeviceSize>(sizeBytes, 16)) {
   const auto step = [&](const char* function) {
     return fmt::format("{} ({}, {} bytes)", function, purpose, sizeBytes_);
@@ -21,13 +21,8 @@ Buffer::Buffer(const Device& device, std::string_view purpose, VkDeviceSize size
 
   VkMemoryRequirements requirements;
   vkGetBufferMemoryRequirements(device.get(), get(), &requirements);
-  VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
-  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
-  VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-  if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0) allocate.pNext = &flags;
-  allocate.allocationSize = requirements.size;
-  allocate.memoryTypeIndex = device.findMemoryType(requirements.memoryTypeBits, memory);
-  memory_ = create(device.get(), vkAllocateMemory, allocate, vkFreeMemory, step("vkAllocateMemory"));
+  memory_ =
+      allocateMemory(device, purpose, requirements, memory, (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0);
   check(vkBindBufferMemory(device.get(), get(), memory_.get(), 0), step("vkBindBufferMemory"));
 }
 
@@ -57,18 +52,21 @@ void copyToBuffer(const Device& device, std::string_view purpose, std::span<cons
                   const Buffer& destination) {
   if (bytes.empty()) return;
   const std::string step = fmt::format("upload of {}", purpose);
-  Buffer staging(device, step, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kHostMemory);
-  staging.write(bytes);
-  device.submit(step, [&](VkCommandBuffer commands) {
-    const VkBufferCopy copy{0, 0, bytes.size()};
-    vkCmdCopyBuffer(commands, staging.get(), destination.get(), 1, &copy);
-  });
+  Buffer staging(device, step, std::min<VkDeviceSize>(bytes.size(), kUploadBytes), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                 kUploadMemory);
+  for (std::size_t at = 0; at < bytes.size(); at += kUploadBytes) {
+    const std::size_t count = std::min<std::size_t>(bytes.size() - at, kUploadBytes);
+    staging.write(bytes.subspan(at, count));
+    device.submit(step, [&](VkCommandBuffer commands) {
+      const VkBufferCopy copy{0, at, count};
+      vkCmdCopyBuffer(commands, staging.get(), destination.get(), 1, &copy);
+    });
+  }
 }
 
 Buffer upload(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
               VkBufferUsageFlags usage) {
-  Buffer result(device, purpose, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  Buffer result(device, purpose, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kDeviceMemory);
   copyToBuffer(device, purpose, bytes, result);
   return result;
 }

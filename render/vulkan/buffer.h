@@ -5,20 +5,20 @@
 #include <span>
 #include <string_view>
 
-#include "render/vulkan/device.h"
+#include "render/vulkan/memory.h"
 
 namespace malus::vulkan {
 
-inline constexpr VkMemoryPropertyFlags kHostMemory =
-    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+// Most bytes of the host-visible memory of an upload. Larger arrays are copied in parts.
+inline constexpr VkDeviceSize kUploadBytes = VkDeviceSize{1} << 24;
 
 class Buffer {
  public:
   Buffer() = default;
   // device: must outlive the buffer. purpose: for messages, such as "normals". A size of 0 bytes is raised to 16, so
-  // that the buffer can be bound. Throws Error: out of memory.
+  // that the buffer can be bound. Throws Error: as allocateMemory().
   Buffer(const Device& device, std::string_view purpose, VkDeviceSize sizeBytes, VkBufferUsageFlags usage,
-         VkMemoryPropertyFlags memory);
+         MemoryUse memory);
 
   VkBuffer get() const { return buffer_.get(); }
   VkDeviceSize sizeBytes() const { return sizeBytes_; }
@@ -35,8 +35,8 @@ class Buffer {
   VkDeviceSize sizeBytes_ = 0;
 };
 
-// Copies bytes into a buffer with VK_BUFFER_USAGE_TRANSFER_DST_BIT through a host-visible buffer, and waits. Throws
-// Error.
+// Copies bytes into a buffer with VK_BUFFER_USAGE_TRANSFER_DST_BIT through a host-visible buffer of at most
+// kUploadBytes, and waits. Throws Error.
 void copyToBuffer(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
                   const Buffer& destination);
 

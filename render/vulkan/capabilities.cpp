@@ -19,10 +19,12 @@ constexpr const char* kVariable = "MALUS_VULKAN_LIMITS";
 constexpr std::string_view kMemoryHeapSize = "memoryHeapSize";
 
 // Extensions that decisions depend on.
-constexpr std::string_view kExtensions[] = {
-    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-    VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
-    VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
+constexpr std::string_view kExtensions[] = {VK_EXT_MEMORY_BUDGET_EXTENSION_NAME,
+                                            VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                            VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+                                            VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME,
+                                            VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                            VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
 
 struct Feature {
   std::string_view name;

@@ -93,14 +93,6 @@ void Device::requireDepth(std::uint32_t depth) const {
                 fmt::format("{}", depth));
 }
 
-std::uint32_t Device::findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const {
-  const VkPhysicalDeviceMemoryProperties& memory = capabilities().memory;
-  for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-    if ((allowed & (1u << i)) != 0 && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
-  throw Error("Vulkan", fmt::format("device '{}' has no memory type with property flags {:#x}", physical_.name, wanted),
-              "another device from 'malus --list-devices' (--device) or --backend embree");
-}
-
 void Device::submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const {
   const auto step = [&](const char* function) { return fmt::format("{} ({})", function, purpose); };
   const Commands commands(get(), pool_.get(), purpose);

@@ -34,9 +34,6 @@ class Device {
   // Throws Error if a recursive method cannot reach this depth.
   void requireDepth(std::uint32_t depth) const;
 
-  // Index of a memory type among the allowed ones (a bit mask) with all wanted properties. Throws Error: none.
-  std::uint32_t findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const;
-
   // Records commands, submits them and waits for their end. Their writes are visible to the host and to later
   // submissions. purpose: for messages. Throws Error.
   void submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const;

@@ -15,7 +15,7 @@ class HostBuffer {
  public:
   HostBuffer() = default;
   HostBuffer(const Device& device, std::string_view purpose)
-      : buffer_(device, purpose, sizeof(T), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kHostMemory) {}
+      : buffer_(device, purpose, sizeof(T), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kSharedMemory) {}
   void write(const T& value) { buffer_.write(std::as_bytes(std::span(&value, 1))); }
   T read() const {
     T value{};

@@ -8,8 +8,8 @@ void PixelBuffer::reserve(std::size_t floats, Bindings& bindings) {
   const VkDeviceSize bytes = floats * sizeof(float);
   if (pixels_.sizeBytes() >= bytes) return;
   Buffer pixels(device_, "pixels", bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-  Buffer copy(device_, "copy of the pixels", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, kHostMemory);
+                kDeviceMemory);
+  Buffer copy(device_, "copy of the pixels", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, kReadBackMemory);
   bindings.bind(Binding::pixels, pixels);
   pixels_ = std::move(pixels);
   copy_ = std::move(copy);

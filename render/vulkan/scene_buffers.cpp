@@ -31,6 +31,7 @@ using glm::uvec3;
 template <typename T>
 Buffer uploadArray(const Device& device, std::string_view name, const std::vector<T>& values,
                    VkBufferUsageFlags usage) {
+  requireBindable(device, name, values.size() * sizeof(T));
   return upload(device, name, std::as_bytes(std::span(values)), usage);
 }
 

@@ -55,7 +55,7 @@ ShaderTable::ShaderTable(const Device& device, VkPipeline pipeline, const std::v
   records_ = Buffer(device, "shader binding table", records.size() + base,
                     VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
                         VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                    VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+                    kDeviceMemory);
   const VkDeviceAddress start = alignUp(records_.address(), base);
   records.insert(records.begin(), start - records_.address(), std::byte{0});
   copyToBuffer(device, "shader binding table", records, records_);

@@ -73,6 +73,10 @@ TEST(VulkanFailures, EachIsReportedAndLeaksNothing) {
     EXPECT_NE(message.find(calls.failed), std::string::npos) << message;
     EXPECT_NE(message.find("out of device memory"), std::string::npos) << message;
     EXPECT_NE(message.find("--device"), std::string::npos) << message;
+    if (calls.failed == "vkAllocateMemory") {
+      for (const char* word : {"bytes) failed", "heap 0", "may use", "uses"})
+        EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
+    }
     EXPECT_TRUE(calls.live.empty()) << calls.live.begin()->first << ": " << calls.live.begin()->second;
     EXPECT_TRUE(calls.messages.empty()) << calls.messages.front();
     if (found.renderError) {

@@ -1,7 +1,9 @@
 #include "tests/render/vulkan/vulkan_calls.h"
 
+#include <algorithm>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <string_view>
 
 #include <dlfcn.h>
@@ -19,6 +21,7 @@ struct State {
   VulkanCalls calls;
   PFN_vkDebugUtilsMessengerCallbackEXT callback = nullptr;  // the renderer's
   std::map<std::string, PFN_vkVoidFunction, std::less<>> extensions;
+  std::optional<VkPhysicalDeviceMemoryProperties> memory;  // simulated
 };
 State& state() {
   static State instance;
@@ -152,6 +155,27 @@ void watchVulkanCalls(std::size_t failAt) {
   state().calls = {};
 }
 
+void simulateMemory(const std::array<std::uint64_t, 3>& sizes) {
+  constexpr VkMemoryPropertyFlags kLocalFlag = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                  kHostFlags =
+                                      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  VkPhysicalDeviceMemoryProperties memory{};
+  memory.memoryTypeCount = 4;
+  memory.memoryTypes[kLocal] = {kLocalFlag, kLocalHeap};
+  memory.memoryTypes[kHost] = {kHostFlags, kHostHeap};
+  memory.memoryTypes[kHostCached] = {kHostFlags | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kHostHeap};
+  memory.memoryTypes[kLocalHost] = {kLocalFlag | kHostFlags, kLocalHostHeap};
+  memory.memoryHeapCount = static_cast<std::uint32_t>(sizes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) memory.memoryHeaps[i].size = sizes[i];
+  const std::lock_guard lock(state().mutex);
+  state().memory = memory;
+}
+
+void endSimulatedMemory() {
+  const std::lock_guard lock(state().mutex);
+  state().memory.reset();
+}
+
 VulkanCalls vulkanCalls() {
   const std::lock_guard lock(state().mutex);
   return state().calls;
@@ -162,6 +186,7 @@ VulkanCalls vulkanCalls() {
 using malus::test::count;
 using malus::test::fails;
 using malus::test::loaderFunction;
+using malus::test::state;
 
 WATCHED PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instance, const char* name) {
   return malus::test::substitute(name,
@@ -218,9 +243,7 @@ WATCHED void VKAPI_CALL vkDestroyDevice(VkDevice device, const VkAllocationCallb
     if (object != VK_NULL_HANDLE) count(creator, -1);                                                         \
     loaderFunction<PFN_##destroyer>(#destroyer)(device, object, allocator);                                   \
   }
-WATCH_CREATE(vkCreateBuffer, VkBufferCreateInfo, VkBuffer)
 WATCH_DESTROY(vkDestroyBuffer, "vkCreateBuffer", VkBuffer)
-WATCH_CREATE(vkAllocateMemory, VkMemoryAllocateInfo, VkDeviceMemory)
 WATCH_DESTROY(vkFreeMemory, "vkAllocateMemory", VkDeviceMemory)
 WATCH_CREATE(vkCreateCommandPool, VkCommandPoolCreateInfo, VkCommandPool)
 WATCH_DESTROY(vkDestroyCommandPool, "vkCreateCommandPool", VkCommandPool)
@@ -235,6 +258,53 @@ WATCH_DESTROY(vkDestroyShaderModule, "vkCreateShaderModule", VkShaderModule)
 WATCH_CREATE(vkCreatePipelineLayout, VkPipelineLayoutCreateInfo, VkPipelineLayout)
 WATCH_DESTROY(vkDestroyPipelineLayout, "vkCreatePipelineLayout", VkPipelineLayout)
 WATCH_DESTROY(vkDestroyPipeline, "vkCreateRayTracingPipelinesKHR", VkPipeline)
+
+WATCHED VkResult VKAPI_CALL vkCreateBuffer(VkDevice device, const VkBufferCreateInfo* info,
+                                           const VkAllocationCallbacks* allocator, VkBuffer* buffer) {
+  if (fails("vkCreateBuffer")) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  const VkResult result = loaderFunction<PFN_vkCreateBuffer>("vkCreateBuffer")(device, info, allocator, buffer);
+  if (result != VK_SUCCESS) return result;
+  count("vkCreateBuffer", 1);
+  if (info->usage == VK_BUFFER_USAGE_TRANSFER_SRC_BIT) {
+    const std::lock_guard lock(state().mutex);
+    std::uint64_t& largest = state().calls.largestUpload;
+    largest = std::max<std::uint64_t>(largest, info->size);
+  }
+  return result;
+}
+
+WATCHED void VKAPI_CALL vkGetPhysicalDeviceMemoryProperties(VkPhysicalDevice device,
+                                                            VkPhysicalDeviceMemoryProperties* properties) {
+  loaderFunction<PFN_vkGetPhysicalDeviceMemoryProperties>("vkGetPhysicalDeviceMemoryProperties")(device, properties);
+  if (state().memory) *properties = *state().memory;
+}
+
+WATCHED void VKAPI_CALL vkGetBufferMemoryRequirements(VkDevice device, VkBuffer buffer,
+                                                      VkMemoryRequirements* requirements) {
+  loaderFunction<PFN_vkGetBufferMemoryRequirements>("vkGetBufferMemoryRequirements")(device, buffer, requirements);
+  if (state().memory) requirements->memoryTypeBits = (1u << state().memory->memoryTypeCount) - 1;
+}
+
+WATCHED VkResult VKAPI_CALL vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                             const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
+  if (fails("vkAllocateMemory")) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  VkMemoryAllocateInfo own = *info;
+  malus::test::State& s = state();
+  if (s.memory) {
+    const auto heap = [&](std::uint32_t type) { return s.memory->memoryTypes[type].heapIndex; };
+    std::uint64_t used = info->allocationSize;
+    for (const malus::test::Allocation& a : s.calls.allocations)
+      if (heap(a.type) == heap(info->memoryTypeIndex)) used += a.bytes;
+    if (used > s.memory->memoryHeaps[heap(info->memoryTypeIndex)].size) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    own.memoryTypeIndex = 0;
+  }
+  const VkResult result = loaderFunction<PFN_vkAllocateMemory>("vkAllocateMemory")(device, &own, allocator, memory);
+  if (result != VK_SUCCESS) return result;
+  count("vkAllocateMemory", 1);
+  const std::lock_guard lock(s.mutex);
+  s.calls.allocations.push_back({info->memoryTypeIndex, info->allocationSize});
+  return result;
+}
 
 WATCHED VkResult VKAPI_CALL vkAllocateCommandBuffers(VkDevice device, const VkCommandBufferAllocateInfo* info,
                                                      VkCommandBuffer* buffers) {

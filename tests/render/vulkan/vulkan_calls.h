@@ -2,7 +2,9 @@
 // create, destroy or can fail, forwards them to the loader, and counts. One of them can be made to fail.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,12 +15,26 @@ namespace malus::test {
 // fails returns VK_ERROR_OUT_OF_DEVICE_MEMORY; only vkQueueWaitIdle is forwarded before.
 void watchVulkanCalls(std::size_t failAt);
 
+// The memory types that a discrete GPU has, in place of lavapipe's single one. `sizes` are those of the heaps.
+// Allocations of a type fail if its heap would exceed its size.
+enum SimulatedType : std::uint32_t { kLocal, kHost, kHostCached, kLocalHost };
+enum SimulatedHeap : std::uint32_t { kLocalHeap, kHostHeap, kLocalHostHeap };
+void simulateMemory(const std::array<std::uint64_t, 3>& sizes);
+void endSimulatedMemory();
+
+struct Allocation {
+  std::uint32_t type;  // index of the memory type
+  std::uint64_t bytes;
+};
+
 struct VulkanCalls {
-  std::size_t fallible = 0;            // calls that could fail
-  std::string failed;                  // function that was made to fail; empty: none
-  std::map<std::string, int> live;     // objects alive, by the function that creates them; only those not 0
-  std::vector<std::string> messages;   // of the validation layers
-  std::vector<std::string> unwatched;  // functions that create objects and are not watched
+  std::size_t fallible = 0;             // calls that could fail
+  std::string failed;                   // function that was made to fail; empty: none
+  std::map<std::string, int> live;      // objects alive, by the function that creates them; only those not 0
+  std::vector<std::string> messages;    // of the validation layers
+  std::vector<Allocation> allocations;  // those that succeeded
+  std::uint64_t largestUpload = 0;      // bytes of the largest buffer that can only be copied from
+  std::vector<std::string> unwatched;   // functions that create objects and are not watched
 };
 VulkanCalls vulkanCalls();
 

@@ -130,7 +130,7 @@ void Job::applyEffects() {
   };
   if (isOff("shadows")) parameters_.shadows = false;
   if (isOff("filter")) parameters_.analyser = kNoFilter;
-  if (choice.off.empty()) return;
+  if (!bake::canBeRemoved(choice.off)) return;
   renderer_.reset();  // it refers to the whole scene
   reduced_ = std::make_unique<pack::Scene>(bake::withoutEffects(pack_.scene, choice.off));
 }

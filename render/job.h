@@ -61,13 +61,14 @@ class Job {
   // "METHOD: reason" if an exact, cheaper method replaces the one that was asked for; else empty.
   const std::string& substitutedFor() const { return substitutedFor_; }
   const RenderParameters& parameters() const { return parameters_; }
+  // The scene that is rendered: the pack's, or a copy if effects are removed from it.
+  const pack::Scene& scene() const { return reduced_ ? *reduced_ : pack_.scene; }
   // Effects that the scene needs and that are left out, with a bound of the error.
   const std::vector<std::string>& warnings() const { return warnings_; }
   // Measurement of the chosen method; only with maxError.
   const std::optional<MethodEstimate>& estimate() const { return estimate_; }
 
  private:
-  const pack::Scene& scene() const { return reduced_ ? *reduced_ : pack_.scene; }
   Renderer& renderer();
   void chooseMethod();
   void applyEffects();
@@ -75,7 +76,7 @@ class Job {
   const pack::Pack& pack_;
   JobSettings settings_;
   RenderParameters parameters_;
-  std::unique_ptr<pack::Scene> reduced_;  // the scene without the effects that are left out; null if it is unchanged
+  std::unique_ptr<pack::Scene> reduced_;  // the scene without the removed effects; null if none is removed
   std::unique_ptr<Renderer> renderer_;    // of scene()
   std::string requestedMethod_, substitutedFor_;
   std::vector<std::string> warnings_;

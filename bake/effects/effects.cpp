@@ -90,4 +90,10 @@ pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& of
   return scene;
 }
 
+bool canBeRemoved(const std::vector<std::string>& off) {
+  return std::any_of(off.begin(), off.end(), [](const std::string& name) {
+    return static_cast<bool>(effectRules()[static_cast<std::size_t>(effectNamed(name))].remove);
+  });
+}
+
 }  // namespace malus::bake

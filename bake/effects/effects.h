@@ -47,4 +47,8 @@ shaders::Effect surfaceEffect(pack::MaterialKind kind);
 // name and for tir, which follows from dielectric interfaces.
 pack::Scene withoutEffects(pack::Scene scene, const std::vector<std::string>& off);
 
+// Whether one of the effects, by name or alias, has a rule for removal, so that withoutEffects() can change a scene.
+// Throws Error for an unknown name.
+bool canBeRemoved(const std::vector<std::string>& off);
+
 }  // namespace malus::bake

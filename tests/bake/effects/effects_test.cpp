@@ -411,10 +411,14 @@ TEST(Effects, SceneWithoutEffects) {
   EXPECT_EQ(without("diffuse").materials[1].albedo, glm::dvec3(0.0));
   // The renderer handles these four; they are not part of a scene.
   const std::set<std::string> rendering = {"linear-polarization", "circular-polarization", "shadows", "filter"};
-  for (const std::string& name : effectNames())
-    if (name != "tir" && !rendering.contains(name)) {
+  for (const std::string& name : effectNames()) {
+    EXPECT_EQ(canBeRemoved({name}), name != "tir" && !rendering.contains(name)) << name;
+    if (canBeRemoved({name})) {
       EXPECT_FALSE(isOn(findEffects(withoutEffects(scene, {name})), name)) << name;
     }
+  }
+  EXPECT_FALSE(canBeRemoved({}));
+  EXPECT_TRUE(canBeRemoved({"shadows", "conductor"}));
   EXPECT_CONTAINS(test::errorMessage([&] { without("magic"); }), "linear-polarization, ");
   EXPECT_CONTAINS(test::errorMessage([&] { without("tir"); }), "tir");
 }

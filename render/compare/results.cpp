@@ -38,7 +38,7 @@ json toJson(const ComparisonRow& row) {
   result["ratioToSchlick"] =
       when(timed && row.ratioToSchlick.median > 0,
            {{"median", row.ratioToSchlick.median}, {"low", row.ratioToSchlick.low}, {"high", row.ratioToSchlick.high}});
-  result["indistinguishable"] = row.noSignificantDifference;
+  result["noSignificantDifference"] = row.noSignificantDifference;
   result["error"] = when(rendered, {{"meanAbs", number(row.error.meanAbs)},
                                     {"maxAbs", number(row.error.maxAbs)},
                                     {"relRms", number(row.error.relRms)},

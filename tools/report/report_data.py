@@ -5,6 +5,10 @@ import pathlib
 from dataclasses import dataclass, field
 
 
+# Keys of earlier versions of malus that are still read.
+kEarlierKeys = {"picture": "image", "indistinguishable": "noSignificantDifference"}
+
+
 class ReportError(Exception):
     """An error message of one line: the file, the problem and what was expected."""
 
@@ -51,8 +55,9 @@ def read_results(folder: pathlib.Path) -> dict:
         if not isinstance(results.get(name), kind):
             raise ReportError(f"{path}: expected '{name}' to be {'an object' if kind is dict else 'a list'}")
     for entry in results["rows"] + results["references"]:
-        if isinstance(entry, dict) and "picture" in entry:  # the key of earlier versions
-            entry.setdefault("image", entry["picture"])
+        for earlier, name in kEarlierKeys.items():
+            if isinstance(entry, dict) and earlier in entry:
+                entry.setdefault(name, entry.pop(earlier))
     for at, row in enumerate(results["rows"]):
         for name in ("scene", "renderer", "method", "width", "height", "depth", "status"):
             if not isinstance(row, dict) or name not in row:

@@ -62,7 +62,7 @@ def payloads(groups, devices) -> dict:
                 quotient = small["medianMs"] / large["medianMs"]
                 quartiles = (small.get("quartilesMs"), large.get("quartilesMs"))
                 overlap = all(quartiles) and quartiles[0][0] <= quartiles[1][1] and quartiles[1][0] <= quartiles[0][1]
-                same = whole in (small.get("indistinguishable") or []) or overlap
+                same = whole in (small.get("noSignificantDifference") or []) or overlap
                 word = "same" if same else "faster" if quotient < 1 else "slower"
                 # On lavapipe payloads of 12 to 36 bytes make no significant difference, so other costs cause the difference.
                 bytes_differ = not (is_lavapipe(devices.get(renderer)) and

@@ -107,7 +107,7 @@ class GroupView:
 
     def same_as(self, row: dict) -> str:
         """Lists the methods whose time shows no significant difference from that of a row, abbreviated."""
-        names = row.get("indistinguishable") or []
+        names = row.get("noSignificantDifference") or []
         others = [r["method"] for r in self.group.rows
                   if r["renderer"] == row["renderer"] and r is not row and r["status"] == "ok"]
         rest = [name for name in others if name not in names]

@@ -24,7 +24,7 @@ def cost_words(row: dict, base: str = "schlick") -> str:
         return "is the baseline"
     if median is None or low is None or high is None:
         return f"was not timed against {code(base)}"
-    if base in (row.get("indistinguishable") or []) or low <= 1 <= high:
+    if base in (row.get("noSignificantDifference") or []) or low <= 1 <= high:
         return f"shows no significant difference in time from {code(base)}"
     return f"takes {ratio(median)} times as long as {code(base)} ({ratio(low)} to {ratio(high)})"
 
@@ -35,7 +35,7 @@ def verdict(row: dict, base: str = "schlick") -> str:
     low, high = number(relative, "low"), number(relative, "high")
     if low is None or high is None:
         return ""
-    if base in (row.get("indistinguishable") or []) or low <= 1 <= high:
+    if base in (row.get("noSignificantDifference") or []) or low <= 1 <= high:
         return "same"
     return "faster" if high < 1 else "slower"
 
@@ -80,7 +80,7 @@ def cheapest_good(rows: list):
                    and r["error"]["shareOver1Percent"] <= allowed), key=lambda r: r["medianMs"])
     if not good:
         return None, []
-    same = [r for r in good[1:] if r["method"] in (good[0].get("indistinguishable") or [])]
+    same = [r for r in good[1:] if r["method"] in (good[0].get("noSignificantDifference") or [])]
     return good[0], same
 
 

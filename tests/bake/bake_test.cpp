@@ -177,8 +177,7 @@ TEST_F(Bake, LargeTranslationsKeepPrecision) {
 TEST_F(Bake, GlassMustBeCertified) {
   scene_["meshes"][0] = {{"name", "pane"}, {"file", "square.obj"}, {"material", "glass"}};
   const std::string message = error();
-  EXPECT_TRUE(contains(message, "square.obj: mesh 'pane' is not certified as glass: component 0: 4 open edges"))
-      << message;
+  EXPECT_TRUE(contains(message, "square.obj", "pane", "certified", "4 open edges")) << message;
   EXPECT_TRUE(contains(message, "openSurface")) << message;
   scene_["meshes"][0]["fillHoles"] = 4;  // a fold without thickness is not a closed solid
   EXPECT_TRUE(contains(error(), "not certified as glass")) << error();
@@ -190,7 +189,7 @@ TEST_F(Bake, GlassMustBeCertified) {
 
 TEST_F(Bake, SingleSidedGlassIsRejected) {
   scene_["meshes"][0] = {{"name", "pane"}, {"file", "square.obj"}, {"material", "glass"}, {"openSurface", true}};
-  EXPECT_TRUE(contains(error(), "without an opposite face")) << error();
+  EXPECT_TRUE(contains(error(), "opposite")) << error();
   folder_.write("slab.obj", std::string(test::kSquareObj) +
                                 "v -0.5 -0.1 -0.5\nv 0.5 -0.1 -0.5\nv 0.5 -0.1 0.5\nv -0.5 -0.1 0.5\nf 5 6 7 8\n");
   scene_["meshes"][0]["file"] = "slab.obj";
@@ -204,7 +203,7 @@ TEST_F(Bake, AllowedOpenGlassIsReported) {
   const Baked result = bake(description, {}, kSilent, {true});
   EXPECT_EQ(result.scene.meshes.size(), 1u);
   ASSERT_EQ(result.notes.size(), 1u);
-  EXPECT_TRUE(contains(result.notes[0], "mesh 'pane' is not certified as glass")) << result.notes[0];
+  EXPECT_TRUE(contains(result.notes[0], "pane", "certified")) << result.notes[0];
   // A pack baked with open glass allowed is out of date when it is not allowed.
   EXPECT_NE(makeProvenance(description, {}, {true}), makeProvenance(description, {}, {false}));
 }
@@ -230,7 +229,7 @@ TEST_F(Bake, SceneSelectsCleaningSteps) {
   EXPECT_EQ(triangles({{"skip", {"duplicates", "fans"}}}), 6u);
   EXPECT_EQ(triangles({{"skip", json::array()}}), 4u);
   scene_["meshes"][0]["skip"] = {"welding"};
-  EXPECT_TRUE(contains(error(), "meshes[0].skip: names an unknown step; expected weld, degenerate")) << error();
+  EXPECT_TRUE(contains(error(), "meshes[0].skip", "step", "weld, degenerate")) << error();
   scene_["meshes"][0].erase("skip");
   scene_["meshes"][0]["normals"] = "none";
   EXPECT_TRUE(contains(error(), "'crease', 'smoothing' or 'authored'")) << error();
@@ -274,7 +273,7 @@ TEST_F(Bake, EnvironmentImage) {
   scene_["environment"]["image"] = "missing.exr";
   EXPECT_TRUE(contains(error(), "missing.exr: cannot open")) << error();
   scene_["environment"]["image"] = "scene.json";
-  EXPECT_TRUE(contains(error(), "scene.json: cannot read the image")) << error();
+  EXPECT_TRUE(contains(error(), "scene.json", "image")) << error();
 }
 
 TEST_F(Bake, BadMeshesNameTheirFile) {

@@ -56,9 +56,13 @@ std::string errorMessage(Act act) {
   return {};
 }
 
-inline bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+// Whether the text contains every one of the parts.
+template <class... Parts>
+bool contains(std::string_view text, const Parts&... parts) {
+  return (... && (text.find(parts) != std::string_view::npos));
+}
 
-#define EXPECT_CONTAINS(text, part) EXPECT_TRUE(malus::bake::test::contains(text, part)) << (text)
+#define EXPECT_CONTAINS(text, ...) EXPECT_TRUE(malus::bake::test::contains(text, __VA_ARGS__)) << (text)
 
 // A cube of side 1 about the origin, as quads of an OBJ file, facing outward.
 inline constexpr std::string_view kCubeObj =

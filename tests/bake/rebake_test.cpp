@@ -109,7 +109,7 @@ TEST_F(Rebake, MovedGridReencodesAllWithReason) {
   scene_["meshes"][0]["instances"][1]["translate"] = {3, 0, 0};
   const Both both = bakeBoth();
   EXPECT_EQ(reused(both.again), (List{false, false, false, false}));
-  EXPECT_CONTAINS(both.again.fullRebakeReason, "the grid that all meshes share moved");
+  EXPECT_CONTAINS(both.again.fullRebakeReason, "grid");
   EXPECT_CONTAINS(bakeText(both.baked, both.again, "out.pack", true), "4 of 4 meshes");
 }
 
@@ -118,7 +118,7 @@ TEST_F(Rebake, ChangedBitsReencodeAll) {
   settings_.bounds.positionBits = 21;
   const Both both = bakeBoth();
   EXPECT_EQ(reused(both.again), (List{false, false, false, false}));
-  EXPECT_EQ(both.again.fullRebakeReason, "positions have 21 bits instead of 20");
+  EXPECT_CONTAINS(both.again.fullRebakeReason, "positions", "21 bits", "20");
   settings_.bounds.normalBits = 9;  // the square and the others have normals
   EXPECT_EQ(reused(bakeBoth().again), (List{false, false, false, false}));
 }

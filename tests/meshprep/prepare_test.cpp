@@ -331,7 +331,7 @@ TEST(Prepare, RequiresNormalsWithAsIs) {
   std::string text = kDefectiveMesh;
   text.replace(text.find("0 0 2\n"), 5, "0 0 0");
   const TemporaryFile zero(".ply", text);
-  EXPECT_TRUE(contains(errorMessage([&] { prepare(zero.path(), options, report); }), "vertex 0 has no length"));
+  EXPECT_TRUE(contains(errorMessage([&] { prepare(zero.path(), options, report); }), "vertex 0", "length"));
 }
 
 }  // namespace

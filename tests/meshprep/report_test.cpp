@@ -46,7 +46,7 @@ TEST(Report, WritesAllFieldsAsJson) {
   json = toJson(report);
   EXPECT_EQ(json["certificate"]["granted"], false);
   EXPECT_EQ(json["certificate"]["problems"][0]["component"], 2);
-  EXPECT_TRUE(test::contains(toText(report), "component 2: 3 open edges; first at a; close it"));
+  EXPECT_TRUE(test::contains(toText(report), "component 2", "3 open edges", "first at a", "close it"));
 
   report.compression.method = "sequential";
   report.compression.sequentialReason = "edgebreaker is no smaller";
@@ -66,18 +66,18 @@ TEST(Report, WritesAllFieldsAsJson) {
   EXPECT_EQ(json["compression"]["positionBits"], 21);
   const std::string text = toText(report);
   EXPECT_TRUE(test::contains(text, "30.00 per triangle")) << text;
-  EXPECT_TRUE(test::contains(text, "sequential: edgebreaker is no smaller")) << text;
+  EXPECT_TRUE(test::contains(text, "sequential", "edgebreaker is no smaller")) << text;
   EXPECT_TRUE(test::contains(text, "21 positions, 13 normals")) << text;
-  EXPECT_TRUE(test::contains(text, "tilt of a face, at most                   0.25 degrees")) << text;
+  EXPECT_TRUE(test::contains(text, "tilt of a face", "0.25 degrees")) << text;
   EXPECT_TRUE(test::contains(text, "warning: faces are tilted")) << text;
 }
 
 TEST(Report, PrintsStepsWithFindings) {
   const std::string text = toText(example());
-  EXPECT_TRUE(test::contains(text, "vertices                                    36          24"));
+  EXPECT_TRUE(test::contains(text, "vertices ", " 36 ", " 24"));
   EXPECT_TRUE(test::contains(text, "faces-dropped-duplicate"));
   EXPECT_FALSE(test::contains(text, "faces-flipped"));
-  EXPECT_TRUE(test::contains(text, "faces 7, 3 at (1, 2, 3), a.obj:9"));
+  EXPECT_TRUE(test::contains(text, "faces 7, 3", "(1, 2, 3)", "a.obj:9"));
   EXPECT_EQ(text.back(), '\n');
 }
 

@@ -57,7 +57,13 @@ std::string errorMessage(Act act) {
   return {};
 }
 
-inline bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+// Whether the text contains every one of the parts.
+template <class... Parts>
+bool contains(std::string_view text, const Parts&... parts) {
+  return (... && (text.find(parts) != std::string_view::npos));
+}
+
+#define EXPECT_CONTAINS(text, ...) EXPECT_TRUE(malus::prep::test::contains(text, __VA_ARGS__)) << (text)
 
 // Cube from shift to shift + size, with 8 vertices and 12 triangles, outward.
 inline Mesh cube(double size = 1, const glm::dvec3& shift = glm::dvec3(0)) {

@@ -40,7 +40,11 @@ inline void writeText(const std::filesystem::path& file, std::string_view text) 
   ASSERT_TRUE(stream.flush()) << file;
 }
 
-inline bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+// Whether the text contains every one of the parts.
+template <class... Parts>
+bool contains(std::string_view text, const Parts&... parts) {
+  return (... && (text.find(parts) != std::string_view::npos));
+}
 
 // A new temporary folder, removed with its contents by the destructor.
 class Folder {

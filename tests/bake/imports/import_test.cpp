@@ -127,9 +127,9 @@ TEST_F(Import, AppliesMaterialsAndTransformOfTheScene) {
   EXPECT_EQ(scene.materials[named(scene, "left").material].name, "gold");
   EXPECT_EQ(box(named(scene, "left")), std::pair(glm::vec3(0, 20, 1), glm::vec3(2, 22, 3)));
   scene_["imports"][0]["materials"] = {{"stel", "gold"}};
-  EXPECT_TRUE(contains(error(), "model.glb: has no material 'stel'")) << error();
+  EXPECT_TRUE(contains(error(), "model.glb", "material 'stel'")) << error();
   scene_["imports"][0]["materials"] = {{"steel", "glod"}};
-  EXPECT_TRUE(contains(error(), "imports[0].materials.steel: unknown material 'glod'; expected 'gold'")) << error();
+  EXPECT_TRUE(contains(error(), "imports[0].materials.steel", "'glod'", "'gold'")) << error();
 }
 
 TEST_F(Import, NamesAreUnique) {
@@ -147,10 +147,10 @@ TEST_F(Import, GlassMustBeCertified) {
   gltf_.addMesh(open, "open", 1);
   gltf_.addNode({{"name", "broken"}, {"mesh", 3}, {"translation", {20, 0, 0}}});
   folder_.write("model.glb", gltf_.glb());
-  EXPECT_TRUE(contains(error(), "mesh 'broken' is not certified as glass: component 0: 3 open edges")) << error();
+  EXPECT_TRUE(contains(error(), "'broken'", "certified", "3 open edges")) << error();
   EXPECT_EQ(baked({true}).notes.size(), 1u);
   scene_["imports"][0]["openSurfaces"] = {"brocken"};
-  EXPECT_TRUE(contains(error(), "has no part or instance 'brocken'")) << error();
+  EXPECT_TRUE(contains(error(), "'brocken'")) << error();
   scene_["imports"][0]["materials"] = {{"water", "gold"}};
   scene_["imports"][0].erase("openSurfaces");
   EXPECT_EQ(error(), "");

@@ -71,7 +71,7 @@ TEST(Bytes, ReadingPastTheEndReportsTheOffset) {
   const std::vector<std::byte> bytes(6);
   ByteReader r(bytes, 100, "file");
   r.u32();
-  EXPECT_EQ(errorMessage([&] { r.u32(); }), "file, byte 104: section ends early; expected 4 more bytes, found 2");
+  EXPECT_CONTAINS(errorMessage([&] { r.u32(); }), "file", "byte 104", "ends early", "4 more", "found 2");
   EXPECT_EQ(r.left(), 2u);  // nothing was consumed
   EXPECT_NE(errorMessage([&] { r.raw(~std::uint64_t{0}); }), "");
 }
@@ -80,7 +80,7 @@ TEST(Bytes, TrailingBytesAreAnError) {
   const std::vector<std::byte> bytes(3);
   ByteReader r(bytes, 0, "file");
   r.u16();
-  EXPECT_TRUE(contains(errorMessage([&] { r.end(); }), "section is longer than its contents"));
+  EXPECT_TRUE(contains(errorMessage([&] { r.end(); }), "longer"));
 }
 
 TEST(Bytes, NumbersAreFinite) {
@@ -100,7 +100,7 @@ TEST(Bytes, NumbersAreFinite) {
 TEST(Bytes, UnitVectors) {
   const ByteReader r({}, 0, "file");
   EXPECT_EQ(errorMessage([&] { r.requireUnit({0, 0.6, -0.8}, "axis"); }), "");
-  EXPECT_TRUE(contains(errorMessage([&] { r.requireUnit({0, 3, 4}, "axis"); }), "axis; expected a unit vector"));
+  EXPECT_TRUE(contains(errorMessage([&] { r.requireUnit({0, 3, 4}, "axis"); }), "axis", "unit vector"));
 }
 
 TEST(Bytes, CountsFitTheBytesThatAreLeft) {
@@ -113,8 +113,8 @@ TEST(Bytes, CountsFitTheBytesThatAreLeft) {
   };
   EXPECT_EQ(counting(0, 0), "");
   EXPECT_EQ(counting(2, 20), "");
-  EXPECT_TRUE(contains(counting(2, 19), "records; expected at most 1"));
-  EXPECT_TRUE(contains(counting(101, 2000), "records; expected at most 100, found 101"));
+  EXPECT_TRUE(contains(counting(2, 19), "records", "at most 1"));
+  EXPECT_TRUE(contains(counting(101, 2000), "records", "100", "101"));
   EXPECT_TRUE(contains(counting(0xffffffffu, 20), "records"));
 }
 
@@ -122,8 +122,7 @@ TEST(Bytes, TextLengthIsLimited) {
   ByteWriter w;
   w.text(std::string(70000, 'a'));
   const std::vector<std::byte> bytes = w.take();
-  EXPECT_TRUE(
-      contains(errorMessage([&] { ByteReader(bytes, 0, "file").text(); }), "length of a text; expected at most 65536"));
+  EXPECT_TRUE(contains(errorMessage([&] { ByteReader(bytes, 0, "file").text(); }), "text", "65536"));
   EXPECT_EQ(ByteReader(bytes, 0, "file").text(80000).size(), 70000u);
 }
 

@@ -174,12 +174,10 @@ TEST(SceneFile, MisspeltKeysNameTheNearest) {
   }
   json scene = minimal();
   scene["environment"] = {{"radiance", {1, 1, 1}}, {"ambientIradiance", 1}};
-  EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }),
-                       "environment.ambientIradiance: unknown key; expected 'ambientIrradiance'"));
+  EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }), "environment.ambientIradiance", "'ambientIrradiance'"));
   scene = minimal();
   scene["lights"] = json::parse(R"([{"type": "point", "position": [0,0,0], "intensity": [1,1,1], "intensityy": 1}])");
-  EXPECT_TRUE(
-      contains(errorMessage([&] { readJson(scene); }), "lights[0].intensityy: unknown key; expected 'intensity'"));
+  EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }), "lights[0].intensityy", "'intensity'"));
   scene = minimal();
   scene["meshes"][0]["instances"] = json::parse(R"([{}, {"rotate": [0, 0, 0], "translat": [0, 0, 0]}])");
   EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }), "meshes[0].instances[1]."));
@@ -256,7 +254,7 @@ TEST(SceneFile, Materials) {
                        "expected lambert, paint, mirror-glass, metal, glass, emitter, polarizer, wave-plate, "
                        "thin-glass, found 'marble'"));
   const std::string preset = errorOfMaterial(R"({"type": "metal", "preset": "golt"})");
-  EXPECT_TRUE(contains(preset, "materials.floor.preset: unknown material 'golt'; expected 'gold'")) << preset;
+  EXPECT_TRUE(contains(preset, "materials.floor.preset", "'golt'", "'gold'")) << preset;
   EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "metal", "preset": "gold", "k": 1})"), "exclude each other"));
   EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "metal", "k": 1})"), "eta: is missing"));
   EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "glass"})"), "preset: is missing"));
@@ -398,7 +396,7 @@ TEST(SceneFile, Sky) {
 
 TEST(SceneFile, MeshesNeedKnownMaterialsAndUniqueNames) {
   const std::string error = errorWith("/meshes/0/material", "\"flor\"");
-  EXPECT_TRUE(contains(error, "meshes[0].material: unknown material 'flor'; expected 'floor'")) << error;
+  EXPECT_TRUE(contains(error, "meshes[0].material", "'flor'", "'floor'")) << error;
   json scene = minimal();
   scene["meshes"].push_back(scene["meshes"][0]);
   EXPECT_TRUE(contains(errorMessage([&] { readJson(scene); }), "meshes[1].name: occurs twice"));

@@ -53,23 +53,24 @@ TEST(StrictObject, UnknownKeyNamesTheNearest) {
     o.number("target", 0, 1, 0);
     o.finish();
   };
-  EXPECT_EQ(errorIn(R"({"positon": 1})", read), "file.json: camera.positon: unknown key; expected 'position'");
-  EXPECT_EQ(errorIn(R"({"TARGET": 1})", read),
-            "file.json: camera.TARGET: unknown key; expected a key that bake/SCENE.md lists");
+  EXPECT_CONTAINS(errorIn(R"({"positon": 1})", read), "file.json", "camera.positon", "unknown", "'position'");
+  const std::string capitals = errorIn(R"({"TARGET": 1})", read);
+  EXPECT_CONTAINS(capitals, "file.json", "camera.TARGET", "unknown", "bake/SCENE.md");
+  EXPECT_FALSE(contains(capitals, "'target'")) << capitals;
 }
 
 TEST(StrictObject, MissingKeyNamesAMisspeltOne) {
   const auto read = [](StrictObject& o) { o.number("position", 0, 1); };
-  EXPECT_EQ(errorIn(R"({"posiiton": 1})", read),
-            "file.json: camera.position: is missing; expected the key, found 'posiiton'");
-  EXPECT_EQ(errorIn("{}", read), "file.json: camera.position: is missing; expected the key");
+  EXPECT_CONTAINS(errorIn(R"({"posiiton": 1})", read), "file.json", "camera.position", "missing", "'posiiton'");
+  const std::string none = errorIn("{}", read);
+  EXPECT_CONTAINS(none, "camera.position", "missing");
+  EXPECT_FALSE(contains(none, "found")) << none;
 }
 
 TEST(StrictObject, WrongTypes) {
-  EXPECT_EQ(errorIn("[1]", [](StrictObject&) {}), "file.json: camera; expected an object, found [1]");
-  EXPECT_EQ(errorIn(R"({"a": 1})", [](StrictObject& o) { o.text("a"); }),
-            "file.json: camera.a: must be text; expected a string, found 1");
-  EXPECT_TRUE(contains(errorIn(R"({"a": 1})", [](StrictObject& o) { o.flag("a", true); }), "true or false, found 1"));
+  EXPECT_CONTAINS(errorIn("[1]", [](StrictObject&) {}), "file.json", "camera", "object", "found [1]");
+  EXPECT_CONTAINS(errorIn(R"({"a": 1})", [](StrictObject& o) { o.text("a"); }), "camera.a", "text", "found 1");
+  EXPECT_TRUE(contains(errorIn(R"({"a": 1})", [](StrictObject& o) { o.flag("a", true); }), "true or false", "found 1"));
   EXPECT_TRUE(contains(errorIn(R"({"a": "1"})", [](StrictObject& o) { o.number("a", 0, 9); }), "must be a number"));
   EXPECT_TRUE(contains(errorIn(R"({"a": 1.5})", [](StrictObject& o) { o.integer("a", 0, 9); }), "whole number"));
   EXPECT_TRUE(contains(errorIn(R"({"a": [1, 2]})", [](StrictObject& o) { o.vector("a", 0, 9); }), "must be a vector"));
@@ -83,7 +84,7 @@ TEST(StrictObject, Ranges) {
   const auto number = [](StrictObject& o) { o.number("a", -1, 2); };
   EXPECT_EQ(errorIn(R"({"a": -1})", number), "");
   EXPECT_EQ(errorIn(R"({"a": 2})", number), "");
-  EXPECT_EQ(errorIn(R"({"a": 2.001})", number), "file.json: camera.a: is out of range; expected -1 to 2, found 2.001");
+  EXPECT_CONTAINS(errorIn(R"({"a": 2.001})", number), "camera.a", "range", "-1 to 2", "found 2.001");
   const auto integer = [](StrictObject& o) { o.integer("a", 1, 30); };
   EXPECT_TRUE(contains(errorIn(R"({"a": -1})", integer), "out of range"));
   EXPECT_TRUE(contains(errorIn(R"({"a": 4294967297})", integer), "out of range"));
@@ -113,7 +114,7 @@ TEST(StrictObject, Lists) {
   EXPECT_EQ(object.listSize("list", "objects"), 2u);
   EXPECT_EQ(object.element("list", 0).integer("a", 1, 1), 1u);
   EXPECT_TRUE(contains(errorMessage([&] { object.element("list", 1); }), "camera.list[1]; expected an object"));
-  EXPECT_TRUE(contains(errorMessage([&] { object.listSize("number", "objects"); }), "camera.number: must be a list"));
+  EXPECT_TRUE(contains(errorMessage([&] { object.listSize("number", "objects"); }), "camera.number", "list"));
 }
 
 TEST(StrictObject, LongValuesAreShortened) {

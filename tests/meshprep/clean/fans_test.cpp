@@ -189,8 +189,7 @@ TEST(Fans, RefusesRandomFaces) {
     const glm::uvec3 t(random() % 3000, random() % 3000, random() % 3000);
     if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);
   }
-  EXPECT_TRUE(
-      test::contains(test::errorMessage([&] { splitFans(mesh, "a.ply"); }), "a.ply: faces do not form a surface"));
+  EXPECT_TRUE(test::contains(test::errorMessage([&] { splitFans(mesh, "a.ply"); }), "a.ply", "surface"));
 }
 
 }  // namespace

@@ -17,8 +17,6 @@ using test::errorMessage;
 using test::GltfFile;
 using test::TemporaryFile;
 
-#define EXPECT_CONTAINS(text, part) EXPECT_TRUE(contains(text, part)) << (text)
-
 struct Encoded {
   std::string bytes;
   std::size_t points = 0, faces = 0;
@@ -122,10 +120,10 @@ TEST(ReadGltfDraco, RequiresTheCountsOfTheAccessors) {
     for (const int change : {-3, 3}) {
       GltfFile bad = good;
       bad.document["accessors"][2]["count"] = bad.document["accessors"][2]["count"].get<int>() + change;
-      EXPECT_CONTAINS(errorIn(bad), "meshes[0].primitives[0]: Draco data has unexpected counts");
+      EXPECT_CONTAINS(errorIn(bad), "meshes[0].primitives[0]", "Draco", "counts");
       bad = good;
       bad.document["accessors"][0]["count"] = bad.document["accessors"][0]["count"].get<int>() + change;
-      EXPECT_CONTAINS(errorIn(bad), "meshes[0].primitives[0]: Draco data has unexpected counts");
+      EXPECT_CONTAINS(errorIn(bad), "meshes[0].primitives[0]", "Draco", "counts");
     }
     GltfFile bad = good;
     bad.document["accessors"][2]["count"] = 100;
@@ -142,7 +140,7 @@ TEST(ReadGltfDraco, RefusesMissingAttributes) {
   bad.document[extension]["attributes"]["POSITION"] = 77;
   EXPECT_CONTAINS(errorIn(bad), "missing position attribute");
   bad.document[extension]["attributes"].erase("POSITION");
-  EXPECT_CONTAINS(errorIn(bad), "KHR_draco_mesh_compression: no positions");
+  EXPECT_CONTAINS(errorIn(bad), "KHR_draco_mesh_compression", "positions");
   bad = good;
   bad.document[extension]["attributes"]["NORMAL"] = 0;  // texture coordinates
   EXPECT_CONTAINS(errorIn(bad), "missing normal attribute");
@@ -164,11 +162,11 @@ TEST(ReadGltfDraco, RefusesHugeCounts) {
   huge.faces = 1'000'000;
   EXPECT_CONTAINS(errorIn(makeFile(huge)), "too many vertices");
   huge.points = 1'000'000;
-  EXPECT_CONTAINS(errorIn(makeFile(huge)), "Draco data has unexpected counts");
+  EXPECT_CONTAINS(errorIn(makeFile(huge)), "Draco", "counts");
 }
 
 TEST(ReadGltfDraco, RefusesMetadata) {
-  EXPECT_CONTAINS(errorIn(makeFile(encodedSphere(false, "a name"))), "Draco data has flags or metadata");
+  EXPECT_CONTAINS(errorIn(makeFile(encodedSphere(false, "a name"))), "Draco", "metadata");
 }
 
 TEST(ReadGltfDraco, SurvivesCorruptBytes) {

@@ -50,8 +50,6 @@ bool hasNote(const SourceScene& scene, std::string_view part) {
   return false;
 }
 
-#define EXPECT_CONTAINS(text, part) EXPECT_TRUE(contains(text, part)) << (text)
-
 using Points = std::vector<glm::dvec3>;
 using Corners = std::vector<std::uint32_t>;
 
@@ -100,9 +98,9 @@ TEST(ReadGltf, ChecksGlbChunks) {
     return errorMessage([&] { readText(changed); });
   };
   EXPECT_CONTAINS(error(4, test::littleEndian32(1)), "byte 4: unsupported version");
-  EXPECT_CONTAINS(error(8, test::littleEndian32(77)), "byte 8: wrong length in the header; expected 77 bytes");
-  EXPECT_CONTAINS(error(12, test::littleEndian32(1u << 30)), "byte 12: chunk exceeds the file");
-  EXPECT_CONTAINS(error(16, "ABCD"), "byte 16: wrong type of the first chunk");
+  EXPECT_CONTAINS(error(8, test::littleEndian32(77)), "byte 8", "length", "77");
+  EXPECT_CONTAINS(error(12, test::littleEndian32(1u << 30)), "byte 12", "chunk");
+  EXPECT_CONTAINS(error(16, "ABCD"), "byte 16", "type", "chunk");
   for (std::size_t size = 0; size < glb.size(); ++size)
     EXPECT_NE(errorMessage([&] { readText(glb.substr(0, size)); }), "") << size;
 }
@@ -137,11 +135,11 @@ TEST(ReadGltf, RefusesInvalidIndices) {
     gltf.addNode({{"mesh", 0}});
     return errorIn(gltf);
   };
-  EXPECT_CONTAINS(error(std::vector<std::uint8_t>{0, 1, 3}), "accessors[1]: invalid vertex index at 2");
+  EXPECT_CONTAINS(error(std::vector<std::uint8_t>{0, 1, 3}), "accessors[1]", "index at 2");
   EXPECT_CONTAINS(error(std::vector<std::uint8_t>{0, 1, 255}), "primitive restart at 2");
   EXPECT_CONTAINS(error(std::vector<std::uint32_t>{0, 0xffffffffu, 1}), "primitive restart at 1");
-  EXPECT_CONTAINS(error(std::vector<std::uint16_t>{0, 1, 2, 0}), "meshes[0].primitives[0]: incomplete triangle");
-  EXPECT_CONTAINS(error(std::vector<std::uint16_t>{0, 1}, 5), "3 corners or more, found 2");
+  EXPECT_CONTAINS(error(std::vector<std::uint16_t>{0, 1, 2, 0}), "meshes[0].primitives[0]", "triangle");
+  EXPECT_CONTAINS(error(std::vector<std::uint16_t>{0, 1}, 5), "3 corners", "found 2");
   EXPECT_EQ(error(std::vector<std::uint16_t>{0, 1, 2}), "");
 }
 
@@ -162,7 +160,7 @@ TEST(ReadGltf, ReadsStridesOffsetsAndQuantizedVertices) {
   EXPECT_EQ(scene.parts[0].polygons.positions, (Points{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}));
   EXPECT_EQ(scene.parts[0].polygons.normals, (std::vector<glm::vec3>(3, {0, 0, 1})));
   gltf.document["bufferViews"][0]["byteStride"] = 8;
-  EXPECT_CONTAINS(errorIn(gltf), "accessors[0]: overlapping elements; expected a stride of 12 bytes");
+  EXPECT_CONTAINS(errorIn(gltf), "accessors[0]", "overlapping", "12");
 
   // Shorts, with and without normalization.
   GltfFile quantized;
@@ -171,7 +169,7 @@ TEST(ReadGltf, ReadsStridesOffsetsAndQuantizedVertices) {
   quantized.document["bufferViews"][0]["byteStride"] = 8;
   quantized.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", shorts}}}}}}});
   quantized.addNode({{"mesh", 0}});
-  EXPECT_CONTAINS(errorIn(quantized), "accessors[0]: wrong type; expected VEC3 of floats (5126)");
+  EXPECT_CONTAINS(errorIn(quantized), "accessors[0]", "type", "VEC3", "5126");
   quantized.document["extensionsUsed"] = quantized.document["extensionsRequired"] = {"KHR_mesh_quantization"};
   EXPECT_EQ(readGlb(quantized).parts[0].polygons.positions, (Points{{0, 0, 0}, {32767, 0, 0}, {0, -32768, 16384}}));
   quantized.document["accessors"][0]["normalized"] = true;
@@ -192,9 +190,9 @@ TEST(ReadGltf, ReadsSparseAccessors) {
   };
   EXPECT_EQ(readGlb(make(true, {0, 2})).parts[0].polygons.positions, (Points{{5, 0, 0}, {1, 0, 0}, {0, 6, 7}}));
   EXPECT_EQ(readGlb(make(false, {1, 2})).parts[0].polygons.positions, (Points{{0, 0, 0}, {5, 0, 0}, {0, 6, 7}}));
-  EXPECT_CONTAINS(errorIn(make(true, {2, 1})), "accessors[0].sparse.indices: index 1 is out of order or range");
-  EXPECT_CONTAINS(errorIn(make(true, {1, 3})), "ascending, below 3, found 3");
-  EXPECT_CONTAINS(errorIn(make(true, {0, 1, 2})), "accessors[0].sparse.values: elements exceed the buffer view");
+  EXPECT_CONTAINS(errorIn(make(true, {2, 1})), "accessors[0].sparse.indices", "index 1", "order");
+  EXPECT_CONTAINS(errorIn(make(true, {1, 3})), "below 3", "found 3");
+  EXPECT_CONTAINS(errorIn(make(true, {0, 1, 2})), "accessors[0].sparse.values", "buffer view");
   GltfFile indices = make(true, {0, 2});  // sparse indices of a primitive
   indices.document["accessors"][1].erase("bufferView");
   indices.document["accessors"][1]["sparse"] = {
@@ -211,23 +209,21 @@ TEST(ReadGltf, ChecksTheDocument) {
   EXPECT_CONTAINS(errorWith("/asset/minVersion", "2.1"), "asset.minVersion");
   EXPECT_CONTAINS(errorWith("/buffers", {{{"byteLength", 1000}}}), "buffers[0]: buffer is shorter");
   EXPECT_CONTAINS(errorWith("/bufferViews/0/buffer", 1), "buffers[1]: does not exist");
-  EXPECT_CONTAINS(errorWith("/bufferViews/0/byteLength", 1000), "bufferViews[0]: buffer view exceeds its buffer");
-  EXPECT_CONTAINS(errorWith("/bufferViews/0/byteOffset", 9007199254740992),
-                  "bufferViews[0]: buffer view exceeds its buffer");
+  EXPECT_CONTAINS(errorWith("/bufferViews/0/byteLength", 1000), "bufferViews[0]", "exceeds");
+  EXPECT_CONTAINS(errorWith("/bufferViews/0/byteOffset", 9007199254740992), "bufferViews[0]", "exceeds");
   EXPECT_CONTAINS(errorWith("/bufferViews/0/byteLength", nullptr), "bufferViews[0].byteLength: missing key");
   EXPECT_CONTAINS(errorWith("/accessors/0/bufferView", 7), "bufferViews[7]: does not exist");
-  EXPECT_CONTAINS(errorWith("/accessors/0/count", 4),
-                  "accessors[0]: elements exceed the buffer view; expected at most 3");
-  EXPECT_CONTAINS(errorWith("/accessors/0/count", 5'000'000), "accessors[0]: elements exceed the buffer view");
-  EXPECT_CONTAINS(errorWith("/accessors/0/count", 9007199254740992), "accessors[0]: elements exceed the buffer view");
-  EXPECT_CONTAINS(errorWith("/accessors/1/count", 9007199254740990), "accessors[1]: elements exceed the buffer view");
+  EXPECT_CONTAINS(errorWith("/accessors/0/count", 4), "accessors[0]", "exceed", "at most 3");
+  EXPECT_CONTAINS(errorWith("/accessors/0/count", 5'000'000), "accessors[0]", "exceed");
+  EXPECT_CONTAINS(errorWith("/accessors/0/count", 9007199254740992), "accessors[0]", "exceed");
+  EXPECT_CONTAINS(errorWith("/accessors/1/count", 9007199254740990), "accessors[1]", "exceed");
   EXPECT_CONTAINS(errorWith("/accessors/0", {{"componentType", 5126}, {"count", 9007199254740992}, {"type", "VEC3"}}),
                   "too many vertices");
   EXPECT_CONTAINS(errorWith("/accessors/1", {{"componentType", 5125}, {"count", 9007199254740990}, {"type", "SCALAR"}}),
                   "too many triangles");
   EXPECT_CONTAINS(errorWith("/accessors/0/count", 0), "accessors[0]: no elements");
   EXPECT_CONTAINS(errorWith("/accessors/0/count", -1), "accessors[0].count: wrong type");
-  EXPECT_CONTAINS(errorWith("/accessors/0/byteOffset", 4), "accessors[0]: elements exceed the buffer view");
+  EXPECT_CONTAINS(errorWith("/accessors/0/byteOffset", 4), "accessors[0]", "exceed");
   EXPECT_CONTAINS(errorWith("/accessors/0/componentType", 5124), "accessors[0].componentType: unknown component type");
   EXPECT_CONTAINS(errorWith("/accessors/0/type", "VEC2"), "accessors[0]: wrong type");
   EXPECT_CONTAINS(errorWith("/accessors/0/type", "VEC5"), "VEC5");
@@ -236,40 +232,38 @@ TEST(ReadGltf, ChecksTheDocument) {
   EXPECT_CONTAINS(errorWith("/meshes/0/primitives/0/attributes/POSITION", nullptr), "primitives[0]: no positions");
   EXPECT_CONTAINS(errorWith("/meshes/0/primitives/0/attributes/NORMAL", 1), "accessors[1]: wrong type");
   EXPECT_CONTAINS(errorWith("/meshes/0/primitives/0/indices", 9), "accessors[9]: does not exist");
-  EXPECT_CONTAINS(errorWith("/meshes/0/primitives/0/indices", 0), "accessors[0]: wrong type of indices");
-  EXPECT_CONTAINS(errorWith("/meshes/0/primitives/0/material", 0),
-                  "primitives[0].material: refers to a missing material");
+  EXPECT_CONTAINS(errorWith("/meshes/0/primitives/0/indices", 0), "accessors[0]", "type", "indices");
+  EXPECT_CONTAINS(errorWith("/meshes/0/primitives/0/material", 0), "primitives[0].material", "missing");
   EXPECT_CONTAINS(errorWith("/meshes/0/primitives/0/mode", 7), "primitives[0].mode: unknown mode");
-  EXPECT_CONTAINS(errorWith("/meshes/0/primitives", 7), "meshes[0].primitives: wrong type; expected a list");
-  EXPECT_CONTAINS(errorWith("/nodes/0/mesh", 1), "nodes[0].mesh: refers to a missing mesh");
-  EXPECT_CONTAINS(errorWith("/nodes/0/mesh", "0"), "nodes[0].mesh: wrong type; expected an integer");
-  EXPECT_CONTAINS(errorWith("/nodes/0/mesh", nullptr), "no mesh in the scene");
-  EXPECT_CONTAINS(errorWith("/scene", 1), "scene: refers to a missing scene");
-  EXPECT_CONTAINS(errorWith("/scenes/0/nodes", {0, 0}), "scenes[0].nodes: node 0 has a parent or is a duplicate");
-  EXPECT_CONTAINS(errorWith("/scenes/0/nodes", {1}), "scenes[0].nodes: refers to a missing node");
+  EXPECT_CONTAINS(errorWith("/meshes/0/primitives", 7), "meshes[0].primitives", "type", "list");
+  EXPECT_CONTAINS(errorWith("/nodes/0/mesh", 1), "nodes[0].mesh", "missing");
+  EXPECT_CONTAINS(errorWith("/nodes/0/mesh", "0"), "nodes[0].mesh", "type", "integer");
+  EXPECT_CONTAINS(errorWith("/nodes/0/mesh", nullptr), "no mesh");
+  EXPECT_CONTAINS(errorWith("/scene", 1), "scene", "missing");
+  EXPECT_CONTAINS(errorWith("/scenes/0/nodes", {0, 0}), "scenes[0].nodes", "node 0", "duplicate");
+  EXPECT_CONTAINS(errorWith("/scenes/0/nodes", {1}), "scenes[0].nodes", "missing");
 }
 
 TEST(ReadGltf, RefusesNumbersThatAreNotFinite) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     GltfFile gltf = triangleFile();
     std::memcpy(gltf.bin.data() + 16, &bad, 4);
-    EXPECT_CONTAINS(errorIn(gltf), "accessors[0]: element 1 is not finite");
+    EXPECT_CONTAINS(errorIn(gltf), "accessors[0]", "element 1", "finite");
   }
   EXPECT_CONTAINS(
-      errorMessage([] { readText(R"({"asset": {"version": "2.0"}, "nodes": [{"scale": [1e999, 1, 1]}]})"); }),
-      "out of the range of double");
+      errorMessage([] { readText(R"({"asset": {"version": "2.0"}, "nodes": [{"scale": [1e999, 1, 1]}]})"); }), "range");
 }
 
 TEST(ReadGltf, RefusesInvalidJson) {
   const auto error = [](const std::string& text) { return errorMessage([&] { readText(text); }); };
   EXPECT_CONTAINS(error(""), "is empty");
-  EXPECT_CONTAINS(error("[]"), "is not glTF; expected a JSON object");
-  EXPECT_CONTAINS(error(R"({"asset": {"version": "2.0")"), "byte 27 of the JSON: is not JSON");
+  EXPECT_CONTAINS(error("[]"), "not glTF", "object");
+  EXPECT_CONTAINS(error(R"({"asset": {"version": "2.0")"), "byte 27");
   EXPECT_CONTAINS(error(R"({"asset": {"version": "2.0"}, "nodes": [], "nodes": []})"), "duplicate key 'nodes'");
   for (const std::string& open : {std::string("["), std::string(R"({"a":)")}) {
     std::string deep = R"({"asset": {"version": "2.0", "extras": )";
     for (int i = 0; i < 1'000'000; ++i) deep += open;
-    EXPECT_CONTAINS(error(deep), "JSON is nested too deeply; expected at most 64 levels");
+    EXPECT_CONTAINS(error(deep), "nested", "64");
   }
   std::string many = R"({"asset": {"version": "2.0"}, "materials": [{})";
   for (int i = 0; i < 300'000; ++i) many += ",{}";
@@ -298,20 +292,17 @@ TEST(ReadGltf, TraversesTheNodeGraph) {
     gltf.document["scenes"][0]["nodes"] = json::parse(roots);
     return errorIn(gltf);
   };
-  EXPECT_CONTAINS(error(R"([{"mesh": 0}, {"children": [2]}, {"children": [1]}])"),
-                  "nodes[1]: node is its own ancestor");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "children": [0]}])"), "nodes[0]: node is its own ancestor");
-  EXPECT_CONTAINS(error(R"([{"children": [1, 1]}, {"mesh": 0}])"), "nodes[1]: node has two parents");
-  EXPECT_CONTAINS(error(R"([{"children": [2]}, {"children": [2]}, {"mesh": 0}])", "[0, 1]"),
-                  "nodes[2]: node has two parent");
-  EXPECT_CONTAINS(error(R"([{"children": [3]}, {"mesh": 0}])"), "nodes[0].children: refers to a missing node");
-  EXPECT_CONTAINS(error(R"([{"children": [1]}, {"mesh": 0}])", "[1]"), "node 1 has a parent");
+  EXPECT_CONTAINS(error(R"([{"mesh": 0}, {"children": [2]}, {"children": [1]}])"), "nodes[1]", "ancestor");
+  EXPECT_CONTAINS(error(R"([{"mesh": 0, "children": [0]}])"), "nodes[0]", "ancestor");
+  EXPECT_CONTAINS(error(R"([{"children": [1, 1]}, {"mesh": 0}])"), "nodes[1]", "two parents");
+  EXPECT_CONTAINS(error(R"([{"children": [2]}, {"children": [2]}, {"mesh": 0}])", "[0, 1]"), "nodes[2]", "two parent");
+  EXPECT_CONTAINS(error(R"([{"children": [3]}, {"mesh": 0}])"), "nodes[0].children", "missing");
+  EXPECT_CONTAINS(error(R"([{"children": [1]}, {"mesh": 0}])", "[1]"), "node 1", "parent");
   EXPECT_CONTAINS(error(R"([{"mesh": 0, "scale": [1, 0, 1]}])"), "nodes[0]: transform is singular");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "scale": [1e300, 1, 1]}])"), "transform is out of range");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "rotation": [0, 0, 0, 0]}])"), "nodes[0].rotation: quaternion has no length");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "matrix": [1, 2, 3]}])"), "nodes[0].matrix: wrong type; expected 16");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "matrix": [1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1]}])"),
-                  "matrix: matrix is not affine");
+  EXPECT_CONTAINS(error(R"([{"mesh": 0, "scale": [1e300, 1, 1]}])"), "transform", "range");
+  EXPECT_CONTAINS(error(R"([{"mesh": 0, "rotation": [0, 0, 0, 0]}])"), "nodes[0].rotation", "length");
+  EXPECT_CONTAINS(error(R"([{"mesh": 0, "matrix": [1, 2, 3]}])"), "nodes[0].matrix", "type", "16");
+  EXPECT_CONTAINS(error(R"([{"mesh": 0, "matrix": [1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1]}])"), "matrix", "affine");
 
   // A chain that is deeper than any call stack.
   json chain = json::array();
@@ -325,7 +316,7 @@ TEST(ReadGltf, ReadsRootsWithoutScenes) {
   gltf.document.erase("scenes");
   EXPECT_EQ(readGlb(gltf).instances.size(), 1u);
   gltf.document["scenes"] = json::parse(R"([{"nodes": []}, {"nodes": [0]}])");
-  EXPECT_CONTAINS(errorIn(gltf), "no mesh in the scene");
+  EXPECT_CONTAINS(errorIn(gltf), "no mesh");
   gltf.document["scene"] = 1;
   EXPECT_TRUE(hasNote(readGlb(gltf), "scenes other than number 1 of 2"));
 }
@@ -378,7 +369,7 @@ TEST(ReadGltf, LimitsInstances) {
   gltf.add("meshes",
            {{"primitives", {{{"attributes", {{"POSITION", position}}}, {"indices", gltf.addIndices(indices)}}}}});
   for (int i = 0; i < 2000; ++i) gltf.addNode({{"mesh", 0}});
-  EXPECT_CONTAINS(errorIn(gltf), "too many instances; expected at most 65536, of 4000000 triangles");
+  EXPECT_CONTAINS(errorIn(gltf), "instances", "65536", "4000000");
   // Primitives that share their indices.
   json& primitives = gltf.document["meshes"][0]["primitives"];
   const json one = primitives[0];
@@ -419,7 +410,7 @@ TEST(ReadGltf, NotesIgnoredContent) {
     EXPECT_TRUE(hasNote(scene, note)) << note;
   EXPECT_EQ(scene.notes.size(), 10u);  // each once
   gltf.document["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
-  EXPECT_CONTAINS(errorIn(gltf), "extensionsRequired: unknown extension");
+  EXPECT_CONTAINS(errorIn(gltf), "extensionsRequired", "unknown");
   EXPECT_CONTAINS(errorIn(gltf), "found 'EXT_mesh_gpu_instancing'");
 }
 
@@ -460,8 +451,8 @@ TEST(ReadGltf, ReadsMaterials) {
   EXPECT_CONTAINS(error("pbrMetallicRoughness/metallicFactor", 2),
                   "materials[1].pbrMetallicRoughness.metallicFactor: is");
   EXPECT_CONTAINS(error("pbrMetallicRoughness/baseColorFactor", {1, 1, 1}), "baseColorFactor: wrong type");
-  EXPECT_CONTAINS(error("emissiveFactor", {1, -1, 0}), "materials[1].emissiveFactor: is out of range");
-  EXPECT_CONTAINS(error("extensions/KHR_materials_ior/ior", 0.5), "materials[1].ior: is out of range");
+  EXPECT_CONTAINS(error("emissiveFactor", {1, -1, 0}), "materials[1].emissiveFactor", "range");
+  EXPECT_CONTAINS(error("extensions/KHR_materials_ior/ior", 0.5), "materials[1].ior", "range");
   EXPECT_CONTAINS(error("extensions/KHR_materials_volume/attenuationDistance", 0), "a positive distance");
   EXPECT_EQ(error("extensions/KHR_materials_ior/ior", 0), "");
   gltf.document["materials"][1]["extensions"]["KHR_materials_volume"].erase("thicknessFactor");

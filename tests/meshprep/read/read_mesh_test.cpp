@@ -17,7 +17,7 @@ using test::TemporaryFile;
 
 TEST(ReadMesh, RefusesFoldersAndUnknownExtensions) {
   EXPECT_TRUE(contains(errorMessage([] { readMesh("/no/such/file.obj"); }), "/no/such/file.obj: cannot open"));
-  EXPECT_TRUE(contains(errorMessage([] { readMesh("mesh.fbx"); }), ".gltf or .glb, found .fbx"));
+  EXPECT_TRUE(contains(errorMessage([] { readMesh("mesh.fbx"); }), ".gltf", ".glb", ".fbx"));
   EXPECT_TRUE(contains(errorMessage([] { readMesh("mesh"); }), "no extension"));
   const std::filesystem::path folder = test::temporaryPath(".obj");
   std::filesystem::create_directory(folder);
@@ -63,7 +63,7 @@ TEST(ReadMesh, AgreesWithOpenMeshOnNumbersOfAllSizes) {
 TEST(ReadMesh, RefusesPipes) {
   const std::filesystem::path pipe = test::temporaryPath(".obj");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_TRUE(test::contains(test::errorMessage([&] { readMesh(pipe); }), "is not a regular file"));
+  EXPECT_TRUE(test::contains(test::errorMessage([&] { readMesh(pipe); }), "regular file"));
   std::filesystem::remove(pipe);
 }
 

@@ -11,8 +11,6 @@ namespace {
 using test::contains;
 using test::errorMessage;
 
-#define EXPECT_CONTAINS(text, part) EXPECT_TRUE(contains(text, part)) << (text)
-
 std::vector<std::string> notes;
 
 SourceMaterial one(const std::string& statements) {
@@ -79,20 +77,23 @@ TEST(ReadMtl, ReadsTransmissionAndEmission) {
 
 TEST(ReadMtl, NotesIgnoredStatementsOnce) {
   one("map_Kd an image.png\nmap_Ks b.png\nbump c.png\nfancy 1 2\nfancy 3\nKd spectral a.rfl\nKs xyz 1 1 1\n");
-  EXPECT_EQ(notes, (std::vector<std::string>{"textures", "statements \"fancy\" of material files",
-                                             "colours given by spectral", "colours given by xyz"}));
+  ASSERT_EQ(notes.size(), 4u);
+  EXPECT_CONTAINS(notes[0], "textures");
+  EXPECT_CONTAINS(notes[1], "\"fancy\"");
+  EXPECT_CONTAINS(notes[2], "spectral");
+  EXPECT_CONTAINS(notes[3], "xyz");
 }
 
 TEST(ReadMtl, ReportsTheLineOfInvalidStatements) {
-  EXPECT_CONTAINS(errorIn("newmtl a\n\nKd 1 nan 1\n"), "a.mtl:3: invalid number");
-  EXPECT_CONTAINS(errorIn("newmtl a\nKd 1 1\n"), "a.mtl:2: invalid number");
-  EXPECT_CONTAINS(errorIn("newmtl a\nNs\n"), "a.mtl:2: invalid number");
-  EXPECT_CONTAINS(errorIn("newmtl a\nd 1e999\n"), "a.mtl:2: number out of range");
-  EXPECT_CONTAINS(errorIn("newmtl a\nillum 11\n"), "a.mtl:2: unknown illumination model");
-  EXPECT_CONTAINS(errorIn("newmtl a\nillum two\n"), "a.mtl:2: invalid number");
-  EXPECT_CONTAINS(errorIn("Kd 1 1 1\n"), "a.mtl:1: statement outside of a material");
-  EXPECT_CONTAINS(errorIn("newmtl  \n"), "a.mtl:1: material without a name");
-  EXPECT_CONTAINS(errorIn(std::string("newmtl a\n\0\n", 11)), "a.mtl:2: control character");
+  EXPECT_CONTAINS(errorIn("newmtl a\n\nKd 1 nan 1\n"), "a.mtl:3", "number");
+  EXPECT_CONTAINS(errorIn("newmtl a\nKd 1 1\n"), "a.mtl:2", "number");
+  EXPECT_CONTAINS(errorIn("newmtl a\nNs\n"), "a.mtl:2", "number");
+  EXPECT_CONTAINS(errorIn("newmtl a\nd 1e999\n"), "a.mtl:2", "range");
+  EXPECT_CONTAINS(errorIn("newmtl a\nillum 11\n"), "a.mtl:2", "illumination");
+  EXPECT_CONTAINS(errorIn("newmtl a\nillum two\n"), "a.mtl:2", "number");
+  EXPECT_CONTAINS(errorIn("Kd 1 1 1\n"), "a.mtl:1", "outside");
+  EXPECT_CONTAINS(errorIn("newmtl  \n"), "a.mtl:1", "name");
+  EXPECT_CONTAINS(errorIn(std::string("newmtl a\n\0\n", 11)), "a.mtl:2", "control");
   EXPECT_CONTAINS(errorIn("\xff\xfen"), "UTF-16");
   EXPECT_EQ(errorIn("\xef\xbb\xbfnewmtl a\n"), "");
   EXPECT_EQ(errorIn(""), "");
@@ -122,9 +123,10 @@ TEST(ReadMtl, DescribesMaterialsByName) {
   EXPECT_EQ(scene.materials[0].baseColour, glm::dvec3(1, 0, 0));
   EXPECT_EQ(scene.materials[1].baseColour, glm::dvec3(0.8));
   EXPECT_EQ(scene.materials[1].metallic, 0);
-  EXPECT_EQ(scene.notes,
-            (std::vector<std::string>{"a duplicate material \"red\"", "missing material file \"missing.mtl\"",
-                                      "material \"blue\" without a description"}));
+  ASSERT_EQ(scene.notes.size(), 3u);
+  EXPECT_CONTAINS(scene.notes[0], "duplicate", "\"red\"");
+  EXPECT_CONTAINS(scene.notes[1], "missing", "\"missing.mtl\"");
+  EXPECT_CONTAINS(scene.notes[2], "\"blue\"", "description");
 }
 
 }  // namespace

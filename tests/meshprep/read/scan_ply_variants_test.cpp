@@ -118,7 +118,7 @@ TEST(PlyVariants, SkipsOtherLists) {
   EXPECT_EQ(binary.positions[2], glm::dvec3(0, 1, 0));
 
   // A list that is longer than the file.
-  EXPECT_TRUE(contains(refusal(withoutFace + "\xff 3 0 1 2 and so on"), "unexpected end of file in face 0"));
+  EXPECT_TRUE(contains(refusal(withoutFace + "\xff 3 0 1 2 and so on"), "end of file", "face 0"));
 }
 
 TEST(PlyVariants, FlipsEverySecondTriangleOfStrips) {
@@ -149,8 +149,7 @@ TEST(PlyVariants, FlipsEverySecondTriangleOfStrips) {
 
   // Connected strips keep the parity of their corners.
   EXPECT_EQ(read(header(elements) + points + "6 0 1 2 2 3 5\n3 0 1 2\n").corners, (Corners{0, 1, 2, 3, 2, 5, 0, 1, 2}));
-  EXPECT_TRUE(
-      contains(refusal(header(elements) + points + "3 0 1 6\n3 0 1 2\n"), ".ply:16: invalid vertex index in a strip"));
+  EXPECT_TRUE(contains(refusal(header(elements) + points + "3 0 1 6\n3 0 1 2\n"), ".ply:16", "strip"));
   EXPECT_TRUE(contains(refusal(header(elements) + points + "3 0 1 -2\n3 0 1 2\n"), "found -2"));
   EXPECT_TRUE(contains(refusal(header(elements) + points + "2 0 1\n0\n"), "no faces"));
 }
@@ -170,7 +169,8 @@ TEST(PlyVariants, SkipsOtherElementsWithANote) {
   const Polygons text = read(header(elements) + "9 0\n8 2 1 1\n" + kFourPoints + "0 1\n1 2\n4 0 1 2 3\n50\n");
   EXPECT_EQ(text.corners, (Corners{0, 1, 2, 3}));
   EXPECT_EQ(text.positions.size(), 4u);
-  EXPECT_EQ(text.notes, (Notes{"elements other than vertices, faces and triangle strips"}));
+  ASSERT_EQ(text.notes.size(), 1u);
+  EXPECT_CONTAINS(text.notes[0], "elements other than");
 
   std::string bytes = header(elements, "binary_big_endian");
   bytes += std::string("\x09\x00\x08\x02", 4) + std::string(8, '\x7f');
@@ -264,7 +264,8 @@ TEST(PlyVariants, ReadsNormals) {
                                "uchar int vertex_indices\n";
   const Polygons polygons = read(header(elements) + "0 0 0 0 0 1\n1 0 0 0 .6 .8\n0 1 0 nan 0 1\n3 0 1 2\n");
   EXPECT_EQ(polygons.normals, (std::vector<glm::vec3>{{0, 0, 1}, {0, 0.6f, 0.8f}, {0, 0, 0}}));
-  EXPECT_EQ(polygons.notes, (Notes{"normals that are not finite"}));
+  ASSERT_EQ(polygons.notes.size(), 1u);
+  EXPECT_CONTAINS(polygons.notes[0], "normals", "finite");
   EXPECT_TRUE(contains(refusal(header(elements) + "0 0 0 0 0 1\n1 0 0 0 x .8\n0 1 0 0 0 1\n3 0 1 2\n"), ".ply:14:"));
 }
 

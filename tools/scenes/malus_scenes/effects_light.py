@@ -153,5 +153,5 @@ Radiance of one polarizer: 0.5. Upper row: 0.5, 0.25, 0, 0.125 with 0 around it.
         half = 0.08 if layer == "between" else 0.15
         parts.append(Part(f"{layer}-{material}", material, upright(-half, half, -half, half, 0.0), flat=True,
                           instances=instances))
-    return write_hard(folder, "Sheets that polarize and sheets that delay, two or three in a row.", text,
+    return write_hard(folder, "Polarizers and wave plates, two or three in a row.", text,
                       camera((0.0, 0.0, 8.0), (0.0, 0.0, 0.0), 7.4), parts, materials, 4, resolution=(401, 201))

@@ -52,7 +52,7 @@ uniformly white and the plate uniformly grey.
         "patches": {**BLACK_GLASS, "etaMap": {"image": "patches.exr", "scale": 0.1, "offset": 1.3},
                     "projection": {"origin": [-0.625, 1.25, -0.9], "u": [0.8, 0.0, 0.0], "v": [0.0, -0.8, 0.0]}},
         "lamp": emitter(4.0)}
-    counts = write_hard(folder, "A picture gives a table its colours and a plate of black glass its index.", text,
+    counts = write_hard(folder, "An image gives a table its colours and a plate of black glass its index.", text,
                         camera((0.0, 1.2, 3.2), (0.0, 0.42, -0.3), 36.0), parts, materials, 4, resolution=SIZE,
                         environment={"radiance": [0.03, 0.03, 0.04]},
                         lights=[{"type": "point", "position": [-1.2, 2.6, 2.0], "intensity": [30.0, 30.0, 30.0]}])
@@ -105,7 +105,7 @@ along the strips.
              for i, name in enumerate(materials)]
     parts += [Part("ceiling-left", "bright", floor(0.36, 2.0, 1.0, -8.0, x0=-3.0).flipped(), flat=True),
               Part("ceiling-right", "dim", floor(3.0, 2.0, 1.0, -8.0, x0=0.36).flipped(), flat=True)]
-    return write_hard(folder, "Thin films: what they reflect depends on the colour and on the angle.", text,
+    return write_hard(folder, "Thin films: their reflectance depends on the colour and on the angle.", text,
                       camera((0.0, 1.0, 0.3), (0.0, 0.0, -0.7), 58.0), parts,
                       {**materials, "bright": emitter(4.0), "dim": emitter(1.0)}, 4, resolution=SIZE)
 

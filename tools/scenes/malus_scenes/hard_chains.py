@@ -27,7 +27,7 @@ polarization the crossed mirror has R_s^2/4.
 """
     parts = [Part("first", "glass", first, flat=True), Part("crossed", "glass", crossed, flat=True),
              Part("parallel", "glass", parallel, flat=True)]
-    return write_hard(folder, "Two glass mirrors at Brewster's angle, crossed: what is left is rounding.", text,
+    return write_hard(folder, "Two glass mirrors at Brewster's angle, crossed: only rounding remains.", text,
                       camera(CAMERA, TARGET, 16.0), parts, {"glass": BLACK_GLASS}, 4, exposureEv=3.0,
                       environment={"radiance": [1.0, 1.0, 1.0]})
 
@@ -103,6 +103,6 @@ horizontally polarized arrives vertically polarized: S1 = -S0, while frames that
 """
     materials = {"ideal": {"type": "metal", "eta": 0.0, "k": 1000.0}, "glass": BLACK_GLASS, "white": emitter(1.0),
                  "red": emitter(1.0, 0.1, 0.1), "green": emitter(0.1, 1.0, 0.1)}
-    return write_hard(folder, "Three mirrors lead back to the first direction: the polarization comes back turned.",
+    return write_hard(folder, "Three mirrors lead back to the first direction: the plane of polarization is rotated.",
                       text, camera((0.0, 0.0, -3.0), (0.0, 0.0, 0.0), 12.0), parts, materials, 6, exposureEv=2.0,
                       environment=DIM)

@@ -38,7 +38,7 @@ Closed form, all orders of reflection inside: T_s, T_p = (1 - R)/(1 + R), S0 = (
 """
     parts = [Part("plate", "glass", box((0.9, 0.01, 9.0), (0.0, -0.005, -3.5)), flat=True),
              Part("panel", "lamp", floor(5.0, -0.4, 1.5, -12.0), flat=True)]
-    return write_hard(folder, "One slab of glass at 60 to 85 degrees: light that goes to and fro inside is polarized.",
+    return write_hard(folder, "One slab of glass at 60 to 85 degrees: light reflected inside it is polarized.",
                       text, camera((0.0, 0.5, 0.0), (0.0, 0.0, -distance), 50.0), parts,
                       {"glass": GLASS, "lamp": emitter(1.0)}, 28)
 

@@ -65,7 +65,7 @@ The panels seen through the bubble are small and upright; with its sides exchang
              Part("white", "white", upright(-0.6, 0.6, -2.2, 2.2, -2.0), flat=True),
              Part("red", "red", upright(-3.0, -0.6, -2.2, 2.2, -2.0), flat=True),
              Part("green", "green", upright(0.6, 3.0, -2.2, 2.2, -2.0), flat=True)]
-    return write_hard(folder, "A bubble in glass in water: three media, and which one lies on which side.", text,
+    return write_hard(folder, "A bubble in glass in water: three media, one on either side of each interface.", text,
                       camera((0.0, 0.0, 3.0), (0.0, 0.0, 0.0), 40.0, mediumEta=1.33), parts,
                       {"glass": {**GLASS, "outsideEta": 1.33},
                        "bubble": {"type": "glass", "eta": 1.0, "outsideEta": 1.5},

@@ -46,20 +46,20 @@ def room_at(folder, title, text, scale=1.0, offset=(0.0, 0.0, 0.0)):
 
 
 def room(folder):
-    return room_at(folder, "A room at its own size: what the scenes far-away and tiny are compared with.", """\
+    return room_at(folder, "A room at its own size, the reference of the scenes far-away and tiny.", """\
 The reference: `far-away` and `tiny` are the same meshes, moved and scaled.
 """)
 
 
 def far_away(folder):
-    return room_at(folder, "A room 143 km from the origin: a float holds no more than 8 mm there.", """\
+    return room_at(folder, "A room 143 km from the origin, where floats are rounded by up to 8 mm.", """\
 The scene `room`, moved by (100000, 20000, -100000) m. The origin of the pack is the default, the middle of the meshes.
 The image equals that of `room` except for single pixels at edges.
 """, offset=FAR)
 
 
 def tiny(folder):
-    return room_at(folder, "A room as small as a grain of dust: fixed offsets and thresholds would swallow it.", """\
+    return room_at(folder, "A room as small as a grain of dust: fixed offsets would be larger than it.", """\
 The scene `room`, scaled by 1e-5: 32 micrometres wide. The intensity of the point light is scaled by 1e-10, so that
 all radiances, and the image, equal those of `room` except for single pixels at edges.
 """, scale=1e-5)

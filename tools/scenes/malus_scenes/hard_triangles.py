@@ -103,7 +103,7 @@ have the radiance of the sky, 0.3 / 0.1 / 0.1).
     parts = [PartAsIs("mirror", "black-glass", *with_slivers(square)),
              Part("lamp", "lamp", quad((-0.3, 0.2, 0.6), (-0.3, 0.5, 0.6), (0.05, 0.5, 0.6), (0.05, 0.2, 0.6)),
                   flat=True)]
-    return write_hard(folder, "Slivers a million times as long as wide: each has a normal that means nothing.", text,
+    return write_hard(folder, "Slivers a million times as long as wide: their normals are rounding errors.", text,
                       {"position": [0.0, y, 0.8], "target": [0.0, y, 0.0], "verticalFovDegrees": 50.0}, parts,
                       {"black-glass": BLACK_GLASS, "lamp": emitter(1.0)}, 4, exposureEv=3.0,
                       environment={"radiance": [0.3, 0.1, 0.1]})

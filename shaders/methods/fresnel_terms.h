@@ -1,20 +1,7 @@
 // Interface terms of the methods with the exact unpolarized reflectance: the mean of R_s and R_p per colour.
 
-struct FresnelTerms {
-  real3 r;
-};
+#include "shaders/methods/colour_terms.h"
 
-FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
-  FresnelTerms f;
-  f.r = select3(m, a.r, b.r);
-  return f;
-}
-// Transmission T = 1 - R.
-FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
-  FresnelTerms f;
-  f.r = splat3(R(1.0)) - reflection.r;
-  return f;
-}
 FN real meanReflectance(Reflectance f) { return R(0.5) * (f.rs + f.rp); }
 
 FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflectance blue) {
@@ -24,5 +11,3 @@ FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflect
 }
 
 #include "shaders/methods/exact_terms.h"
-
-FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - f.r; }

@@ -1,20 +1,7 @@
 // Interface terms of the methods with Schlick's approximation: the reflectance per colour.
 
-struct FresnelTerms {
-  real3 r;
-};
+#include "shaders/methods/colour_terms.h"
 
-FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
-  FresnelTerms f;
-  f.r = select3(m, a.r, b.r);
-  return f;
-}
-// Transmission T = 1 - R.
-FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
-  FresnelTerms f;
-  f.r = splat3(R(1.0)) - reflection.r;
-  return f;
-}
 FN FresnelTerms dielectricTerms(real c, real n1, real n2) {
   FresnelTerms f;
   f.r = splat3(schlickReflectance(c, n1, n2, R(0.0)));
@@ -45,4 +32,3 @@ FN FresnelTerms filmTransmissionTerms(real c, real n1, real3 nf, real3 turns, re
   f.r = splat3(R(1.0)) - f.r;
   return f;
 }
-FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - f.r; }

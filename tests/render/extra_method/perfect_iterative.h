@@ -1,27 +1,13 @@
 // Method `perfect-iterative`: `perfect-mirror` as a loop along the camera path.
 
-struct FresnelTerms {
-  real3 r;
-};
+#include "shaders/methods/colour_terms.h"
+
 FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflectance blue) {
   FresnelTerms f;
   f.r = splat3(R(1.0));
   return f;
 }
 
-FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
-  FresnelTerms f;
-  f.r = select3(m, a.r, b.r);
-  return f;
-}
-FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
-  FresnelTerms f;
-  f.r = splat3(R(1.0)) - reflection.r;
-  return f;
-}
-
 #include "shaders/methods/exact_terms.h"
-
-FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - f.r; }
 
 #include "shaders/iterative/colour.h"

@@ -1,0 +1,17 @@
+// FresnelTerms of the methods that carry one colour: the reflectance R per colour, and the transmittance T = 1 - R.
+
+struct FresnelTerms {
+  real3 r;
+};
+
+FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
+  FresnelTerms f;
+  f.r = select3(m, a.r, b.r);
+  return f;
+}
+FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
+  FresnelTerms f;
+  f.r = splat3(R(1.0)) - reflection.r;
+  return f;
+}
+FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - f.r; }

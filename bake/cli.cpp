@@ -21,6 +21,7 @@
 #include "meshprep/base/console.h"
 #include "meshprep/base/unfinished_files.h"
 #include "meshprep/deprecated_option.h"
+#include "shaders/effects.h"
 
 namespace malus::bake {
 
@@ -175,6 +176,11 @@ void listMaterials() {
   for (const OpticalConstants& m : materialLibrary())
     fmt::print("{:<14} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}  {}\n", m.name, m.eta.x, m.eta.y, m.eta.z,
                m.k.x, m.k.y, m.k.z, m.source);
+}
+
+void listEffects() {
+  for (const shaders::EffectInfo& e : shaders::kEffects)
+    if (!e.name.empty()) fmt::print("{:<22} {}\n", e.name, e.description);
 }
 
 }  // namespace malus::bake

@@ -16,7 +16,9 @@ void addBakeCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addUnpackCommand(CLI::App& app);
 
-// For --list-materials: one line a material with its constants and source.
+// For --list-materials: one line per material with its constants and source.
 void listMaterials();
+// For --list-effects: one line per effect with its description.
+void listEffects();
 
 }  // namespace malus::bake

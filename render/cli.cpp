@@ -14,6 +14,7 @@
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/image.h"
+#include "render/effects_option.h"
 #include "render/filter_options.h"
 #include "render/image/mosaic.h"
 #include "render/image/output.h"
@@ -238,7 +239,9 @@ void addOutputOptions(CLI::App& command, RenderArguments& a) {
 }
 
 void addMethodOptions(CLI::App& command, JobSettings& job) {
-  command.add_option("--effects", job.effects, "Effects to render: auto, all, or names from 'malus info', with commas")
+  command
+      .add_option("--effects", job.effects, "Effects to render: auto, all, or names from --list-effects, with commas")
+      ->transform(effectList())
       ->capture_default_str();
   command
       .add_option("--max-error", job.maxError,

@@ -42,7 +42,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.fallthrough();
   app.failure_message(CLI::FailureMessage::simple);
-  bool listMethods = false, listMaterials = false, listDevices = false;
+  bool listMethods = false, listEffects = false, listMaterials = false, listDevices = false;
   app.add_flag_callback(
          "-q,--quiet", [] { malus::console::setVerbosity(malus::console::Verbosity::quiet); },
          "Print no progress and no warnings")
@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
          "-v,--verbose", [] { malus::console::setVerbosity(malus::console::Verbosity::verbose); }, "Print details")
       ->trigger_on_parse();
   app.add_flag("--list-methods", listMethods, "List the rendering methods");
+  app.add_flag("--list-effects", listEffects, "List the effects that a scene can need");
   app.add_flag("--list-materials", listMaterials, "List the materials with published n and k");
   app.add_flag("--list-devices", listDevices, "List the Vulkan devices");
   malus::prep::addPrepCommand(app);
@@ -66,9 +67,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);  // runs the subcommand
     if (listMethods) malus::render::listMethods();
+    if (listEffects) malus::bake::listEffects();
     if (listMaterials) malus::bake::listMaterials();
     if (listDevices) malus::render::listDevices();
-    if (app.get_subcommands().empty() && !listMethods && !listMaterials && !listDevices) {
+    if (app.get_subcommands().empty() && !listMethods && !listEffects && !listMaterials && !listDevices) {
       std::fputs(app.help().c_str(), stderr);
       return kUsage;
     }

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "shaders/effects.h"
 #include "tests/tools/command.h"
 
 namespace malus::test {
@@ -55,6 +56,12 @@ TEST(Usage, Lists) {
   const Finished methods = malus({"--list-methods"});
   EXPECT_EQ(methods.exitCode, 0);
   for (const char* name : {"schlick", "fresnel", "sp", "stokes"}) EXPECT_TRUE(contains(methods.out, name)) << name;
+  const Finished effects = malus({"--list-effects"});
+  EXPECT_EQ(effects.exitCode, 0);
+  for (const shaders::EffectInfo& e : shaders::kEffects) {
+    if (e.name.empty()) continue;
+    EXPECT_TRUE(contains(effects.out, e.name, e.description)) << e.name;
+  }
   const Finished materials = malus({"--list-materials"});
   EXPECT_EQ(materials.exitCode, 0);
   for (const char* name : {"bk7", "water", "gold", "titanium", "Johnson"})

@@ -78,6 +78,11 @@ TEST(Render, Effects) {
   ASSERT_EQ(less.exitCode, 0) << less.err;
   EXPECT_TRUE(contains(less.err, "linear-polarization")) << less.err;
   EXPECT_TRUE(contains(less.err, "point-lights")) << less.err;
+  // An earlier name of an effect is replaced; the note appears with -v only.
+  EXPECT_FALSE(contains(less.err, "conductor")) << less.err;
+  const Finished noted = render({"-o", folder / "a.png", "--effects", "diffuse,dielectric,conductor", "-v"});
+  EXPECT_TRUE(contains(noted.err, "'conductor'", "deprecated", "'metal'")) << noted.err;
+  EXPECT_EQ(json::parse(noted.out).at("effects"), "diffuse,dielectric,metal");
   expectRefusal(render({"-o", folder / "c.png", "--effects", "magic"}), "linear-polarization");
   EXPECT_EQ(
       render({"-o", folder / "c.exr", "--method", "stokes", "--intensity", "--output-dolp", folder / "d.png"}).exitCode,

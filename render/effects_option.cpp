@@ -1,0 +1,28 @@
+#include "render/effects_option.h"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/console.h"
+#include "shaders/effects.h"
+
+namespace malus::render {
+
+CLI::Validator effectList() {
+  return {
+      [](std::string& text) -> std::string {
+        std::vector<std::string> names = CLI::detail::split(text, ',');
+        for (std::string& name : names) {
+          const auto effect = shaders::effectNamed(name);
+          if (!effect || shaders::effectName(*effect) == name) continue;
+          console::note(fmt::format("effect name '{}' is deprecated; use '{}'", name, shaders::effectName(*effect)));
+          name = shaders::effectName(*effect);
+        }
+        text = fmt::format("{}", fmt::join(names, ","));
+        return {};
+      },
+      ""};
+}
+
+}  // namespace malus::render

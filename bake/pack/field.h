@@ -27,7 +27,7 @@ inline constexpr KindSet kEveryKind = (KindSet{1} << kMaterialKindCount) - 1;
 constexpr KindSet only(MaterialKind kind) { return KindSet{1} << static_cast<std::uint32_t>(kind); }
 constexpr bool contains(KindSet set, MaterialKind kind) { return (set & only(kind)) != 0; }
 // All kinds for which the predicate of material_kinds.h is true.
-constexpr KindSet kindsWhere(bool (*predicate)(MaterialKind)) {
+consteval KindSet kindsWhere(bool (*predicate)(MaterialKind)) {
   KindSet set = 0;
   for (const MaterialKindInfo& info : kMaterialKinds) set |= predicate(info.kind) ? only(info.kind) : 0;
   return set;

@@ -13,15 +13,10 @@
 
 namespace malus::pack {
 
-// Calls visit(field, value of each material...) for every field, in the order of the bytes.
+// The fields of MATL.
 template <class Visitor, class... Materials>
-void visitMaterial(Visitor&& visit, Materials&... m) {
-  constexpr KindSet kBody = kindsWhere(hasInside), kCoated = kindsWhere(canBeCoated), kRough = kindsWhere(canBeRough),
-                    kEmitter = kindsWhere(isEmitter), kIndexed = kindsWhere(hasIndex),
-                    kElement = kindsWhere(isPolarizingElement), kDiffuse = kindsWhere(canBeDiffuse),
-                    kMapped = kindsWhere(canHaveIndexMap);
-
-  // MATL
+void visitBaseFields(Visitor& visit, Materials&... m) {
+  constexpr KindSet kIndexed = kindsWhere(hasIndex);
   visit(Field{.name = "name", .text = "name", .section = kMaterials}, m.name...);
   visit(Field{.name = "type", .high = kMaterialKindCount - 1, .text = "kind", .section = kMaterials}, m.kind...);
   visit(Field{.name = "eta",
@@ -43,14 +38,18 @@ void visitMaterial(Visitor&& visit, Materials&... m) {
               .section = kMaterials,
               .key = Key::optional},
         m.outsideEta...);
-  visit(Field{.name = "albedo", .high = 1, .text = "diffuse reflectance", .section = kMaterials, .kinds = kDiffuse},
+  visit(Field{.name = "albedo",
+              .high = 1,
+              .text = "diffuse reflectance",
+              .section = kMaterials,
+              .kinds = kindsWhere(canBeDiffuse)},
         m.albedo...);
   visit(Field{.name = "radiance",
               .high = kMaxLight,
               .unit = "W/(m^2 sr)",
               .text = "emitted from the side that the normals point to",
               .section = kMaterials,
-              .kinds = kEmitter,
+              .kinds = kindsWhere(isEmitter),
               .key = Key::required,
               .keyHigh = 1e9},
         m.radiance...);
@@ -71,15 +70,19 @@ void visitMaterial(Visitor&& visit, Materials&... m) {
               .keyLow = 1,
               .keyHigh = 4095},
         m.highlightExponent...);
+}
 
-  // SRFX
+// The fields of SRFX: media, thin films and roughness.
+template <class Visitor, class... Materials>
+void visitInterfaceFields(Visitor& visit, Materials&... m) {
+  constexpr KindSet kCoated = kindsWhere(canBeCoated);
   visit(Field{.name = "absorption",
               .high = kMaxAbsorption,
               .unit = "1/m",
               .text = "of the medium inside: power falls to e^-(absorption x length)",
               .section = kSurfaces,
               .isFeature = true,
-              .kinds = kBody,
+              .kinds = kindsWhere(hasInside),
               .key = Key::optional,
               .shape = Shape::numberOrVector},
         m.absorption...);
@@ -116,17 +119,22 @@ void visitMaterial(Visitor&& visit, Materials&... m) {
               .text = "GGX alpha: the reflection is the mean over 16 fixed facets",
               .section = kSurfaces,
               .isFeature = true,
-              .kinds = kRough,
+              .kinds = kindsWhere(canBeRough),
               .isZeroForOthers = true,
               .key = Key::optional},
         m.roughness...);
+}
+
+// The fields of SRFX: polarizing elements, polarized emitters and thin glass.
+template <class Visitor, class... Materials>
+void visitPolarizationFields(Visitor& visit, Materials&... m) {
   visit(Field{.name = "axis",
               .low = -kMaxUnitComponent,
               .high = kMaxUnitComponent,
               .text = "direction in the scene: transmitted field of a polarizer, fast axis of a wave plate, field of a "
                       "polarized emitter",
               .section = kSurfaces,
-              .kinds = kElement,
+              .kinds = kindsWhere(isPolarizingElement),
               .key = Key::required,
               .shape = Shape::direction},
         m.axis...);
@@ -135,7 +143,7 @@ void visitMaterial(Visitor&& visit, Materials&... m) {
               .text = "degree of linear polarization of the emitted light",
               .section = kSurfaces,
               .isFeature = true,
-              .kinds = kEmitter,
+              .kinds = kindsWhere(isEmitter),
               .isZeroForOthers = true},
         m.polarization...);
   visit(Field{.name = "transmittanceParallel",
@@ -176,19 +184,24 @@ void visitMaterial(Visitor&& visit, Materials&... m) {
               .shape = Shape::numberOrVector,
               .fallback = 90},
         m.retardanceDegrees...);
+}
+
+// The fields of SRFX: textures.
+template <class Visitor, class... Materials>
+void visitTextureFields(Visitor& visit, Materials&... m) {
   visit(Field{.name = "maps.albedo",
               .text = "texture times the albedo: 1 + index into TEXR; 0: none",
               .section = kSurfaces,
               .isTexture = true,
               .isFeature = true,
-              .kinds = kDiffuse},
+              .kinds = kindsWhere(canBeDiffuse)},
         m.maps.albedo...);
   visit(Field{.name = "maps.eta",
               .text = "texture in place of eta",
               .section = kSurfaces,
               .isTexture = true,
               .isFeature = true,
-              .kinds = kMapped},
+              .kinds = kindsWhere(canHaveIndexMap)},
         m.maps.eta...);
   visit(Field{.name = "maps.k",
               .text = "texture in place of k; there exactly if a conductor has one of eta",
@@ -218,6 +231,15 @@ void visitMaterial(Visitor&& visit, Materials&... m) {
               .text = "and dot(p - origin, v), from the upper left corner, in repeats of the image",
               .section = kSurfaces},
         m.maps.v...);
+}
+
+// Calls visit(field, value of each material...) for every field, in the order of the bytes.
+template <class Visitor, class... Materials>
+void visitMaterial(Visitor&& visit, Materials&... m) {
+  visitBaseFields(visit, m...);
+  visitInterfaceFields(visit, m...);
+  visitPolarizationFields(visit, m...);
+  visitTextureFields(visit, m...);
 }
 
 // Version of SRFX that the materials need: 0 where the section is not needed.

@@ -3,6 +3,7 @@
 // "OFF: the format of polygon files", http://www.geomview.org/docs/html/OFF.html.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -52,91 +53,116 @@ void blankFrom(std::string_view rest, Lines& lines) {
   lines.blank(static_cast<std::size_t>(rest.data() - lines.line().data()));
 }
 
-}  // namespace
+// Reads a file from its header to its last face.
+class OffScanner {
+ public:
+  OffScanner(std::string& bytes, std::string_view where) : bytes_(bytes), where_(where), lines_(bytes, where) {}
 
-Scan scanOff(std::string& bytes, std::string_view where) {
-  Lines lines(bytes, where);
-  const auto nextLine = [&](std::string_view what) {
-    if (!lines.nextStatement('#')) throw Error(where, "unexpected end of file", what);
-    std::string_view rest = lines.line();
-    const std::size_t comment = rest.find('#');
-    return rest.substr(0, comment);
-  };
-
-  // Parse the header, which may have the counts on the same line. Reduce it to a line "OFF".
-  nextLine("OFF");
-  const Header header = scanHeader(lines);
-  const std::size_t length = header.length;
-  std::string_view rest = lines.line().substr(length);
-  rest = rest.substr(0, rest.find('#'));
-  std::string_view peek = rest;
-  const std::string_view after = takeWord(peek);
-  if (after == "BINARY") lines.fail("binary OFF files are not supported", "ASCII", quoted(lines.line()));
-  const auto headerBegin = static_cast<std::size_t>(lines.line().data() - bytes.data());
-  bytes.replace(headerBegin, length, std::string("OFF") + std::string(length - 3, ' '));
-  if (after.empty()) {
-    rest = nextLine("three counts");
-  } else {
-    rest.remove_prefix(1);
-    bytes[headerBegin + length] = '\n';
+  Scan scan() {
+    scanFirstLine();
+    scanCounts();
+    for (std::size_t i = 0; i < vertices_; ++i) scanVertex(i);
+    for (std::size_t i = 0; i < faces_; ++i) scanFace(i);
+    if (lines_.nextStatement('#'))
+      lines_.fail("content after the elements of the header", "the end of the file", quoted(lines_.line()));
+    bytes_.erase(0, headerBegin_);  // OpenMesh expects the header in the first line
+    return std::move(scan_);
   }
 
-  // Parse the numbers of vertices, faces and edges. The last is not used.
-  const std::size_t vertices = scanCount(rest, "a number of vertices", bytes.size(), 6, lines);
-  const std::size_t faces = scanCount(rest, "a number of faces", bytes.size(), 8, lines);
-  wholeNumber(takeWord(rest), "a number of edges", lines);
-  if (!takeWord(rest).empty()) lines.fail("too many counts", "numbers of vertices, faces and edges");
-  blankFrom(rest, lines);
+ private:
+  // The next line without its comment.
+  std::string_view nextLine(std::string_view what) {
+    if (!lines_.nextStatement('#')) throw Error(where_, "unexpected end of file", what);
+    return withoutComment(lines_.line());
+  }
+  static std::string_view withoutComment(std::string_view line) { return line.substr(0, line.find('#')); }
 
-  // Parse the vertices, one per line.
-  Scan scan;
-  Polygons& polygons = scan.polygons;
-  polygons.positions.reserve(vertices);
-  polygons.vertexLocations.reserve(vertices);
-  if (header.normals) polygons.normals.reserve(vertices);
-  for (std::size_t i = 0; i < vertices; ++i) {
-    rest = nextLine(fmt::format("{} vertices, of which {} were read", vertices, i));
-    glm::dvec3 p(0);
-    for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
-    polygons.positions.push_back(p);
-    polygons.vertexLocations.push_back(lines.number());
-    std::string_view more = rest;
-    if (header.normals) {
-      for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(more), lines);
-      polygons.normals.emplace_back(p);
+  // Parses the header, which may have the counts on the same line. Reduces it to a line "OFF".
+  void scanFirstLine() {
+    nextLine("OFF");
+    header_ = scanHeader(lines_);
+    const std::size_t length = header_.length;
+    rest_ = withoutComment(lines_.line().substr(length));
+    std::string_view peek = rest_;
+    const std::string_view after = takeWord(peek);
+    if (after == "BINARY") lines_.fail("binary OFF files are not supported", "ASCII", quoted(lines_.line()));
+    headerBegin_ = static_cast<std::size_t>(lines_.line().data() - bytes_.data());
+    bytes_.replace(headerBegin_, length, std::string("OFF") + std::string(length - 3, ' '));
+    if (after.empty()) {
+      rest_ = nextLine("three counts");
+    } else {
+      rest_.remove_prefix(1);
+      bytes_[headerBegin_ + length] = '\n';
     }
-    if (!takeWord(more).empty())
-      noteOnce(polygons, header.textured && !header.coloured ? "texture coordinates" : "colours of vertices");
-    if (header.textured && header.coloured) noteOnce(polygons, "texture coordinates");
-    blankFrom(rest, lines);
   }
 
-  // Parse the faces, one per line: number of corners, corners, optional colour.
-  polygons.faceLocations.reserve(faces);
-  for (std::size_t i = 0; i < faces; ++i) {
-    rest = nextLine(fmt::format("{} faces, of which {} were read", faces, i));
-    const long long corners = wholeNumber(takeWord(rest), "a number of corners", lines);
-    if (corners < 3) lines.fail("too few corners in a face", "3 or more", fmt::to_string(corners));
+  // Parses the numbers of vertices, faces and edges. The last is not used.
+  void scanCounts() {
+    vertices_ = scanCount(rest_, "a number of vertices", bytes_.size(), 6, lines_);
+    faces_ = scanCount(rest_, "a number of faces", bytes_.size(), 8, lines_);
+    wholeNumber(takeWord(rest_), "a number of edges", lines_);
+    if (!takeWord(rest_).empty()) lines_.fail("too many counts", "numbers of vertices, faces and edges");
+    blankFrom(rest_, lines_);
+
+    Polygons& polygons = scan_.polygons;
+    polygons.positions.reserve(vertices_);
+    polygons.vertexLocations.reserve(vertices_);
+    if (header_.normals) polygons.normals.reserve(vertices_);
+    polygons.faceLocations.reserve(faces_);
+  }
+
+  glm::dvec3 scanVector(std::string_view& rest) {
+    glm::dvec3 v(0);
+    for (int axis = 0; axis < 3; ++axis) v[axis] = coordinate(takeWord(rest), lines_);
+    return v;
+  }
+
+  // Parses a line with a vertex.
+  void scanVertex(std::size_t i) {
+    Polygons& polygons = scan_.polygons;
+    std::string_view rest = nextLine(fmt::format("{} vertices, of which {} were read", vertices_, i));
+    polygons.positions.push_back(scanVector(rest));
+    polygons.vertexLocations.push_back(lines_.number());
+    std::string_view more = rest;
+    if (header_.normals) polygons.normals.emplace_back(scanVector(more));
+    if (!takeWord(more).empty())
+      noteOnce(polygons, header_.textured && !header_.coloured ? "texture coordinates" : "colours of vertices");
+    if (header_.textured && header_.coloured) noteOnce(polygons, "texture coordinates");
+    blankFrom(rest, lines_);
+  }
+
+  // Parses a line with a face: number of corners, corners, optional colour.
+  void scanFace(std::size_t i) {
+    Polygons& polygons = scan_.polygons;
+    std::string_view rest = nextLine(fmt::format("{} faces, of which {} were read", faces_, i));
+    const long long corners = wholeNumber(takeWord(rest), "a number of corners", lines_);
+    if (corners < 3) lines_.fail("too few corners in a face", "3 or more", fmt::to_string(corners));
     for (long long c = 0; c < corners; ++c) {
       const std::string_view word = takeWord(rest);
-      if (word.empty()) lines.fail("missing corners in a face", fmt::format("{} corners", corners), fmt::to_string(c));
-      const long long index = wholeNumber(word, "an integer", lines);
-      if (index < 0 || static_cast<unsigned long long>(index) >= vertices)
-        lines.fail("invalid vertex index", fmt::format("0 to {}", vertices - 1), fmt::to_string(index));
+      if (word.empty()) lines_.fail("missing corners in a face", fmt::format("{} corners", corners), fmt::to_string(c));
+      const long long index = wholeNumber(word, "an integer", lines_);
+      if (index < 0 || static_cast<unsigned long long>(index) >= vertices_)
+        lines_.fail("invalid vertex index", fmt::format("0 to {}", vertices_ - 1), fmt::to_string(index));
       polygons.corners.push_back(static_cast<std::uint32_t>(index));
     }
     polygons.closeFace();
-    polygons.faceLocations.push_back(lines.number());
+    polygons.faceLocations.push_back(lines_.number());
     std::string_view more = rest;
     if (!takeWord(more).empty()) noteOnce(polygons, "colours of faces");
-    blankFrom(rest, lines);
+    blankFrom(rest, lines_);
   }
-  if (lines.nextStatement('#'))
-    lines.fail("content after the elements of the header", "the end of the file", quoted(lines.line()));
 
-  // OpenMesh expects the header in the first line.
-  bytes.erase(0, headerBegin);
-  return scan;
-}
+  std::string& bytes_;
+  std::string_view where_;
+  Lines lines_;
+  Header header_;
+  std::size_t headerBegin_ = 0, vertices_ = 0, faces_ = 0;
+  std::string_view rest_;  // of the line with the counts
+  Scan scan_;
+};
+
+}  // namespace
+
+Scan scanOff(std::string& bytes, std::string_view where) { return OffScanner(bytes, where).scan(); }
 
 }  // namespace malus::prep

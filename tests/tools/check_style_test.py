@@ -44,6 +44,21 @@ class CheckStyle(unittest.TestCase):
         for i, line in enumerate(["# Wh" "at it does", "x = 1  # wh" "y", "\"\"\"Wh" "at it does.\"\"\""]):
             self.assertEqual(check(self.write(f"line{i}.py", line + "\n")).returncode, 1, line)
 
+    def test_functions_are_at_most_80_lines_long(self):
+        # A body of n lines and the lines of the signature and of the closing brace.
+        def function(n):
+            return "namespace a {\nclass B {\n  int c(\n      int d) {\n" + "    // }\n" * (n - 1) + \
+                "    const auto e = [] { return \"{\"; };\n  }\n};\n}\n"
+        self.assertEqual(check(self.write("short.h", function(77))).returncode, 0)
+        result = check(self.write("long.h", function(78)))
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stdout, r"^\S+long\.h:3: 'int c.*81\n$")
+        # Tables are not functions, and text in other languages is not checked.
+        table = "constexpr int kTable[] = {" + "\n    1," * 100 + "\n};\n"
+        self.assertEqual(check(self.write("table.cpp", table)).returncode, 0)
+        self.assertEqual(check(self.write("long.js", function(100))).returncode, 0)
+        self.assertEqual(check(self.write("open.cpp", "int a() {\n")).returncode, 1)
+
     def test_file_names_are_checked(self):
         self.assertEqual(check(self.write("pic" "ture.txt", "")).returncode, 1)
 

@@ -68,7 +68,7 @@ glm::dvec3 rotateAboutY(const glm::dvec3& d, double degrees) {
 
 // Coefficients in the order of irradiancePolynomial: the clamped cosine's weights pi, 2 pi/3, pi/4 of the
 // bands times the squared norms of the basis times the moments of the radiance. Source: Ramamoorthi and
-// Hanrahan 2001, equations 3 and 8.
+// Hanrahan 2001 (shaders/optics/environment.h).
 struct Moments {
   std::array<glm::dvec3, 9> sums{};
   void add(const glm::dvec3& n, const glm::dvec3& light) {

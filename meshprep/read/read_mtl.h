@@ -18,7 +18,7 @@
 // A single number stands for three equal ones. Numbers out of range are clamped.
 //
 // Source: Wavefront Technologies, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1, "MTL format"; width
-// of the lobe: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, section 5.2; Pm
+// of the lobe: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Pm
 // and Pr: Clara.io's extension for physically based materials.
 #pragma once
 

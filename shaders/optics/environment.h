@@ -1,7 +1,7 @@
 // Environment light, without trigonometry.
 
 // Octahedral map of unit vectors onto [0, 1]^2, and its inverse. Source: Cigolle et al., A Survey of Efficient
-// Representations for Independent Unit Vectors, JCGT 3(2), 2014, section 3.
+// Representations for Independent Unit Vectors, JCGT 3(2), 2014.
 FN void octahedralFromDirection(real3 d, OUT(real) u, OUT(real) v) {
   real scale = R(1.0) / (absR(d.x) + absR(d.y) + absR(d.z));
   real x = d.x * scale;
@@ -25,7 +25,7 @@ FN real3 directionFromOctahedral(real u, real v) {
 
 // Irradiance in W/m^2 of a distant environment on a surface with unit normal n. c0 to c8: coefficients of one colour
 // for 1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2, multiplied with the factors of the clamped cosine. Source: Ramamoorthi
-// and Hanrahan, An Efficient Representation for Irradiance Environment Maps, SIGGRAPH 2001, equation 13.
+// and Hanrahan, An Efficient Representation for Irradiance Environment Maps, SIGGRAPH 2001.
 FN real irradiancePolynomial(real3 n, real c0, real c1, real c2, real c3, real c4, real c5, real c6, real c7, real c8) {
   real linear = c1 * n.y + c2 * n.z + c3 * n.x;
   real mixed = c4 * n.x * n.y + c5 * n.y * n.z + c7 * n.x * n.z;

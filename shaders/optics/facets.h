@@ -3,7 +3,7 @@
 // toLight, n: unit vectors.
 
 // Unit normal of the facet for a point (px, py) of the unit disk. The disk's first axis is perpendicular to toCamera
-// and n. Source: Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 7(4), 2018, appendix A.
+// and n. Source: Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 7(4), 2018, sections 3 and 4.
 FN real3 facetNormal(real3 toCamera, real3 n, real alpha, real px, real py) {
   real3 across = sDirection(toCamera * R(-1.0), n);  // perpendicular to the plane of incidence
   real3 along = cross3(n, across);

@@ -1,6 +1,6 @@
 // Thin film: a plane layer of real index on a dielectric or a conductor, all internal reflections summed with their
 // phases (Airy's formula). Signs and time dependence as in fresnel.h. Source: Born and Wolf, Principles of Optics, 7th
-// edition, 1.6.4 and 14.4.
+// edition, 1.6.4.
 
 struct Film {
   Reflectance reflected;

@@ -4,7 +4,7 @@
 
 // Canonical frame of a propagation direction, on which both ends of a ray agree without sending it. It jumps where z.z
 // passes -1e-30, and not at 0, where a zero may change its sign and a denormal may be flushed between the two ends.
-// Source: Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017, listing 3.
+// Source: Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017, branchlessONB.
 FN void canonicalFrame(real3 z, OUT(real3) x, OUT(real3) y) {
   real sign = selectR(lessR(z.z, R(-1e-30)), R(-1.0), R(1.0));
   real a = R(-1.0) / (sign + z.z);

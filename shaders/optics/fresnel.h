@@ -9,7 +9,7 @@
 //   r_s = -(eta^2 - 1)/(c + t)^2,  rho = r_p/r_s = (sin^2 - c t)/(sin^2 + c t)
 //
 // which has no difference of nearly equal numbers near an index match. Source: Born and Wolf, Principles of Optics, 7th
-// edition, 1.5.2 (equations 20 and 21) and 14.2. The result depends on the side of viewing only by the frames.
+// edition, 1.5.2 and 14.2. The result depends on the side of viewing only by the frames.
 
 // Power reflectances and the cross term X = r_p conj(r_s), which is all that the Mueller matrix of a reflection needs.
 struct Reflectance {
@@ -74,7 +74,7 @@ FN Reflectance dielectricReflectance(real c, real n1, real n2) {
 }
 
 // Transmission through a dielectric: T_s = 4 c t/(c + t)^2, T_p = 4 eta^2 c t/(eta^2 c + t)^2. All 0 in total
-// reflection; 1 at every angle for n1 = n2. Source: Born and Wolf, 1.5.3.
+// reflection; 1 at every angle for n1 = n2. Source: Born and Wolf, 1.5.
 FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
   RefractionTerms f = refractionTerms(c, n1, n2);
   mask none = orM(f.matched, f.total);

@@ -1,5 +1,5 @@
 // Schlick's approximation of the unpolarized reflectance: F0 + (1 - F0)(1 - c)^5. Source: Schlick, An Inexpensive BRDF
-// Model for Physically-based Rendering, Computer Graphics Forum 13(3), 1994, equation 24.
+// Model for Physically-based Rendering, Computer Graphics Forum 13(3), 1994.
 //
 // c: cosine of the angle of incidence; n1, n2 - i k2: indices; f0: reflectance at normal incidence. Light that leaves
 // the denser dielectric uses the cosine of the transmitted ray; total reflection gives 1.

@@ -7,8 +7,8 @@
 //   T' = T^2 a / (1 - R^2 a^2),   R' = R + T^2 R a^2 / (1 - R^2 a^2)
 // and for the cross terms, whose factor is X per internal reflection and T_s T_p per pair of transmissions,
 //   Y' = T_s T_p a / (1 - X^2 a^2),   X' = X + T_s T_p X a^2 / (1 - X^2 a^2).
-// Y' is less than sqrt(T_s' T_p'): the sum depolarizes. Source: Born and Wolf, Principles of Optics, 7.6.1, with powers
-// in place of amplitudes.
+// Y' is less than sqrt(T_s' T_p'): the sum depolarizes. Source: Born and Wolf, Principles of Optics, 7th edition,
+// 7.6.1, with powers in place of amplitudes.
 //
 // At grazing incidence R and X tend to 1 and the plain denominators cancel. The forms here use
 //   1 - R^2 = T (2 - T),   1 - X^2 = T_s + T_p - T_s T_p,   1 - q a^2 = (1 - a^2) + a^2 (1 - q).

@@ -3,7 +3,7 @@
 // Normal of the plane whose s direction is the element's axis of the terms: of a polarizer the direction of the light
 // that it transmits, perpendicular to its absorbing axis, which is in the element across the transmission axis; of a
 // wave plate the fast axis, seen along the ray. Source: Korger et al., The polarization properties of a tilted
-// polarizer, Optics Express 21(22), 2013.
+// polarizer, Optics Express 21, 27032 (2013).
 FN real3 polarizingElementNormal(IN(Hit) h) { return cross3(h.face, materialExtra(h.material).axis); }
 
 // Mueller terms of one colour: [[A, B], [B, A]] of the two transmittances on (S0, S1), and

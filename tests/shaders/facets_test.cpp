@@ -57,7 +57,7 @@ TYPED_TEST(FacetsTest, DistributionOfVisibleNormals) {
 
 TYPED_TEST(FacetsTest, MeanWeightIsTheAlbedo) {
   MALUS_TYPES;
-  // The integral over directions of D G2/(4 o.n), the reflection without Fresnel; Walter et al. 2007, equation 20.
+  // The integral over directions of D G2/(4 o.n), the reflection without Fresnel; Walter et al. 2007.
   for (const double alpha : {0.1, 0.3, 0.7})
     for (const double degrees : {10.0, 56.31, 80.0}) {
       const double theta = degrees * kPi / 180;

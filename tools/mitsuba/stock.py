@@ -15,7 +15,7 @@ Bernstein's inequality makes no assumption about the distribution:
 so that t(p) = (M L/3 + sqrt((M L/3)^2 + 2 N s^2 L)) / N with L = ln(2/p). With Bonferroni's correction, p is
 SIGNIFICANCE divided by the number of pixels and components. (A z-test would assume a normal distribution of the mean,
 which rare bright branches violate; z is reported only.) Source: Boucheron, Lugosi and Massart, Concentration
-Inequalities, 2013, theorem 2.10. ROUNDING times the mean S0 of the image is allowed for single precision.
+Inequalities, 2013. ROUNDING times the mean S0 of the image is allowed for single precision.
 """
 import drjit as dr
 import mitsuba as mi

@@ -35,8 +35,8 @@ TEST(RenderScene, EmittersInsideGlassGiveBasicRadiance) {
 }
 
 TEST(RenderScene, HemisphereTransmittanceOfGlass) {
-  // 1 - 0.0918 for n = 1.5: the diffuse reflectance of an interface from outside (Egan and Hilgeman 1979,
-  // Optical Properties of Inhomogeneous Materials: .0918).
+  // 1 - 0.0918 for n = 1.5: the diffuse reflectance of an interface from outside, twice the integral over the cosine c
+  // of c times the mean of R_s and R_p, by numerical quadrature.
   const glm::dvec3 t = hemisphereTransmittance(test::dielectric(pack::MaterialKind::paint, 1.5, 1));
   EXPECT_NEAR(t.x, 1 - 0.0918, 2e-4);
   EXPECT_NEAR(hemisphereTransmittance(test::dielectric(pack::MaterialKind::paint, 1.0, 1)).y, 1, 1e-12);

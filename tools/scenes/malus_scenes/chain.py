@@ -2,7 +2,7 @@
 
 The closed form propagates the coherence matrix <E E*> of the light in space, 3 x 3 and Hermitian, from the emitter to
 the camera. It uses neither Stokes vectors nor frames, so it shares nothing with the renderers.
-Complex index eta - i k, time e^{+iwt}. Source: Born and Wolf, Principles of Optics, 1.5.2 and 10.8.1.
+Complex index eta - i k, time e^{+iwt}. Source: Born and Wolf, Principles of Optics, 7th edition, 1.5.2.
 """
 import cmath
 import math

@@ -63,7 +63,7 @@ uniformly white and the plate uniformly grey.
 
 def coated(degrees, film, thickness, below):
     """Returns the mean reflectance of a film in air at the three wavelengths; below: complex indices of the substrate.
-    Source: Born and Wolf, Principles of Optics, 1.6.4."""
+    Source: Born and Wolf, Principles of Optics, 7th edition, 1.6.4."""
     sine, means = math.sin(math.radians(degrees)), []
     for n, wavelength in zip(below, WAVELENGTHS):
         air, coat, ground = ((cmath.sqrt(i * i - sine * sine), i * i) for i in (1.0, film, n))

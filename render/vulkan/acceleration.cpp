@@ -25,6 +25,10 @@ void requireCounts(const Device& device, const render::RenderScene& scene) {
   require("triangles", triangles, limits.maxPrimitiveCount, "maxPrimitiveCount");
 }
 
+const char* levelName(VkAccelerationStructureTypeKHR type) {
+  return type == VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR ? "top-level structure" : "bottom-level structure";
+}
+
 }  // namespace
 
 Acceleration::Acceleration(const Device& device, const render::RenderScene& scene, const Buffer& positions,
@@ -53,7 +57,7 @@ Acceleration::Level Acceleration::buildBottom(const Device& device, const render
     geometries.push_back(geometry);
     ranges.push_back({scene.meshTriangles[i], 0, 0, 0});
   }
-  return build(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometries, ranges);
+  return compact(device, build(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometries, ranges));
 }
 
 Acceleration::Level Acceleration::buildTop(const Device& device, VkAccelerationStructureKHR bottom) {
@@ -76,14 +80,59 @@ Acceleration::Level Acceleration::buildTop(const Device& device, VkAccelerationS
   return build(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, {geometry}, {{1, 0, 0, 0}});
 }
 
+Acceleration::Level Acceleration::makeLevel(const Device& device, VkAccelerationStructureTypeKHR type,
+                                            VkDeviceSize bytes) {
+  Level result;
+  result.storage =
+      Buffer(device, levelName(type), bytes,
+             VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+             kDeviceMemory);
+  VkAccelerationStructureCreateInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
+  info.buffer = result.storage.get();
+  info.size = bytes;
+  info.type = type;
+  result.structure = create(device.get(), device.functions().createAccelerationStructure, info,
+                            device.functions().destroyAccelerationStructure,
+                            fmt::format("vkCreateAccelerationStructureKHR ({})", levelName(type)));
+  return result;
+}
+
+Acceleration::Level Acceleration::compact(const Device& device, Level level) {
+  constexpr VkQueryType kQuery = VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR;
+  VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+  info.queryType = kQuery;
+  info.queryCount = 1;
+  const Owned<VkQueryPool> pool =
+      create(device.get(), vkCreateQueryPool, info, vkDestroyQueryPool, "vkCreateQueryPool (compacted size)");
+  const VkAccelerationStructureKHR built = level.structure.get();
+  device.submit("compacted size", [&](VkCommandBuffer commands) {
+    vkCmdResetQueryPool(commands, pool.get(), 0, 1);
+    device.functions().cmdWriteAccelerationStructuresProperties(commands, 1, &built, kQuery, pool.get(), 0);
+  });
+  VkDeviceSize bytes = 0;
+  check(vkGetQueryPoolResults(device.get(), pool.get(), 0, 1, sizeof bytes, &bytes, sizeof bytes,
+                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "vkGetQueryPoolResults (compacted size)");
+  if (bytes == 0 || bytes >= level.storage.sizeBytes()) return level;
+
+  Level result = makeLevel(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, bytes);
+  VkCopyAccelerationStructureInfoKHR copy{VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR};
+  copy.src = built;
+  copy.dst = result.structure.get();
+  copy.mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR;
+  device.submit("compaction",
+                [&](VkCommandBuffer commands) { device.functions().cmdCopyAccelerationStructure(commands, &copy); });
+  return result;
+}
+
 Acceleration::Level Acceleration::build(const Device& device, VkAccelerationStructureTypeKHR type,
                                         const std::vector<VkAccelerationStructureGeometryKHR>& geometries,
                                         const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges) {
-  const char* const purpose =
-      type == VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR ? "top-level structure" : "bottom-level structure";
   VkAccelerationStructureBuildGeometryInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
   info.type = type;
   info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+  if (type == VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR)
+    info.flags |= VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR;
   info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
   info.geometryCount = static_cast<std::uint32_t>(geometries.size());
   info.pGeometries = geometries.data();
@@ -94,26 +143,14 @@ Acceleration::Level Acceleration::build(const Device& device, VkAccelerationStru
   device.functions().getAccelerationStructureBuildSizes(device.get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
                                                         &info, counts.data(), &sizes);
 
-  Level result;
-  result.storage =
-      Buffer(device, purpose, sizes.accelerationStructureSize,
-             VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-             kDeviceMemory);
-  VkAccelerationStructureCreateInfoKHR createInfo{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
-  createInfo.buffer = result.storage.get();
-  createInfo.size = sizes.accelerationStructureSize;
-  createInfo.type = type;
-  result.structure = create(device.get(), device.functions().createAccelerationStructure, createInfo,
-                            device.functions().destroyAccelerationStructure,
-                            fmt::format("vkCreateAccelerationStructureKHR ({})", purpose));
-
+  Level result = makeLevel(device, type, sizes.accelerationStructureSize);
   const VkDeviceSize alignment = device.capabilities().minAccelerationStructureScratchOffsetAlignment;
-  const Buffer scratch(device, fmt::format("scratch of the {}", purpose), sizes.buildScratchSize + alignment,
+  const Buffer scratch(device, fmt::format("scratch of the {}", levelName(type)), sizes.buildScratchSize + alignment,
                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, kDeviceMemory);
   info.dstAccelerationStructure = result.structure.get();
   info.scratchData.deviceAddress = (scratch.address() + alignment - 1) / alignment * alignment;
   const VkAccelerationStructureBuildRangeInfoKHR* const first = ranges.data();
-  device.submit(fmt::format("build of the {}", purpose), [&](VkCommandBuffer commands) {
+  device.submit(fmt::format("build of the {}", levelName(type)), [&](VkCommandBuffer commands) {
     device.functions().cmdBuildAccelerationStructures(commands, 1, &info, &first);
   });
   return result;

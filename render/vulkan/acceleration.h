@@ -1,4 +1,5 @@
-// The acceleration structures of a scene: a bottom level with one geometry per mesh, and one instance of it.
+// The acceleration structures of a scene: a bottom level with one geometry per mesh, compacted, and one instance of it.
+// They are built for fast traces.
 #pragma once
 
 #include <vector>
@@ -16,6 +17,7 @@ class Acceleration {
                const Buffer& triangles);
 
   VkAccelerationStructureKHR top() const { return top_.structure.get(); }
+  VkDeviceSize bottomBytes() const { return bottom_.storage.sizeBytes(); }
 
  private:
   struct Level {
@@ -26,6 +28,9 @@ class Acceleration {
   static Level build(const Device& device, VkAccelerationStructureTypeKHR type,
                      const std::vector<VkAccelerationStructureGeometryKHR>& geometries,
                      const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges);
+  static Level makeLevel(const Device& device, VkAccelerationStructureTypeKHR type, VkDeviceSize bytes);
+  // The level in a buffer without unused memory.
+  static Level compact(const Device& device, Level level);
   static Level buildBottom(const Device& device, const render::RenderScene& scene, const Buffer& positions,
                            const Buffer& triangles);
   static Level buildTop(const Device& device, VkAccelerationStructureKHR bottom);

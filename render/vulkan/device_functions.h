@@ -4,16 +4,18 @@
 #include <vulkan/vulkan.h>
 
 // X(member, function)
-#define MALUS_DEVICE_FUNCTIONS(X)                                                      \
-  X(getBufferDeviceAddress, vkGetBufferDeviceAddress)                                  \
-  X(createAccelerationStructure, vkCreateAccelerationStructureKHR)                     \
-  X(destroyAccelerationStructure, vkDestroyAccelerationStructureKHR)                   \
-  X(getAccelerationStructureBuildSizes, vkGetAccelerationStructureBuildSizesKHR)       \
-  X(getAccelerationStructureDeviceAddress, vkGetAccelerationStructureDeviceAddressKHR) \
-  X(cmdBuildAccelerationStructures, vkCmdBuildAccelerationStructuresKHR)               \
-  X(createRayTracingPipelines, vkCreateRayTracingPipelinesKHR)                         \
-  X(getRayTracingShaderGroupHandles, vkGetRayTracingShaderGroupHandlesKHR)             \
-  X(getRayTracingShaderGroupStackSize, vkGetRayTracingShaderGroupStackSizeKHR)         \
+#define MALUS_DEVICE_FUNCTIONS(X)                                                            \
+  X(getBufferDeviceAddress, vkGetBufferDeviceAddress)                                        \
+  X(createAccelerationStructure, vkCreateAccelerationStructureKHR)                           \
+  X(destroyAccelerationStructure, vkDestroyAccelerationStructureKHR)                         \
+  X(getAccelerationStructureBuildSizes, vkGetAccelerationStructureBuildSizesKHR)             \
+  X(getAccelerationStructureDeviceAddress, vkGetAccelerationStructureDeviceAddressKHR)       \
+  X(cmdBuildAccelerationStructures, vkCmdBuildAccelerationStructuresKHR)                     \
+  X(cmdCopyAccelerationStructure, vkCmdCopyAccelerationStructureKHR)                         \
+  X(cmdWriteAccelerationStructuresProperties, vkCmdWriteAccelerationStructuresPropertiesKHR) \
+  X(createRayTracingPipelines, vkCreateRayTracingPipelinesKHR)                               \
+  X(getRayTracingShaderGroupHandles, vkGetRayTracingShaderGroupHandlesKHR)                   \
+  X(getRayTracingShaderGroupStackSize, vkGetRayTracingShaderGroupStackSizeKHR)               \
   X(cmdTraceRays, vkCmdTraceRaysKHR)
 
 // Those of a device that reports statistics of pipelines.

@@ -91,5 +91,21 @@ TEST(VulkanFailures, EachIsReportedAndLeaksNothing) {
   EXPECT_EQ(attempt(scene).pixels, expected.pixels);
 }
 
+TEST(VulkanAcceleration, BottomLevelIsCompacted) {
+  const pack::Scene scene = makeScene();
+  const std::vector<float> expected = attempt(scene).pixels;
+  test::watchVulkanCalls(0);
+  test::padStructures(4096);
+  const std::vector<float> found = attempt(scene).pixels;
+  test::padStructures(0);
+  const test::VulkanCalls calls = test::vulkanCalls();
+  EXPECT_EQ(calls.compactions, 1u);
+  ASSERT_EQ(calls.structureBytes.size(), 3u);  // bottom level as built and compacted, top level
+  EXPECT_EQ(calls.structureBytes[1] + 4096, calls.structureBytes[0]);
+  EXPECT_EQ(found, expected);
+  EXPECT_TRUE(calls.live.empty());
+  EXPECT_TRUE(calls.messages.empty());
+}
+
 }  // namespace
 }  // namespace malus::vulkan

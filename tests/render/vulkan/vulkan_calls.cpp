@@ -22,6 +22,7 @@ struct State {
   PFN_vkDebugUtilsMessengerCallbackEXT callback = nullptr;  // the renderer's
   std::map<std::string, PFN_vkVoidFunction, std::less<>> extensions;
   std::optional<VkPhysicalDeviceMemoryProperties> memory;  // simulated
+  std::uint64_t structurePadding = 0;
 };
 State& state() {
   static State instance;
@@ -98,7 +99,10 @@ VKAPI_ATTR VkResult VKAPI_CALL createStructure(VkDevice device, const VkAccelera
   if (fails(kName)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   const VkResult result =
       extensionFunction<PFN_vkCreateAccelerationStructureKHR>(kName)(device, info, allocator, structure);
-  if (result == VK_SUCCESS) count(kName, 1);
+  if (result != VK_SUCCESS) return result;
+  count(kName, 1);
+  const std::lock_guard lock(state().mutex);
+  state().calls.structureBytes.push_back(info->size);
   return result;
 }
 
@@ -107,6 +111,22 @@ VKAPI_ATTR void VKAPI_CALL destroyStructure(VkDevice device, VkAccelerationStruc
   if (structure != VK_NULL_HANDLE) count("vkCreateAccelerationStructureKHR", -1);
   extensionFunction<PFN_vkDestroyAccelerationStructureKHR>("vkDestroyAccelerationStructureKHR")(device, structure,
                                                                                                 allocator);
+}
+
+VKAPI_ATTR void VKAPI_CALL getBuildSizes(VkDevice device, VkAccelerationStructureBuildTypeKHR type,
+                                         const VkAccelerationStructureBuildGeometryInfoKHR* info,
+                                         const std::uint32_t* counts, VkAccelerationStructureBuildSizesInfoKHR* sizes) {
+  extensionFunction<PFN_vkGetAccelerationStructureBuildSizesKHR>("vkGetAccelerationStructureBuildSizesKHR")(
+      device, type, info, counts, sizes);
+  sizes->accelerationStructureSize += state().structurePadding;
+}
+
+VKAPI_ATTR void VKAPI_CALL copyStructure(VkCommandBuffer commands, const VkCopyAccelerationStructureInfoKHR* info) {
+  {
+    const std::lock_guard lock(state().mutex);
+    if (info->mode == VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR) ++state().calls.compactions;
+  }
+  extensionFunction<PFN_vkCmdCopyAccelerationStructureKHR>("vkCmdCopyAccelerationStructureKHR")(commands, info);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkDeferredOperationKHR operation, VkPipelineCache cache,
@@ -136,6 +156,8 @@ PFN_vkVoidFunction substitute(const char* name, PFN_vkVoidFunction real) {
       {"vkDestroyDebugUtilsMessengerEXT", reinterpret_cast<PFN_vkVoidFunction>(destroyMessenger)},
       {"vkCreateAccelerationStructureKHR", reinterpret_cast<PFN_vkVoidFunction>(createStructure)},
       {"vkDestroyAccelerationStructureKHR", reinterpret_cast<PFN_vkVoidFunction>(destroyStructure)},
+      {"vkGetAccelerationStructureBuildSizesKHR", reinterpret_cast<PFN_vkVoidFunction>(getBuildSizes)},
+      {"vkCmdCopyAccelerationStructureKHR", reinterpret_cast<PFN_vkVoidFunction>(copyStructure)},
       {"vkCreateRayTracingPipelinesKHR", reinterpret_cast<PFN_vkVoidFunction>(createPipelines)},
       {"vkGetRayTracingShaderGroupHandlesKHR", reinterpret_cast<PFN_vkVoidFunction>(getGroupHandles)}};
   State& s = state();
@@ -169,6 +191,11 @@ void simulateMemory(const std::array<std::uint64_t, 3>& sizes) {
   for (std::size_t i = 0; i < sizes.size(); ++i) memory.memoryHeaps[i].size = sizes[i];
   const std::lock_guard lock(state().mutex);
   state().memory = memory;
+}
+
+void padStructures(std::uint64_t bytes) {
+  const std::lock_guard lock(state().mutex);
+  state().structurePadding = bytes;
 }
 
 void endSimulatedMemory() {
@@ -282,6 +309,7 @@ WATCHED void VKAPI_CALL vkGetPhysicalDeviceMemoryProperties(VkPhysicalDevice dev
 WATCHED void VKAPI_CALL vkGetBufferMemoryRequirements(VkDevice device, VkBuffer buffer,
                                                       VkMemoryRequirements* requirements) {
   loaderFunction<PFN_vkGetBufferMemoryRequirements>("vkGetBufferMemoryRequirements")(device, buffer, requirements);
+  requirements->size += state().structurePadding;  // the driver copies padded structures with their padding
   if (state().memory) requirements->memoryTypeBits = (1u << state().memory->memoryTypeCount) - 1;
 }
 
@@ -341,10 +369,16 @@ WATCH_CALL(vkBeginCommandBuffer, (VkCommandBuffer commands, const VkCommandBuffe
 WATCH_CALL(vkEndCommandBuffer, (VkCommandBuffer commands), (commands))
 WATCH_CALL(vkQueueSubmit, (VkQueue queue, std::uint32_t number, const VkSubmitInfo* infos, VkFence fence),
            (queue, number, infos, fence))
-WATCH_CALL(vkGetQueryPoolResults,
-           (VkDevice device, VkQueryPool pool, std::uint32_t first, std::uint32_t number, std::size_t bytes, void* data,
-            VkDeviceSize stride, VkQueryResultFlags flags),
-           (device, pool, first, number, bytes, data, stride, flags))
+WATCHED VkResult VKAPI_CALL vkGetQueryPoolResults(VkDevice device, VkQueryPool pool, std::uint32_t first,
+                                                  std::uint32_t number, std::size_t bytes, void* data,
+                                                  VkDeviceSize stride, VkQueryResultFlags flags) {
+  if (fails("vkGetQueryPoolResults")) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  const VkResult result = loaderFunction<PFN_vkGetQueryPoolResults>("vkGetQueryPoolResults")(
+      device, pool, first, number, bytes, data, stride, flags);
+  // Two timestamps have 16 bytes, the compacted size of a structure 8.
+  if (bytes == 8) *static_cast<std::uint64_t*>(data) -= state().structurePadding;
+  return result;
+}
 
 WATCHED VkResult VKAPI_CALL vkQueueWaitIdle(VkQueue queue) {
   const VkResult result = loaderFunction<PFN_vkQueueWaitIdle>("vkQueueWaitIdle")(queue);

@@ -22,19 +22,25 @@ enum SimulatedHeap : std::uint32_t { kLocalHeap, kHostHeap, kLocalHostHeap };
 void simulateMemory(const std::array<std::uint64_t, 3>& sizes);
 void endSimulatedMemory();
 
+// Raises the size that the driver requires of an acceleration structure, but not its compacted size: lavapipe's
+// structures are compact when built.
+void padStructures(std::uint64_t bytes);
+
 struct Allocation {
   std::uint32_t type;  // index of the memory type
   std::uint64_t bytes;
 };
 
 struct VulkanCalls {
-  std::size_t fallible = 0;             // calls that could fail
-  std::string failed;                   // function that was made to fail; empty: none
-  std::map<std::string, int> live;      // objects alive, by the function that creates them; only those not 0
-  std::vector<std::string> messages;    // of the validation layers
-  std::vector<Allocation> allocations;  // those that succeeded
-  std::uint64_t largestUpload = 0;      // bytes of the largest buffer that can only be copied from
-  std::vector<std::string> unwatched;   // functions that create objects and are not watched
+  std::size_t fallible = 0;                   // calls that could fail
+  std::string failed;                         // function that was made to fail; empty: none
+  std::map<std::string, int> live;            // objects alive, by the function that creates them; only those not 0
+  std::vector<std::string> messages;          // of the validation layers
+  std::vector<Allocation> allocations;        // those that succeeded
+  std::uint64_t largestUpload = 0;            // bytes of the largest buffer that can only be copied from
+  std::size_t compactions = 0;                // copies of acceleration structures that compact
+  std::vector<std::uint64_t> structureBytes;  // of acceleration structures, in the order of their creation
+  std::vector<std::string> unwatched;         // functions that create objects and are not watched
 };
 VulkanCalls vulkanCalls();
 

@@ -14,6 +14,13 @@
 
 namespace malus::render {
 
+// An image that will be rendered.
+struct Preparation {
+  std::string method;
+  RenderParameters parameters;
+  bool countRays = false;  // by countRays() too
+};
+
 // A renderer refers to the pack::Scene that it was made from: the scene must outlive the renderer and must not change.
 // Calls must not overlap; a renderer uses several threads by itself.
 class Renderer {
@@ -30,6 +37,10 @@ class Renderer {
   virtual std::vector<std::string> methods() const = 0;
   // Largest RenderParameters::depth that the device can render by a method.
   virtual std::uint32_t maxDepth(std::string_view method) const = 0;
+
+  // Prepares images, so that their first render() is faster: Vulkan compiles their shaders in parallel. Optional; what
+  // fails is reported by render().
+  virtual void prepare(const std::vector<Preparation>& /*images*/) {}
 
   // report: called with the fraction of the image that is finished, at most once per second, by renderers that render
   // in parts.

@@ -92,6 +92,22 @@ RenderResult renderRow(ComparisonRow& row, RowGroup& group, const RenderResult& 
   return result;
 }
 
+// Compiles all rows of one backend at once. A backend that cannot be used is reported by its rows.
+void prepareRows(const RowGroup& group, Backend backend, const std::vector<MethodVariant>& variants,
+                 const Output& output) {
+  output.progress(
+      fmt::format("{}: {}, preparing {} methods", groupTitle(group), backendInfo(backend).name, variants.size()));
+  std::vector<Preparation> images;
+  for (const MethodVariant& variant : variants) {
+    Preparation& image = images.emplace_back(Preparation{variant.method, group.parameters, true});
+    image.parameters.everyEffect = variant.everyEffect;
+  }
+  try {
+    (*group.renderers)[backend].prepare(images);
+  } catch (const Error&) {
+  }
+}
+
 // Renders every method on one backend.
 void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const std::vector<std::string>& methods,
                 const RenderResult& reference, const Output& output) {
@@ -99,7 +115,9 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
   const EffectsChoice cheapest =
       chooseEffects({"auto"}, completeRecursiveMethod().name, group.pack->scene, {p.depth, p.analyser, false, false});
   EffectsTable table(cheapest);
-  for (const MethodVariant& variant : methodVariants(methods, cheapest)) {
+  const std::vector<MethodVariant> variants = methodVariants(methods, cheapest);
+  prepareRows(group, backend, variants, output);
+  for (const MethodVariant& variant : variants) {
     if (interrupted()) break;
     ComparisonRow row = makeRow(group, backend, variant);
     const std::size_t index = comparison.rows.size();

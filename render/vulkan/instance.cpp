@@ -15,13 +15,6 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
-  static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage ? data->pMessage
-                                                                                : "message without text");
-  return VK_FALSE;
-}
-
 // More threads than cores balance lavapipe's uneven tiles: fewer than 16 were slower on two cores. By default a value
 // of the user's environment is kept.
 void setLavapipeThreads(unsigned threads) {
@@ -45,6 +38,15 @@ Function load(VkInstance instance, const char* name) {
 }
 
 }  // namespace
+
+VKAPI_ATTR VkBool32 VKAPI_CALL Instance::keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                     VkDebugUtilsMessageTypeFlagsEXT,
+                                                     const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  auto& messages = *static_cast<Messages*>(user);
+  const std::lock_guard lock(messages.mutex);
+  messages.texts.emplace_back(data->pMessage ? data->pMessage : "message without text");
+  return VK_FALSE;
+}
 
 Instance::Instance(unsigned threads) {
   setLavapipeThreads(threads);
@@ -88,8 +90,10 @@ std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
 }
 
 void Instance::requireNoMessages() const {
-  if (!messages_.empty())
-    throw Error("Vulkan validation", fmt::format("{} messages, the first: {}", messages_.size(), messages_.front()));
+  const std::lock_guard lock(messages_.mutex);
+  if (!messages_.texts.empty())
+    throw Error("Vulkan validation",
+                fmt::format("{} messages, the first: {}", messages_.texts.size(), messages_.texts.front()));
 }
 
 }  // namespace malus::vulkan

@@ -2,6 +2,7 @@
 // their messages.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,15 @@ class Instance {
   void requireNoMessages() const;
 
  private:
-  std::vector<std::string> messages_;
+  struct Messages {
+    mutable std::mutex mutex;  // several threads may call Vulkan
+    std::vector<std::string> texts;
+  };
+  static VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                                    VkDebugUtilsMessageTypeFlagsEXT types,
+                                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages);
+
+  Messages messages_;
   OwnedInstance instance_;
   OwnedChild<VkInstance, VkDebugUtilsMessengerEXT> messenger_;
 };

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "render/vulkan/pipeline_cache.h"
 #include "render/vulkan/shader_cache.h"
 
 namespace malus::vulkan {
@@ -14,12 +15,13 @@ namespace {
 // Shader modules, stages and groups of a pipeline. The modules are needed until the pipeline exists.
 struct Shaders {
   std::vector<Owned<VkShaderModule>> modules;
+  std::string code;  // SPIR-V of all stages
   std::vector<VkPipelineShaderStageCreateInfo> stages;
   std::vector<VkRayTracingShaderGroupCreateInfoKHR> groups;
 };
 
-Owned<VkShaderModule> createModule(const Device& device, const Variant& variant, const StageSource& source) {
-  const std::vector<std::uint32_t> spirv = cachedSpirv(variant, source);
+Owned<VkShaderModule> createModule(const Device& device, const std::vector<std::uint32_t>& spirv,
+                                   const StageSource& source) {
   VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
   info.codeSize = spirv.size() * sizeof(std::uint32_t);
   info.pCode = spirv.data();
@@ -30,7 +32,9 @@ Owned<VkShaderModule> createModule(const Device& device, const Variant& variant,
 Shaders createShaders(const Device& device, const Variant& variant) {
   Shaders result;
   for (const StageSource& source : stageSources(variant)) {
-    result.modules.push_back(createModule(device, variant, source));
+    const std::vector<std::uint32_t> spirv = cachedSpirv(variant, source);
+    result.code.append(reinterpret_cast<const char*>(spirv.data()), spirv.size() * sizeof(std::uint32_t));
+    result.modules.push_back(createModule(device, spirv, source));
     VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
     stage.stage = shaderStage(source.stage);
     stage.module = result.modules.back().get();
@@ -83,11 +87,13 @@ Pipeline::Pipeline(const Device& device, const Variant& variant, VkDescriptorSet
   info.pGroups = shaders.groups.data();
   info.maxPipelineRayRecursionDepth = recursion;
   info.layout = layout_.get();
+  const PipelineCache cache(device, fmt::format("{} {} ", recursion, flags) + shaders.code);
   VkPipeline pipeline = VK_NULL_HANDLE;
-  const VkResult result = device.functions().createRayTracingPipelines(device.get(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1,
+  const VkResult result = device.functions().createRayTracingPipelines(device.get(), VK_NULL_HANDLE, cache.get(), 1,
                                                                        &info, nullptr, &pipeline);
   pipeline_ = {device.get(), pipeline, vkDestroyPipeline};
   check(result, fmt::format("vkCreateRayTracingPipelinesKHR (method {})", variant.method));
+  cache.save();
 }
 
 }  // namespace malus::vulkan

@@ -17,7 +17,7 @@ VkShaderStageFlagBits shaderStage(Stage stage);
 class Pipeline {
  public:
   // device, bindings: must outlive the pipeline. recursion: deepest nesting of traces, shadow rays included. Its shader
-  // groups are those of stageSources(), in order. Throws Error.
+  // groups are those of stageSources(), in order. Pipelines can be made by several threads at once. Throws Error.
   Pipeline(const Device& device, const Variant& variant, VkDescriptorSetLayout bindings, std::uint32_t recursion,
            VkPipelineCreateFlags flags = 0);
 

@@ -16,10 +16,9 @@
 #include "render/vulkan/acceleration.h"
 #include "render/vulkan/host_buffers.h"
 #include "render/vulkan/launches.h"
-#include "render/vulkan/pipeline.h"
 #include "render/vulkan/pixel_buffer.h"
+#include "render/vulkan/programs.h"
 #include "render/vulkan/scene_buffers.h"
-#include "render/vulkan/shader_table.h"
 #include "render/vulkan/timestamps.h"
 
 namespace malus::vulkan {
@@ -34,15 +33,6 @@ double durationMs(Clock::time_point from, Clock::time_point to) {
 constexpr std::uint64_t kMaxPixelBytes = std::uint64_t{1} << 27;
 
 double elapsedMs(Clock::time_point start) { return durationMs(start, Clock::now()); }
-
-// A compiled variant for one scene.
-struct Program {
-  Program(const Device& device, const Variant& variant, const render::RenderScene& scene,
-          VkDescriptorSetLayout bindings, std::uint32_t recursion)
-      : pipeline(device, variant, bindings, recursion), table(device, pipeline.get(), stageSources(variant), scene) {}
-  Pipeline pipeline;
-  ShaderTable table;
-};
 
 }  // namespace
 
@@ -61,13 +51,13 @@ struct Renderer::Impl {
         bindings(device),
         host(device, bindings),
         pixels(device),
-        timestamps(device) {
+        timestamps(device),
+        programs(device, renderScene, bindings.layout()) {
     buffers.bind(bindings);
     bindings.bind(Binding::tlas, acceleration.top());
   }
 
   void requireSupported(std::string_view method, const render::RenderParameters& parameters) const;
-  const Program& program(const Variant& variant, std::uint32_t recursion);
   double dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels);
   std::uint64_t maxLaunchPixels(std::size_t channels) const;
   void launchAll(const Program& program, const Variant& variant, const render::RenderParameters& parameters,
@@ -89,8 +79,8 @@ struct Renderer::Impl {
   HostBuffers host;
   PixelBuffer pixels;
   Timestamps timestamps;
-  std::map<std::pair<Variant, std::uint32_t>, std::unique_ptr<const Program>> programs;  // by variant and recursion
-  std::map<std::pair<Variant, std::uint32_t>, LaunchSize> launchSizes;                   // by variant and depth
+  Programs programs;
+  std::map<std::pair<Variant, std::uint32_t>, LaunchSize> launchSizes;  // by variant and depth
   std::function<void(double)> progress;
 };
 
@@ -121,20 +111,13 @@ void Renderer::Impl::requireSupported(std::string_view method, const render::Ren
                 "a recursive method, another device (--device) or --backend embree", fmt::format("'{}'", method));
 }
 
-const Program& Renderer::Impl::program(const Variant& variant, std::uint32_t recursion) {
-  const std::pair key(variant, recursion);
-  if (const auto found = programs.find(key); found != programs.end()) return *found->second;
-  auto made = std::make_unique<const Program>(device, variant, renderScene, bindings.layout(), recursion);
-  return *programs.emplace(key, std::move(made)).first->second;
-}
-
 // Traces the camera's region, copies it to the host and waits. Returns the time of the submission in milliseconds.
 double Renderer::Impl::dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels) {
   host.camera.write(camera);
   const auto start = Clock::now();
   device.submit("trace", [&](VkCommandBuffer commands) {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, program.pipeline.get());
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, program.pipeline.layout(), 0, 1,
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, program.pipeline->get());
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, program.pipeline->layout(), 0, 1,
                             &bindings.set(), 0, nullptr);
     timestamps.begin(commands);
     program.table.trace(commands, camera.regionWidth, camera.regionHeight);
@@ -185,10 +168,7 @@ void Renderer::Impl::launchAll(const Program& program, const Variant& variant,
 }
 
 render::RenderResult Renderer::Impl::trace(const Variant& variant, const render::RenderParameters& parameters) {
-  const auto preparing = Clock::now();
-  const std::size_t programsBefore = programs.size();
-  const Program& chosen = program(variant, requiredRecursion(variant, parameters.depth));
-  const bool isFirstUse = programs.size() > programsBefore;
+  Program& program = programs.get({variant, requiredRecursion(variant, parameters.depth)});
   render::RenderResult image;
   image.width = parameters.region.width;
   image.height = parameters.region.height;
@@ -198,18 +178,18 @@ render::RenderResult Renderer::Impl::trace(const Variant& variant, const render:
   image.pixels.resize(image.channels * count);
   pixels.reserve(image.channels * std::min<std::uint64_t>(count, maxLaunchPixels(image.channels)), bindings);
 
-  // Drivers finish compiling at the first trace: trace one pixel before the timed trace.
-  if (isFirstUse && !variant.countRays && !variant.checkNumerics) {
-    gpu::CameraParameters onePixel = render::makeCameraParameters(scene, parameters);
-    onePixel.regionWidth = onePixel.regionHeight = 1;
-    dispatch(chosen, onePixel, image.channels);
-  }
   image.cost.uploadMs = durationMs(uploading, building);
   image.cost.buildMs = durationMs(building, built);
-  image.cost.compileMs = isFirstUse ? elapsedMs(preparing) : 0;
+  // Drivers finish compiling at the first trace: trace one pixel before the timed trace.
+  if (!program.isTraced && !variant.countRays && !variant.checkNumerics) {
+    gpu::CameraParameters onePixel = render::makeCameraParameters(scene, parameters);
+    onePixel.regionWidth = onePixel.regionHeight = 1;
+    image.cost.compileMs = program.compileMs + dispatch(program, onePixel, image.channels);
+    program.isTraced = true;
+  }
 
   const auto tracing = Clock::now();
-  launchAll(chosen, variant, parameters, image);
+  launchAll(program, variant, parameters, image);
   image.cost.wallMs = elapsedMs(tracing);
   instance.requireNoMessages();
   return image;
@@ -245,6 +225,19 @@ render::RenderResult Renderer::render(std::string_view method, const render::Ren
   image.device = device();
   if (parameters.checkNumerics) image.faults = impl_->checkNumerics(variant, parameters);
   return image;
+}
+
+void Renderer::prepare(const std::vector<render::Preparation>& images) {
+  std::vector<Programs::Key> keys;
+  for (const render::Preparation& image : images) try {
+      impl_->requireSupported(image.method, image.parameters);
+      Variant variant = variantFor(impl_->scene, image.method, image.parameters);
+      keys.push_back({variant, requiredRecursion(variant, image.parameters.depth)});
+      variant.countRays = true;
+      if (image.countRays) keys.push_back({variant, keys.back().recursion});
+    } catch (const Error&) {  // reported by render()
+    }
+  impl_->programs.compile(keys);
 }
 
 std::uint64_t Renderer::countRays(std::string_view method, const render::RenderParameters& parameters) {

@@ -35,8 +35,10 @@ class Renderer final : public render::Renderer {
   Renderer(pack::Scene&& scene, const Options& options) = delete;
   ~Renderer() override;
 
-  // Compiles a method at its first use. Cost::traceMs is measured by the device's clock where it has one. Throws Error
-  // also if the validation layers report a message. After an Error the renderer can be used again.
+  void prepare(const std::vector<render::Preparation>& images) override;
+  // Compiles a method at its first use, unless it was prepared. Cost::traceMs is measured by the device's clock where
+  // it has one. Throws Error also if the validation layers report a message. After an Error the renderer can be used
+  // again.
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
   // By a variant of the shaders that counts; not timed.
   std::uint64_t countRays(std::string_view method, const render::RenderParameters& parameters) override;

@@ -3,14 +3,9 @@
 #include <cstring>
 #include <filesystem>
 #include <set>
+#include <span>
 
-#include <xxhash.h>
-
-#include <fmt/format.h>
-
-#include "meshprep/base/atomic_file.h"
-#include "meshprep/base/cache_folder.h"
-#include "meshprep/base/error.h"
+#include "render/vulkan/cache_file.h"
 #include "render/vulkan/glsl_compiler.h"
 
 namespace malus::vulkan {
@@ -30,53 +25,31 @@ void expand(const Variant& variant, std::string_view text, std::set<std::string>
   }
 }
 
-// File name of a compiled shader: a hash of all that affects the compilation.
-std::string cacheFileName(const Variant& variant, const StageSource& source) {
+// All that affects the compilation.
+std::string cacheKey(const Variant& variant, const StageSource& source) {
   std::string all = glslangVersion() + preamble(variant);
   std::set<std::string> seen;
   expand(variant, stageText(source), seen, all);
-  const XXH128_hash_t hash = XXH3_128bits(all.data(), all.size());
-  return fmt::format("{:016x}{:016x}.spv", hash.high64, hash.low64);
+  return all;
 }
 
-// A file ends with the hash of its other bytes. Empty: missing or damaged.
+// Empty: missing or damaged.
 std::vector<std::uint32_t> load(const fs::path& path) {
-  try {
-    const std::vector<std::byte> bytes = readFile(path, std::size_t{1} << 26);
-    if (bytes.size() < 28 || bytes.size() % 4 != 0) return {};
-    std::uint64_t stored = 0;
-    std::memcpy(&stored, bytes.data() + bytes.size() - 8, 8);
-    if (stored != XXH3_64bits(bytes.data(), bytes.size() - 8)) return {};
-    std::vector<std::uint32_t> words((bytes.size() - 8) / 4);
-    std::memcpy(words.data(), bytes.data(), words.size() * 4);
-    return words.front() == kSpirvMagic ? words : std::vector<std::uint32_t>{};
-  } catch (const Error&) {
-    return {};
-  }
-}
-
-void save(const fs::path& path, const std::vector<std::uint32_t>& words) {
-  try {
-    fs::create_directories(path.parent_path());
-    std::vector<std::byte> bytes(words.size() * 4 + 8);
-    std::memcpy(bytes.data(), words.data(), words.size() * 4);
-    const std::uint64_t hash = XXH3_64bits(bytes.data(), words.size() * 4);
-    std::memcpy(bytes.data() + words.size() * 4, &hash, 8);
-    writeFile(path, bytes);
-  } catch (const std::exception&) {  // the next run compiles again
-  }
+  const std::vector<std::byte> bytes = loadCacheFile(path);
+  if (bytes.size() < 20 || bytes.size() % 4 != 0) return {};  // a SPIR-V header has 5 words
+  std::vector<std::uint32_t> words(bytes.size() / 4);
+  std::memcpy(words.data(), bytes.data(), bytes.size());
+  return words.front() == kSpirvMagic ? words : std::vector<std::uint32_t>{};
 }
 
 }  // namespace
 
 std::vector<std::uint32_t> cachedSpirv(const Variant& variant, const StageSource& source) {
-  const fs::path folder = cacheFolder("spirv");
-  const fs::path file = folder.empty() ? fs::path() : folder / cacheFileName(variant, source);
-  if (!file.empty())
-    if (std::vector<std::uint32_t> words = load(file); !words.empty()) return words;
+  const fs::path file = cacheFile("spirv", cacheKey(variant, source), ".spv");
+  if (std::vector<std::uint32_t> words = load(file); !words.empty()) return words;
   std::vector<std::uint32_t> words = compileGlsl(stageText(source), preamble(variant), source.stage, source.path,
                                                  [&](std::string_view path) { return includedSource(variant, path); });
-  if (!file.empty()) save(file, words);
+  saveCacheFile(file, std::as_bytes(std::span(words)));
   return words;
 }
 

@@ -24,7 +24,7 @@ std::vector<std::byte> readHandles(const Device& device, VkPipeline pipeline, st
 
 ShaderTable::ShaderTable(const Device& device, VkPipeline pipeline, const std::vector<StageSource>& groups,
                          const render::RenderScene& scene)
-    : device_(device) {
+    : device_(&device) {
   const Capabilities& limits = device.capabilities();
   const std::size_t handleBytes = limits.shaderGroupHandleSize;
   const VkDeviceSize stride = alignUp(handleBytes, limits.shaderGroupHandleAlignment),
@@ -65,7 +65,7 @@ ShaderTable::ShaderTable(const Device& device, VkPipeline pipeline, const std::v
 }
 
 void ShaderTable::trace(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) const {
-  device_.functions().cmdTraceRays(commands, &raygen_, &miss_, &hit_, &callable_, width, height, 1);
+  device_->functions().cmdTraceRays(commands, &raygen_, &miss_, &hit_, &callable_, width, height, 1);
 }
 
 }  // namespace malus::vulkan

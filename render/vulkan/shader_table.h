@@ -19,7 +19,7 @@ class ShaderTable {
   void trace(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) const;
 
  private:
-  const Device& device_;
+  const Device* device_;
   Buffer records_;
   VkStridedDeviceAddressRegionKHR raygen_{}, miss_{}, hit_{}, callable_{};
 };

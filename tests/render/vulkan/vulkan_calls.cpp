@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string_view>
+#include <thread>
 
 #include <dlfcn.h>
 #include <vulkan/vulkan.h>
@@ -136,7 +137,10 @@ VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkDeferredOperat
   if (fails(kName)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   const VkResult result = extensionFunction<PFN_vkCreateRayTracingPipelinesKHR>(kName)(device, operation, cache, number,
                                                                                        infos, allocator, pipelines);
-  if (result == VK_SUCCESS) count(kName, static_cast<int>(number));
+  if (result != VK_SUCCESS) return result;
+  count(kName, static_cast<int>(number));
+  const std::lock_guard lock(state().mutex);
+  state().calls.pipelineThreads.push_back(std::this_thread::get_id());
   return result;
 }
 
@@ -285,6 +289,19 @@ WATCH_DESTROY(vkDestroyShaderModule, "vkCreateShaderModule", VkShaderModule)
 WATCH_CREATE(vkCreatePipelineLayout, VkPipelineLayoutCreateInfo, VkPipelineLayout)
 WATCH_DESTROY(vkDestroyPipelineLayout, "vkCreatePipelineLayout", VkPipelineLayout)
 WATCH_DESTROY(vkDestroyPipeline, "vkCreateRayTracingPipelinesKHR", VkPipeline)
+
+WATCHED VkResult VKAPI_CALL vkCreatePipelineCache(VkDevice device, const VkPipelineCacheCreateInfo* info,
+                                                  const VkAllocationCallbacks* allocator, VkPipelineCache* cache) {
+  if (fails("vkCreatePipelineCache")) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  const VkResult result =
+      loaderFunction<PFN_vkCreatePipelineCache>("vkCreatePipelineCache")(device, info, allocator, cache);
+  if (result != VK_SUCCESS) return result;
+  count("vkCreatePipelineCache", 1);
+  const std::lock_guard lock(state().mutex);
+  state().calls.pipelineCacheBytes.push_back(info->initialDataSize);
+  return result;
+}
+WATCH_DESTROY(vkDestroyPipelineCache, "vkCreatePipelineCache", VkPipelineCache)
 
 WATCHED VkResult VKAPI_CALL vkCreateBuffer(VkDevice device, const VkBufferCreateInfo* info,
                                            const VkAllocationCallbacks* allocator, VkBuffer* buffer) {

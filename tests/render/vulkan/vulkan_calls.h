@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace malus::test {
@@ -32,15 +33,17 @@ struct Allocation {
 };
 
 struct VulkanCalls {
-  std::size_t fallible = 0;                   // calls that could fail
-  std::string failed;                         // function that was made to fail; empty: none
-  std::map<std::string, int> live;            // objects alive, by the function that creates them; only those not 0
-  std::vector<std::string> messages;          // of the validation layers
-  std::vector<Allocation> allocations;        // those that succeeded
-  std::uint64_t largestUpload = 0;            // bytes of the largest buffer that can only be copied from
-  std::size_t compactions = 0;                // copies of acceleration structures that compact
-  std::vector<std::uint64_t> structureBytes;  // of acceleration structures, in the order of their creation
-  std::vector<std::string> unwatched;         // functions that create objects and are not watched
+  std::size_t fallible = 0;                      // calls that could fail
+  std::string failed;                            // function that was made to fail; empty: none
+  std::map<std::string, int> live;               // objects alive, by the function that creates them; only those not 0
+  std::vector<std::string> messages;             // of the validation layers
+  std::vector<Allocation> allocations;           // those that succeeded
+  std::uint64_t largestUpload = 0;               // bytes of the largest buffer that can only be copied from
+  std::size_t compactions = 0;                   // copies of acceleration structures that compact
+  std::vector<std::uint64_t> structureBytes;     // of acceleration structures, in the order of their creation
+  std::vector<std::thread::id> pipelineThreads;  // of each pipeline
+  std::vector<std::size_t> pipelineCacheBytes;   // that each pipeline cache began with
+  std::vector<std::string> unwatched;            // functions that create objects and are not watched
 };
 VulkanCalls vulkanCalls();
 

@@ -1,6 +1,6 @@
 // Hooks of shaders/surfaces/hooks.h that need the surfaces: members of both kinds of tracer, included inside them.
 
-bool nearestHit(const real3& origin, const real3& direction, real depth, Hit& hit) {
+bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) {
   ++rays;
   const embree::Intersection at = bvh.nearest(origin, direction);
   if (at.mesh == embree::Intersection::kMiss) return false;

@@ -23,11 +23,6 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 #pragma GCC diagnostic pop
 
 #include "render/embree/find_hit.h"
-
-  // Not inlined: inside the path's loop the compiler's code for it is slower.
-  [[gnu::noinline]] bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) {
-    return nearestHit(origin, direction, depth, hit);
-  }
 };
 
 template <bool kCheckNumerics>

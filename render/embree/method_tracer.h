@@ -32,7 +32,7 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 
   Payload traceRay(real3 origin, real3 direction, real depth) {
     Hit hit;
-    if (!nearestHit(origin, direction, depth, hit)) return shadeEnvironment(direction, depth);
+    if (!findHit(origin, direction, depth, hit)) return shadeEnvironment(direction, depth);
 #if MALUS_EFFECT_TEXTURES
     const Material material = materialAt(hit);
 #else

@@ -75,7 +75,7 @@ FN real3 traceCameraPath(real3 direction, real behind0, real behind1, real behin
         if (h.depth > R(0.5)) {
           if (s.transmits) {
             if (s.reflects) {
-              stack[count] = p;
+              stack[count].throughput = p.throughput;
               followTransmission(stack[count], h, s, camera.tolerance);
               if (maxComponent(stack[count].throughput) > threshold) count = count + 1;
             } else {
@@ -89,13 +89,13 @@ FN real3 traceCameraPath(real3 direction, real behind0, real behind1, real behin
             for (uint i = 0u; rough && i < kFacets; ++i) {
               Facet facet = sampleFacet(h, camera.facets[i].x, camera.facets[i].y);
               if (facet.weight <= R(0.0)) continue;
-              stack[count] = p;
+              stack[count].throughput = p.throughput;
               followFacet(stack[count], h, m, facet, s.coloured, camera.tolerance);
               if (maxComponent(stack[count].throughput) > threshold * (R(1.0) / real(kFacets))) count = count + 1;
             }
           }
           if (s.reflects) {
-            reflectThroughput(p.throughput, s.reflection, s.coloured);
+            applyInterface(p.throughput, s.reflection, s.coloured);
             light.recorded = light.recorded + unpolarizedContribution(p.throughput, direct.highlight);
             followReflection(p, h, s, camera.tolerance);
             // |(q, u, v)| is at most w: where w is 0 nothing is left.

@@ -25,4 +25,4 @@ FN void rotateToSurface(INOUT(Throughput) c, real3 d, real3 n) {}
 FN real3 diffuseExit(IN(Throughput) c, IN(FresnelTerms) f, real3 radiance) {
   return c.share * meanTransmittance(f) * radiance;
 }
-FN void reflectThroughput(INOUT(Throughput) c, IN(FresnelTerms) f, mask coloured) { c.share = c.share * f.r; }
+FN void applyInterface(INOUT(Throughput) c, IN(FresnelTerms) f, mask coloured) { c.share = c.share * f.r; }

@@ -62,7 +62,7 @@ FN void dropPolarization(INOUT(Throughput) c, real tolerance) {
 
 // Into the frame of a surface with normal n, from n's components perpendicular to the ray. At normal incidence, where
 // they are 0, every frame is a frame of the surface.
-FN void rotateToSurface(INOUT(Throughput) c, real3 d, real3 n) {
+FN_INLINE void rotateToSurface(INOUT(Throughput) c, real3 d, real3 n) {
   real3 y = cross3(c.x, d);
   real nx = dot3(n, c.x);
   real ny = dot3(n, y);
@@ -114,7 +114,7 @@ FN real3 diffuseExit(IN(Throughput) c, IN(FresnelTerms) f, real3 radiance) {
 }
 
 // Through an interface, against the light. coloured: the terms differ between colours.
-FN_INLINE void reflectThroughput(INOUT(Throughput) c, IN(FresnelTerms) f, mask coloured) {
+FN_INLINE void applyInterface(INOUT(Throughput) c, IN(FresnelTerms) f, mask coloured) {
   splitColours(c, coloured);
   c.r = applyInterfaceTransposed(c.r, f.rs.x, f.rp.x, f.xRe.x, f.xIm.x);
   if (!anyM(c.split)) return;

@@ -48,7 +48,7 @@ FN void followTransmission(INOUT(CameraPath) p, IN(Hit) h, IN(Scattering) s, rea
   p.origin = originBelow(h);
   p.d = s.transmitted;
   p.depth = h.depth - R(1.0);
-  reflectThroughput(p.throughput, s.transmission, s.coloured);
+  applyInterface(p.throughput, s.transmission, s.coloured);
   dropPolarization(p.throughput, tolerance);
 }
 
@@ -65,7 +65,7 @@ FN void followFacet(INOUT(CameraPath) p, IN(Hit) h, IN(Material) m, IN(Facet) fa
   p.d = facet.mirror;
   p.depth = h.depth - R(1.0) + kBehindRough;
   rotateToSurface(p.throughput, h.d, facet.normal);
-  reflectThroughput(p.throughput, opaqueTerms(facet.c, m, h.material), coloured);
+  applyInterface(p.throughput, opaqueTerms(facet.c, m, h.material), coloured);
   scaleThroughput(p.throughput, splat3(facet.weight));
   dropPolarization(p.throughput, tolerance);
 }

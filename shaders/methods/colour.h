@@ -42,15 +42,12 @@ FN Payload payloadFromSurface(SurfaceLight l, real3 d, real3 s) {
   p.colour = l.colour;
   return p;
 }
-FN SurfaceLight lightReflect(FresnelTerms f, SurfaceLight l) {
+FN SurfaceLight lightThroughInterface(FresnelTerms f, SurfaceLight l) {
   SurfaceLight r;
   r.colour = f.r * l.colour;
   return r;
 }
-FN SurfaceLight lightTransmit(FresnelTerms f, SurfaceLight l) {
-  SurfaceLight r;
-  r.colour = (splat3(R(1.0)) - f.r) * l.colour;
-  return r;
-}
 // Diffuse light that leaves through the interface.
-FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
+FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) {
+  return lightThroughInterface(transmissionTerms(f), lightUnpolarized(radiance));
+}

@@ -37,21 +37,17 @@ FN SurfaceLight lightScale(SurfaceLight a, real3 scale) {
   l.stokes.s3 = a.stokes.s3 * scale;
   return l;
 }
-FN SurfaceLight lightReflect(FresnelTerms f, SurfaceLight l) {
+FN SurfaceLight lightThroughInterface(FresnelTerms f, SurfaceLight l) {
   SurfaceLight r;
   r.stokes = stokesInterface(l.stokes, f.rs, f.rp, f.xRe, f.xIm);
   return r;
 }
-FN SurfaceLight lightTransmit(FresnelTerms f, SurfaceLight l) {
-  real3 ts = splat3(R(1.0)) - f.rs;
-  real3 tp = splat3(R(1.0)) - f.rp;
-  real3 product = ts * tp;
-  SurfaceLight r;
-  r.stokes =
-      stokesInterface(l.stokes, ts, tp, make3(sqrtR(product.x), sqrtR(product.y), sqrtR(product.z)), splat3(R(0.0)));
+FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) {
+  real3 none = splat3(R(0.0));  // unpolarized light has no S2 and S3
+  SurfaceLight r = lightUnpolarized(radiance);
+  r.stokes = stokesInterface(r.stokes, splat3(R(1.0)) - f.rs, splat3(R(1.0)) - f.rp, none, none);
   return r;
 }
-FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
 
 FN real3 surfaceS(real3 d, real3 n) { return sDirection(d, n); }
 

@@ -16,13 +16,15 @@ FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
   f.xIm = select3(m, a.xIm, b.xIm);
   return f;
 }
-// Transmission of a dielectric, in the form of a reflection: T_s = 1 - R_s, T_p = 1 - R_p, X = sqrt(T_s T_p).
+// Transmission of a dielectric without a film, whose terms are the same for all colours, in the form of a reflection:
+// T_s = 1 - R_s, T_p = 1 - R_p, X = sqrt(T_s T_p).
 FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
+  real ts = R(1.0) - reflection.rs.x;
+  real tp = R(1.0) - reflection.rp.x;
   FresnelTerms f;
-  f.rs = splat3(R(1.0)) - reflection.rs;
-  f.rp = splat3(R(1.0)) - reflection.rp;
-  real3 product = f.rs * f.rp;
-  f.xRe = make3(sqrtR(product.x), sqrtR(product.y), sqrtR(product.z));
+  f.rs = splat3(ts);
+  f.rp = splat3(tp);
+  f.xRe = splat3(sqrtR(ts * tp));
   f.xIm = splat3(R(0.0));
   return f;
 }

@@ -69,19 +69,15 @@ FN SurfaceLight lightScale(SurfaceLight a, real3 scale) {
   l.p = a.p * scale;
   return l;
 }
-FN SurfaceLight lightReflect(FresnelTerms f, SurfaceLight l) {
+FN SurfaceLight lightThroughInterface(FresnelTerms f, SurfaceLight l) {
   SurfaceLight r;
   r.s = f.rs * l.s;
   r.p = f.rp * l.p;
   return r;
 }
-FN SurfaceLight lightTransmit(FresnelTerms f, SurfaceLight l) {
-  SurfaceLight r;
-  r.s = (splat3(R(1.0)) - f.rs) * l.s;
-  r.p = (splat3(R(1.0)) - f.rp) * l.p;
-  return r;
+FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) {
+  return lightThroughInterface(transmissionTerms(f), lightUnpolarized(radiance));
 }
-FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
 
 FN real3 surfaceS(real3 d, real3 n) { return sDirection(d, n); }
 

@@ -49,23 +49,21 @@ FN SurfaceLight lightScale(SurfaceLight a, real3 scale) {
   l.s2 = a.s2 * scale;
   return l;
 }
-FN SurfaceLight lightThroughInterface(SurfaceLight a, real3 rs, real3 rp, real3 x) {
-  real3 mean = (rs + rp) * R(0.5);
-  real3 difference = (rs - rp) * R(0.5);
+FN SurfaceLight lightThroughInterface(FresnelTerms f, SurfaceLight a) {
+  real3 mean = (f.rs + f.rp) * R(0.5);
+  real3 difference = (f.rs - f.rp) * R(0.5);
   SurfaceLight l;
   l.s0 = mean * a.s0 + difference * a.s1;
   l.s1 = difference * a.s0 + mean * a.s1;
-  l.s2 = x * a.s2;
+  l.s2 = f.xRe * a.s2;
   return l;
 }
-FN SurfaceLight lightReflect(FresnelTerms f, SurfaceLight l) { return lightThroughInterface(l, f.rs, f.rp, f.xRe); }
-FN SurfaceLight lightTransmit(FresnelTerms f, SurfaceLight l) {
-  real3 ts = splat3(R(1.0)) - f.rs;
-  real3 tp = splat3(R(1.0)) - f.rp;
-  real3 product = ts * tp;
-  return lightThroughInterface(l, ts, tp, make3(sqrtR(product.x), sqrtR(product.y), sqrtR(product.z)));
+FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) {
+  FresnelTerms t = f;
+  t.rs = splat3(R(1.0)) - f.rs;
+  t.rp = splat3(R(1.0)) - f.rp;
+  return lightThroughInterface(t, lightUnpolarized(radiance));  // unpolarized light has no S2, so that t.xRe is unused
 }
-FN SurfaceLight lightFromBelow(FresnelTerms f, real3 radiance) { return lightTransmit(f, lightUnpolarized(radiance)); }
 
 FN real3 surfaceS(real3 d, real3 n) { return sDirection(d, n); }
 

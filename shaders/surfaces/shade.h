@@ -19,14 +19,14 @@ FN_INLINE SurfaceLight reflectedLight(IN(Hit) h, IN(Scattering) s, real3 highlig
   Payload returned = traceRay(originAbove(h), s.reflected, h.depth - R(1.0));
   if (kCheckNumerics) slack = slack + roundingSlack(payloadStokes(returned, s.reflected));
   SurfaceLight arriving = lightAtSurface(returned, s.reflected, sDir);
-  return lightReflect(s.reflection, lightAdd(arriving, lightUnpolarized(highlight)));
+  return lightThroughInterface(s.reflection, lightAdd(arriving, lightUnpolarized(highlight)));
 }
 
 // Light of the transmitted ray, behind the surface's transmission.
 FN_INLINE SurfaceLight transmittedLight(IN(Hit) h, IN(Scattering) s, real3 sDir, INOUT(real3) slack) {
   Payload returned = traceRay(originBelow(h), s.transmitted, h.depth - R(1.0));
   if (kCheckNumerics) slack = slack + roundingSlack(payloadStokes(returned, s.transmitted));
-  return lightReflect(s.transmission, lightAtSurface(returned, s.transmitted, sDir));
+  return lightThroughInterface(s.transmission, lightAtSurface(returned, s.transmitted, sDir));
 }
 
 // Light that one facet reflects toward the camera, in the frame of the surface.
@@ -35,7 +35,7 @@ FN SurfaceLight facetLight(IN(Hit) h, IN(Material) m, IN(Facet) facet, real3 sDi
   if (kCheckNumerics) slack = slack + roundingSlack(payloadStokes(returned, facet.mirror));
   FresnelTerms f = opaqueTerms(facet.c, m, h.material);
   real3 facetS = surfaceS(h.d, facet.normal);
-  SurfaceLight reflected = lightReflect(f, lightAtSurface(returned, facet.mirror, facetS));
+  SurfaceLight reflected = lightThroughInterface(f, lightAtSurface(returned, facet.mirror, facetS));
   Payload sent = payloadFromSurface(lightScale(reflected, splat3(facet.weight)), h.d, facetS);
   return lightAtSurface(sent, h.d, sDir);
 }
@@ -61,7 +61,7 @@ FN Payload shadeOpaque(IN(Hit) h, IN(Material) m, IN(Scattering) s) {
   if (canScatter(h)) {
     if (kEffectRoughness) {
       if (rough) {
-        toCamera = lightAdd(toCamera, lightReflect(s.reflection, lightUnpolarized(direct.highlight)));
+        toCamera = lightAdd(toCamera, lightThroughInterface(s.reflection, lightUnpolarized(direct.highlight)));
         toCamera = lightAdd(toCamera, roughReflectedLight(h, m, sDir, slack));
       }
     }

@@ -44,9 +44,9 @@ FN ChainOut chainProbe(GIVEN_PARAMETER(ChainIn)) {
       f = dielectricTerms(c[i], n1, n2);
     SurfaceLight sent;
     if (kind > R(1.5))
-      sent = lightTransmit(f, arriving);
+      sent = lightThroughInterface(transmissionTerms(f), arriving);
     else
-      sent = lightReflect(f, arriving);
+      sent = lightThroughInterface(f, arriving);
     p = payloadFromSurface(sent, d[i], s);
     Stokes after = payloadStokes(p, d[i]);
     if (before.s0.x > R(1e-30)) {

@@ -303,7 +303,7 @@ void comparePaths() {
         if (kind == 2) {
           steps.followTransmission(p, h, s, scalar(tolerance));
         } else {
-          steps.reflectThroughput(p.throughput, s.reflection, s.coloured);
+          steps.applyInterface(p.throughput, s.reflection, s.coloured);
           steps.followReflection(p, h, s, scalar(tolerance));
         }
         const auto light = steps.emitterLight(h, m, p.throughput);

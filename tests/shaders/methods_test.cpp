@@ -49,7 +49,7 @@ typename M::Payload trace(const Path& path, real3 radiance = splat3(1)) {
     const auto f = b.metal ? M::conductorTerms(c, n1, n2, k2) : M::dielectricTerms(c, n1, n2.y);
     const real3 s = M::surfaceS(d, n);
     const auto arriving = M::lightAtSurface(p, next, s);
-    p = M::payloadFromSurface(b.transmits ? M::lightTransmit(f, arriving) : M::lightReflect(f, arriving), d, s);
+    p = M::payloadFromSurface(M::lightThroughInterface(b.transmits ? M::transmissionTerms(f) : f, arriving), d, s);
   }
   return p;
 }
@@ -191,7 +191,7 @@ TYPED_TEST(MethodTest, NothingIsEverNanOrNegative) {
         draw.below(2) == 0 ? M::dielectricTerms(c, 1, 1.5f) : M::conductorTerms(c, 1, splat3(0.2f), splat3(3));
     auto p = M::payloadUnpolarized(draw.below(8) == 0 ? splat3(0) : make3(1, 0, 1e30f));
     for (int bounce = 0; bounce < 3; ++bounce)
-      p = M::payloadFromSurface(M::lightReflect(f, M::lightAtSurface(p, next, M::surfaceS(d, n))), d,
+      p = M::payloadFromSurface(M::lightThroughInterface(f, M::lightAtSurface(p, next, M::surfaceS(d, n))), d,
                                 M::surfaceS(d, n));
     const Stokes s = M::payloadStokes(p, d);
     for (int colour = 0; colour < 3; ++colour) {

@@ -24,9 +24,10 @@ f32::Stokes throughGlassAndMetal() {
   const auto glass = M::dielectricTerms(-glm::dot(toGlass, glassNormal), 1.0f, 1.5f);
   const auto metal = M::conductorTerms(metalNormal.z, 1.0f, real3(0.2f), real3(3.0f));
   const real3 glassS = M::surfaceS(toGlass, glassNormal), metalS = M::surfaceS(toMetal, metalNormal);
-  const auto fromGlass = M::payloadFromSurface(M::lightReflect(glass, M::lightUnpolarized(real3(1))), toGlass, glassS);
-  const auto fromMetal =
-      M::payloadFromSurface(M::lightReflect(metal, M::lightAtSurface(fromGlass, toGlass, metalS)), toMetal, metalS);
+  const auto fromGlass =
+      M::payloadFromSurface(M::lightThroughInterface(glass, M::lightUnpolarized(real3(1))), toGlass, glassS);
+  const auto fromMetal = M::payloadFromSurface(
+      M::lightThroughInterface(metal, M::lightAtSurface(fromGlass, toGlass, metalS)), toMetal, metalS);
   return M::payloadStokes(fromMetal, toMetal);
 }
 

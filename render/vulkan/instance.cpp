@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
@@ -61,19 +62,29 @@ Instance::Instance(unsigned threads) {
   messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
   messenger.pfnUserCallback = keepMessage;
   messenger.pUserData = &messages_;
+  std::vector<VkValidationFeatureEnableEXT> enabled = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  const char* const variable = std::getenv("MALUS_VALIDATION");
+  if (variable && variable == std::string_view("gpu"))
+    enabled.insert(enabled.end(), {VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT,
+                                   VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT});
+  VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+  features.enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size());
+  features.pEnabledValidationFeatures = enabled.data();
   const char* const layers[] = {kValidationLayer};
-  const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
-  const bool validate = std::getenv("MALUS_VALIDATION") != nullptr;
-  if (validate) {
-    info.enabledLayerCount = info.enabledExtensionCount = 1;
+  const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  if (variable) {
+    info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = layers;
+    info.enabledExtensionCount = 2;
     info.ppEnabledExtensionNames = extensions;
     info.pNext = &messenger;
+    messenger.pNext = &features;
   }
   VkInstance instance = VK_NULL_HANDLE;
   checkInstance(vkCreateInstance(&info, nullptr, &instance));
   instance_.reset(instance);
-  if (validate)
+  messenger.pNext = nullptr;
+  if (variable)
     messenger_ =
         create(instance, load<PFN_vkCreateDebugUtilsMessengerEXT>(instance, "vkCreateDebugUtilsMessengerEXT"),
                messenger, load<PFN_vkDestroyDebugUtilsMessengerEXT>(instance, "vkDestroyDebugUtilsMessengerEXT"),

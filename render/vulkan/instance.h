@@ -1,5 +1,5 @@
-// The Vulkan instance. If the environment variable MALUS_VALIDATION is set, it enables the validation layers and keeps
-// their messages.
+// The Vulkan instance. If the environment variable MALUS_VALIDATION is set, it enables the validation layers with
+// synchronization validation and keeps their messages; the value "gpu" adds GPU-assisted validation.
 #pragma once
 
 #include <mutex>

@@ -1,0 +1,80 @@
+// The validation layers report what the other tests rely on, and find nothing in a render.
+//
+// GPU-assisted validation (MALUS_VALIDATION=gpu) instruments all shaders. Version 1.3.239 of the layer, on lavapipe,
+// reports accesses outside a buffer by compute shaders, but not by the stages of ray-tracing pipelines: a render with
+// more point lights than were uploaded gives no message.
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/base/error.h"
+#include "render/vulkan/renderer.h"
+#include "tests/render/test_scene.h"
+#include "tests/render/vulkan/compute_program.h"
+
+namespace malus::vulkan {
+namespace {
+
+// The first message of the layers; empty: none.
+std::string firstMessage(const Instance& instance) {
+  try {
+    instance.requireNoMessages();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(VulkanValidation, FindsMissingBarriers) {
+  const Instance instance(0);
+  ASSERT_TRUE(instance.isValidating());
+  const Device device(instance, "");
+  constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  const Buffer a(device, "a", 64, kCopied, kDeviceMemory), b(device, "b", 64, kCopied, kDeviceMemory);
+  device.submit("copy and back", [&](VkCommandBuffer commands) {
+    const VkBufferCopy copy{0, 0, 64};
+    vkCmdCopyBuffer(commands, a.get(), b.get(), 1, &copy);
+    vkCmdCopyBuffer(commands, b.get(), a.get(), 1, &copy);
+  });
+  EXPECT_NE(firstMessage(instance).find("SYNC-HAZARD-READ-AFTER-WRITE"), std::string::npos);
+}
+
+TEST(VulkanValidation, FindsWritesOutsideABuffer) {
+  const char* const variable = std::getenv("MALUS_VALIDATION");
+  if (!variable || variable != std::string_view("gpu")) GTEST_SKIP() << "needs GPU-assisted validation";
+  const Instance instance(0);
+  const Device device(instance, "");
+  const Buffer buffer(device, "values", 64, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kDeviceMemory);
+  test::ComputeProgram(device, R"(#version 460
+    layout(set = 0, binding = 0) buffer Values { float values[]; };
+    void main() { values[gl_WorkGroupID.x + 15u] = 1.0; })",
+                       buffer)
+      .dispatch();
+  EXPECT_EQ(firstMessage(instance), "");
+  test::ComputeProgram(device, R"(#version 460
+    layout(set = 0, binding = 0) buffer Values { float values[]; };
+    void main() { values[gl_WorkGroupID.x + 16u] = 1.0; })",
+                       buffer)
+      .dispatch();
+  EXPECT_NE(firstMessage(instance).find("out of bounds"), std::string::npos) << firstMessage(instance);
+}
+
+TEST(VulkanValidation, FindsNothingInRenders) {
+  pack::Scene scene = test::emptyScene(2);
+  scene.width = scene.height = 8;
+  scene.environment.radiance = {0.2, 0.3, 0.5};
+  const auto gold = test::addMaterial(scene, test::metal({0.18, 0.54, 1.33}, {3.4, 2.2, 1.9}));
+  const auto paint = test::addMaterial(scene, test::dielectric(pack::MaterialKind::paint, 1.5, 0.6));
+  test::addSquare(scene, gold, {0, 0, 0}, {0, 0, 1}, 1);
+  test::addSquare(scene, paint, {0, -1, 0}, {0, 1, 0.2}, 2);
+  scene.lights.push_back({{1, 1.5, 2}, {6, 6, 6}});
+  test::look(scene, {0.3, 0.2, 4}, {0, 0, 0});
+  Renderer renderer(scene, {});
+  for (const char* method : {"stokes", "importance"})
+    EXPECT_NO_THROW(renderer.render(method, render::defaultParameters(scene))) << method;
+}
+
+}  // namespace
+}  // namespace malus::vulkan

@@ -22,7 +22,7 @@ struct BakeOptions {
 struct Baked {
   pack::Scene scene;
   std::vector<prep::Report> reports;  // per mesh of the description, then per part of an import
-  std::vector<std::string> notes;     // contents of files that are left out, and glass that is not certified
+  std::vector<std::string> notes;     // left out contents of files, meshes not simplified, glass not certified
   double moved = 0;                   // metres; largest distance that rounding to float moves a vertex
 };
 

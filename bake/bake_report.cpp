@@ -104,6 +104,14 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
                         m.encodeMs, m.decodeMs, m.method, m.reused ? ", reused" : "",
                         m.sequentialReason.empty() ? "" : ": ", m.sequentialReason);
   }
+
+  // Step 3: simplified files and parts.
+  for (const prep::Report& report : baked.reports) {
+    const prep::Simplification& s = report.simplification;
+    if (!s.applied) continue;
+    text += fmt::format("  simplified {}: {} -> {} triangles, within {:.3g} m and {:.3g} degrees\n", report.source,
+                        s.trianglesBefore, s.trianglesAfter, s.maxDeviation, s.maxNormalDegrees);
+  }
   return text;
 }
 

@@ -28,7 +28,8 @@ namespace malus::prep {
 
 namespace {
 
-void checkOptions(const Options& options) {
+// where: location of a conflict of options.
+void checkOptions(const Options& options, const std::string& where) {
   if (!(options.creaseDegrees >= 0 && options.creaseDegrees <= 180))
     throw Error("prep", "crease angle out of range", "0 to 180 degrees", fmt::to_string(options.creaseDegrees));
   const double tolerance = options.steps.weldTolerance;
@@ -37,15 +38,8 @@ void checkOptions(const Options& options) {
   if (!(options.weldRelative >= 0 && options.weldRelative <= 1))
     throw Error("prep", "relative weld tolerance out of range", "0 to 1", fmt::to_string(options.weldRelative));
   checkSimplifyBounds(options.simplify);
-  if (!options.simplify.any()) return;
-  if (options.asIs) throw Error("prep --simplify", "simplification needs a cleaned mesh", "\"asIs\": false");
-  const Cleaning& steps = options.steps;
-  if (!steps.degenerate || !steps.duplicates || !steps.orient || !steps.fans)
-    throw Error("prep --simplify", "simplification needs an oriented manifold",
-                "cleaning with the steps degenerate, duplicates, orient and fans", "--skip of one of them");
-  if (!options.flat && options.normals == Normals::authored)
-    throw Error("prep --simplify", "the file's normals do not fit a simplified mesh",
-                "--normals crease or --normals smoothing", "--normals authored");
+  if (const auto conflict = findSimplifyConflict(options))
+    throw Error(where, conflict->problem, conflict->expected, conflict->found);
 }
 
 // The material of each face of the file, as a number; empty if all faces have the same.
@@ -182,7 +176,8 @@ class Preparation {
     for (Problem& problem : report_.certificate.problems)
       problem.repair =
           "simplify less, because the mesh is certified without simplification: lower --simplify-error or "
-          "--simplify-normal, or raise --simplify-triangles";
+          "--simplify-normal, or raise --simplify-triangles (keys of a scene: simplifyError, simplifyNormal, "
+          "simplifyTriangles)";
   }
 
   void reportOrientation() {
@@ -273,18 +268,32 @@ void addLocations(const Polygons& polygons, Report& report) {
 
 }  // namespace
 
+std::optional<OptionConflict> findSimplifyConflict(const Options& options) {
+  if (!options.simplify.any()) return std::nullopt;
+  if (options.asIs) return OptionConflict{"simplification needs a cleaned mesh", "\"asIs\": false", "\"asIs\": true"};
+  const Cleaning& steps = options.steps;
+  if (!steps.degenerate || !steps.duplicates || !steps.orient || !steps.fans)
+    return OptionConflict{"simplification needs an oriented manifold",
+                          "the steps degenerate, duplicates, orient and fans (option --skip, key 'skip')",
+                          "one of them skipped"};
+  if (!options.flat && options.normals == Normals::authored)
+    return OptionConflict{"the file's normals do not fit a simplified mesh",
+                          "crease or smoothing (option --normals, key 'normals'), or flat", "authored"};
+  return std::nullopt;
+}
+
 Mesh clean(Mesh mesh, const Options& options, Report& report) {
-  checkOptions(options);
+  checkOptions(options, "prep");
   return Preparation(std::move(mesh), options, {}, report).run();
 }
 
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report) {
-  checkOptions(options);
+  checkOptions(options, source.string());
   return prepare(readMesh(source), source.string(), options, report);
 }
 
 Mesh prepare(const Polygons& polygons, const std::string& source, const Options& options, Report& report) {
-  checkOptions(options);
+  checkOptions(options, source);
   report = {};
   report.source = source;
   report.notes = polygons.notes;

@@ -8,7 +8,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "meshprep/clean/fixed_point.h"
 #include "meshprep/mesh.h"
@@ -45,6 +47,14 @@ struct Options {
   Normals normals = Normals::crease;
   double creaseDegrees = 40;  // edges sharper than this get two normals, 0 to 180
 };
+
+// Options that exclude simplification.
+struct OptionConflict {
+  std::string_view problem, expected, found;
+};
+
+// Nothing if no bound of simplification is set, or if the options permit it. The normals are those of `options`.
+std::optional<OptionConflict> findSimplifyConflict(const Options& options);
 
 // Fills `report` except for errors and compression. Throws Error: the errors of the readers, options out of range, no
 // triangle left after cleaning, requested normals that the file does not have, asIs without flat for a file without

@@ -55,7 +55,7 @@ class Placer {
     prep::Report report;
     const prep::Mesh prepared = prep::prepare(polygons, mesh.file.string(), options, report);
     requireCertificate(mesh.file, mesh.name, report);
-    result_.reports.push_back(std::move(report));
+    addReport(mesh.file, std::move(report));
 
     // Place the instances.
     for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
@@ -73,13 +73,19 @@ class Placer {
       if (std::exchange(reported[mesh.part], 1) == 0) requireCertificate(import.file, mesh.name, part.report);
       place(part.mesh, mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.openSurface);
     }
-    for (ImportedPart& part : imported.parts) result_.reports.push_back(std::move(part.report));
+    for (ImportedPart& part : imported.parts) addReport(import.file, std::move(part.report));
     result_.notes.insert(result_.notes.end(), imported.notes.begin(), imported.notes.end());
   }
 
   PlacedMeshes take() { return std::move(result_); }
 
  private:
+  void addReport(const std::filesystem::path& file, prep::Report report) {
+    for (const std::string& warning : report.simplification.warnings)
+      result_.notes.push_back(fmt::format("{}: {}", report.source.empty() ? file.string() : report.source, warning));
+    result_.reports.push_back(std::move(report));
+  }
+
   void requireCertificate(const std::filesystem::path& file, const std::string& name, const prep::Report& report) {
     if (!report.certificate.checked || report.certificate.isGranted()) return;
     const std::string what =

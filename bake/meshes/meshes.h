@@ -28,7 +28,7 @@ struct PlacedMesh {
 struct PlacedMeshes {
   std::vector<PlacedMesh> meshes;
   std::vector<prep::Report> reports;  // per mesh of the description, then per part of an import
-  std::vector<std::string> notes;     // contents of files that are left out, and glass that is not certified
+  std::vector<std::string> notes;     // as of Baked (bake/bake.h)
 };
 
 // Adds the materials of imports to materials. Throws Error: a mesh that cannot be read or cleaned, glass that is not

@@ -56,6 +56,7 @@ struct Field {
   std::string_view alias = {};          // deprecated name of the key
   std::optional<double> fallback = {};  // default of the key, if it is not that of the record
   double keyLow = 0, keyHigh = 0;       // bounds of the key if narrower than those of the pack; equal: the same
+  bool excludesLow = false;             // of a key: its lower bound itself is out of range
 
   constexpr double lowInScene() const { return keyLow == keyHigh ? low : keyLow; }
   constexpr double highInScene() const { return keyLow == keyHigh ? high : keyHigh; }

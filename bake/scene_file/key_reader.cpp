@@ -1,5 +1,6 @@
 #include "bake/scene_file/key_reader.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "bake/scene_file/scene_keys.h"
@@ -14,7 +15,10 @@ StrictObject* KeyReader::findNested(const std::string& key) {
 }
 
 double KeyReader::checked(StrictObject& object, const char* key, const pack::Field& field, double) {
-  return object.number(key, field.lowInScene(), field.highInScene());
+  const double low = field.lowInScene(), high = field.highInScene(), value = object.number(key, low, high);
+  if (field.excludesLow && value == low)
+    object.fail(key, "is out of range", fmt::format("over {:g}, up to {:g}", low, high), fmt::format("{:g}", value));
+  return value;
 }
 
 glm::dvec3 KeyReader::checked(StrictObject& object, const char* key, const pack::Field& field, const glm::dvec3&) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -22,6 +23,10 @@ class KeyReader {
 
   // An absent optional key keeps the value, which is the default, or sets the field's fallback. A field "coating.eta"
   // is looked for in the object "coating", if that is present. Throws Error.
+  template <class T>
+  void operator()(const pack::Field& field, std::optional<T>& value) {
+    if (object_.has(std::string(field.name).c_str())) (*this)(field, value.emplace());
+  }
   template <class T>
   void operator()(const pack::Field& field, T& value) {
     if constexpr (kIsReadable<T>) {

@@ -43,6 +43,16 @@ std::optional<prep::Normals> readNormals(StrictObject& object) {
   object.fail("normals", "unknown kind of normals", "'crease', 'smoothing' or 'authored'", fmt::format("'{}'", name));
 }
 
+// Throws Error if a key excludes simplification.
+void requireSimplifiable(const StrictObject& object, const prep::Options& options) {
+  const auto conflict = prep::findSimplifyConflict(options);
+  if (!conflict) return;
+  const char* const key = options.simplify.maxError    ? "simplifyError"
+                          : options.simplify.triangles ? "simplifyTriangles"
+                                                       : "simplifyNormal";
+  object.fail(key, conflict->problem, conflict->expected, conflict->found);
+}
+
 // Throws Error unless the name is that of a material of the scene.
 void requireMaterial(const StrictObject& object, const char* key, const std::string& name,
                      const SceneDescription& scene) {
@@ -63,6 +73,7 @@ MeshDescription readMesh(StrictObject object, const SceneDescription& scene) {
   requireMaterial(object, "material", mesh.material, scene);
   readCleaning(object, mesh.preparation);
   mesh.preparation.normals = readNormals(object).value_or(prep::Normals::crease);
+  requireSimplifiable(object, mesh.preparation);
   if (object.has("instances")) {
     const std::size_t count = object.listSize("instances", "a list of one transform or more");
     if (count == 0) object.fail("instances", "is empty", "a list of one transform or more");
@@ -88,6 +99,9 @@ ImportDescription readImport(StrictObject object, const SceneDescription& scene)
   if (object.has("transform")) import.transform = readTransform(object.object("transform"));
   readCleaning(object, import.preparation);
   import.normals = readNormals(object);
+  prep::Options preparation = import.preparation;
+  preparation.normals = import.normals.value_or(prep::Normals::crease);
+  requireSimplifiable(object, preparation);
   const std::string key = object.resolve("openSurfaces", "sheets");
   if (object.has(key.c_str())) {
     const json& names = object.at(key.c_str());

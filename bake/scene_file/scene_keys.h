@@ -240,6 +240,26 @@ void visitCleaningKeys(Visitor&& visit, Options&... o) {
               .text = "holes of at most this many edges are filled",
               .key = Key::optional},
         o.steps.fillHoles...);
+  visit(Field{.name = "simplifyError",
+              .high = kMaxSceneLength,
+              .unit = "m",
+              .text = "edges are collapsed while the surface stays within this distance, before transforms",
+              .key = Key::optional,
+              .excludesLow = true},
+        o.simplify.maxError...);
+  visit(Field{.name = "simplifyTriangles",
+              .low = 1,
+              .high = pack::kMaxTriangles,
+              .text = "edges are collapsed until so many triangles are left",
+              .key = Key::optional},
+        o.simplify.triangles...);
+  visit(Field{.name = "simplifyNormal",
+              .high = 180,
+              .unit = "degrees",
+              .text = "edges are collapsed only while the normals of the surface stay within this angle",
+              .key = Key::optional,
+              .excludesLow = true},
+        o.simplify.maxNormalErrorDegrees...);
 }
 
 template <class Visitor, class... Meshes>

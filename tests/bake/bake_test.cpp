@@ -8,10 +8,13 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "bake/bake_report.h"
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
 #include "meshprep/base/image.h"
+#include "meshprep/prepare.h"
 #include "tests/bake/fixtures.h"
+#include "tests/meshprep/shapes.h"
 
 namespace malus::bake {
 namespace {
@@ -233,6 +236,57 @@ TEST_F(Bake, SceneSelectsCleaningSteps) {
   scene_["meshes"][0].erase("skip");
   scene_["meshes"][0]["normals"] = "none";
   EXPECT_TRUE(contains(error(), "'crease', 'smoothing' or 'authored'")) << error();
+}
+
+TEST_F(Bake, SimplificationStaysWithinItsBoundAndIsReported) {
+  constexpr double kBound = 0.01;
+  const prep::Mesh ball = prep::test::sphere(24, 32);
+  folder_.write("ball.obj", prep::test::objText(ball));
+  scene_["meshes"][0].update({{"file", "ball.obj"}, {"flat", true}, {"simplifyError", kBound}});
+  scene_["origin"] = {0, 0, 0};
+  const auto bakeBall = [&] { return bake(readSceneFile(folder_.write("scene.json", scene_.dump())), {}, kSilent); };
+  const Baked result = bakeBall();
+
+  // The deviation is measured and within the bound; it equals that of `malus prep`.
+  ASSERT_EQ(result.reports.size(), 1u);
+  const prep::Simplification& s = result.reports[0].simplification;
+  const pack::Mesh& mesh = result.scene.meshes[0];
+  EXPECT_TRUE(s.applied);
+  EXPECT_EQ(s.trianglesBefore, ball.triangles.size());
+  EXPECT_EQ(s.trianglesAfter, mesh.triangles.size());
+  EXPECT_LT(s.trianglesAfter, s.trianglesBefore * 9 / 10);
+  EXPECT_GT(s.maxDeviation, 0);
+  EXPECT_LE(s.maxDeviation, kBound);
+  EXPECT_GT(s.maxNormalDegrees, 0);
+  prep::Options options;
+  options.flat = true;
+  options.simplify.maxError = kBound;
+  prep::Report report;
+  prep::prepare(folder_.path() / "ball.obj", options, report);
+  EXPECT_EQ(report.simplification.maxDeviation, s.maxDeviation);
+
+  // The centre of a face is as far from the sphere as the bound and the faces of the source permit.
+  const auto depth = [](const auto& positions, const glm::uvec3& t) {
+    return 1 - glm::length(glm::dvec3(positions[t.x]) + glm::dvec3(positions[t.y]) + glm::dvec3(positions[t.z])) / 3;
+  };
+  double sourceDepth = 0;
+  for (const glm::uvec3& t : ball.triangles) sourceDepth = std::max(sourceDepth, depth(ball.positions, t));
+  for (const glm::uvec3& t : mesh.triangles) EXPECT_LT(depth(mesh.positions, t), kBound + 2 * sourceDepth);
+
+  // Text and JSON have it.
+  const pack::Written written = pack::serialize(result.scene, {});
+  EXPECT_TRUE(contains(bakeText(result, written, "ball.pack", false), "simplified")) << "text";
+  const json entry = bakeJson(result, written, "ball.pack").at("preparation").at(0).at("simplification");
+  EXPECT_EQ(entry.at("maxDeviation"), s.maxDeviation);
+  EXPECT_EQ(entry.at("trianglesAfter"), s.trianglesAfter);
+  EXPECT_TRUE(result.notes.empty());
+
+  // A bound that no collapse keeps is a warning.
+  scene_["meshes"][0]["simplifyError"] = 1e-12;
+  const Baked unchanged = bakeBall();
+  EXPECT_EQ(unchanged.scene.meshes[0].triangles.size(), ball.triangles.size());
+  ASSERT_EQ(unchanged.notes.size(), 1u);
+  EXPECT_TRUE(contains(unchanged.notes[0], "ball.obj") && contains(unchanged.notes[0], "simplify")) << "warning";
 }
 
 TEST_F(Bake, FlatMeshesKeepTheirVertices) {

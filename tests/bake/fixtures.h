@@ -14,6 +14,7 @@
 
 #include "bake/pack/scene.h"
 #include "meshprep/base/error.h"
+#include "tests/messages.h"
 
 namespace malus::bake::test {
 
@@ -45,24 +46,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Returns the message of the Error that `act` throws, or "" if it throws none. Other exceptions propagate.
-template <class Act>
-std::string errorMessage(Act act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
-// Whether the text contains every one of the parts.
-template <class... Parts>
-bool contains(std::string_view text, const Parts&... parts) {
-  return (... && (text.find(parts) != std::string_view::npos));
-}
-
-#define EXPECT_CONTAINS(text, ...) EXPECT_TRUE(malus::bake::test::contains(text, __VA_ARGS__)) << (text)
+using malus::test::contains;
+using malus::test::errorMessage;
 
 // A cube of side 1 about the origin, as quads of an OBJ file, facing outward.
 inline constexpr std::string_view kCubeObj =

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -31,8 +32,9 @@ std::string kindNames(pack::KindSet kinds) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string boundsText(double low, double high, std::string_view unit) {
+std::string boundsText(double low, double high, std::string_view unit, bool excludesLow = false) {
   std::string text = low == 0 && high == 0 ? ""
+                     : excludesLow         ? fmt::format("over {:.9g}, up to {:.9g}", low, high)
                      : low == -high        ? fmt::format("+-{:.9g}", high)
                                            : fmt::format("{:.9g} to {:.9g}", low, high);
   if (!unit.empty()) text += fmt::format("{}{}", text.empty() ? "" : " ", unit);
@@ -99,7 +101,7 @@ struct SceneTable {
   void operator()(const Field& field, const T& value) {
     if (field.key == pack::Key::none) return;
     const std::string shape = shapeText(field, value),
-                      bounds = boundsText(field.lowInScene(), field.highInScene(), field.unit);
+                      bounds = boundsText(field.lowInScene(), field.highInScene(), field.unit, field.excludesLow);
     text += fmt::format("| `{}` | {}{}{}{} | {} | {}{} |\n", field.name,
                         !hasKinds                         ? ""
                         : field.kinds == pack::kEveryKind ? "all | "
@@ -122,6 +124,10 @@ struct SceneTable {
   static std::string shapeText(const Field&, const std::string&) { return "text"; }
   static std::string shapeText(const Field&, double) { return "number"; }
   template <class T>
+  static std::string shapeText(const Field& field, const std::optional<T>&) {
+    return shapeText(field, T());
+  }
+  template <class T>
   static std::string shapeText(const Field&, const T&) {
     return "integer";
   }
@@ -131,6 +137,10 @@ struct SceneTable {
   }
   static std::string defaultText(const Field&, const std::string& text) { return fmt::format("`\"{}\"`", text); }
   static std::string defaultText(const Field&, pack::MaterialKind) { return ""; }
+  template <class T>
+  static std::string defaultText(const Field&, const std::optional<T>&) {
+    return "none";
+  }
   template <class T>
   static std::string defaultText(const Field&, const T& value) {
     return fmt::format("{}", value);

@@ -10,6 +10,7 @@
 #include "bake/previous_pack.h"
 #include "meshprep/base/atomic_file.h"
 #include "tests/bake/fixtures.h"
+#include "tests/meshprep/shapes.h"
 
 namespace malus::bake {
 namespace {
@@ -102,6 +103,32 @@ TEST_F(Rebake, MovedInstanceWithinTheBoxReencodesOneMesh) {
   bakeBoth();
   scene_["meshes"][1]["instances"] = json::parse(R"([{"translate": [0.5, 0, 0]}])");
   EXPECT_EQ(reused(bakeBoth().again), (List{true, true, false, true}));
+}
+
+TEST_F(Rebake, SimplificationReencodesOneMesh) {
+  prep::Mesh ball = prep::test::sphere(15, 20);
+  for (glm::dvec3& p : ball.positions) p *= 0.3;
+  folder_.write("ball.obj", prep::test::objText(ball));
+  json& mesh = scene_["meshes"][1];
+  mesh["file"] = "ball.obj";
+  EXPECT_EQ(reused(bakeBoth().again), (List{false, false, false, false}));
+
+  // A changed value of each key is a changed mesh; equal values reuse it.
+  const std::vector<std::pair<const char*, double>> changes = {
+      {"simplifyError", 0.01}, {"simplifyError", 0.02}, {"simplifyNormal", 10}, {"simplifyTriangles", 580}};
+  std::string provenance = makeProvenance(description(), settings_);
+  std::size_t triangles = ball.triangles.size();
+  for (const auto& [key, value] : changes) {
+    mesh[key] = value;
+    if (std::string_view(key) == "simplifyTriangles") mesh[key] = static_cast<int>(value);
+    EXPECT_NE(makeProvenance(description(), settings_), provenance) << key;  // the earlier pack is out of date
+    provenance = makeProvenance(description(), settings_);
+    const Both both = bakeBoth();
+    EXPECT_EQ(reused(both.again), (List{true, true, false, true})) << key << " " << value;
+    EXPECT_NE(both.baked.scene.meshes[2].triangles.size(), triangles) << key << " " << value;
+    triangles = both.baked.scene.meshes[2].triangles.size();
+    EXPECT_EQ(reused(bakeBoth().again), (List{true, true, true, true})) << key << " " << value;
+  }
 }
 
 TEST_F(Rebake, MovedGridReencodesAllWithReason) {

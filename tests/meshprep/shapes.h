@@ -16,6 +16,7 @@
 
 #include "meshprep/base/error.h"
 #include "meshprep/mesh.h"
+#include "tests/messages.h"
 
 namespace malus::prep::test {
 
@@ -46,24 +47,8 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-// Returns the text of the Error that `act` throws, or "" if it throws none.
-template <class Act>
-std::string errorMessage(Act act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
-// Whether the text contains every one of the parts.
-template <class... Parts>
-bool contains(std::string_view text, const Parts&... parts) {
-  return (... && (text.find(parts) != std::string_view::npos));
-}
-
-#define EXPECT_CONTAINS(text, ...) EXPECT_TRUE(malus::prep::test::contains(text, __VA_ARGS__)) << (text)
+using malus::test::contains;
+using malus::test::errorMessage;
 
 // Cube from shift to shift + size, with 8 vertices and 12 triangles, outward.
 inline Mesh cube(double size = 1, const glm::dvec3& shift = glm::dvec3(0)) {

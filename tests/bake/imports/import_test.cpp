@@ -11,6 +11,7 @@
 #include "bake/pack/writer.h"
 #include "tests/bake/fixtures.h"
 #include "tests/meshprep/read/gltf_files.h"
+#include "tests/meshprep/shapes.h"
 
 namespace malus::bake {
 namespace {
@@ -199,6 +200,37 @@ TEST_F(Import, ObjReadsItsMaterialFile) {
   folder_.write("my materials.mtl", "newmtl mirror\nKd 0.5 0.5 0.5\n");
   EXPECT_NE(makeProvenance(description(), {}), before);
   EXPECT_EQ(baked().notes.size(), 1u);  // a material without a description
+}
+
+TEST_F(Import, SimplifiesEveryPart) {
+  const prep::Mesh ball = prep::test::sphere(15, 20);
+  std::string text = prep::test::objText(ball);
+  text.insert(text.find("f "), "usemtl a\n");
+  const auto offset = ball.positions.size();
+  for (const glm::dvec3& p : ball.positions) text += fmt::format("v {} {} {}\n", p.x + 3, p.y, p.z);
+  text += "usemtl b\n";
+  for (const glm::uvec3& t : ball.triangles)
+    text += fmt::format("f {} {} {}\n", t.x + offset + 1, t.y + offset + 1, t.z + offset + 1);
+  folder_.write("balls.obj", text);
+  scene_["imports"][0] = {
+      {"file", "balls.obj"}, {"materials", {{"a", "gold"}, {"b", "gold"}}}, {"simplifyTriangles", 400}};
+  const Baked result = baked();
+  ASSERT_EQ(result.scene.meshes.size(), 2u);
+  for (const pack::Mesh& mesh : result.scene.meshes) {
+    EXPECT_LE(mesh.triangles.size(), 400u) << mesh.name;
+    EXPECT_GT(mesh.triangles.size(), 300u) << mesh.name;
+  }
+  for (const prep::Report& report : result.reports) EXPECT_GT(report.simplification.maxDeviation, 0);
+
+  // The normals of a file do not fit a simplified mesh.
+  scene_["imports"][0] = {{"file", "tilted.ply"}, {"simplifyTriangles", 1}};
+  folder_.write("tilted.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
+                "property list uchar int vertex_indices\nend_header\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n");
+  EXPECT_TRUE(contains(error(), "tilted.ply") && contains(error(), "normals")) << error();
+  scene_["imports"][0]["normals"] = "crease";
+  EXPECT_EQ(error(), "");
 }
 
 TEST_F(Import, UnsupportedFeaturesAreReported) {

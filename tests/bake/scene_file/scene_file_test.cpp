@@ -249,6 +249,50 @@ TEST(SceneFile, Ranges) {
   }
 }
 
+TEST(SceneFile, Simplification) {
+  EXPECT_FALSE(readJson(minimal()).meshes[0].preparation.simplify.any());
+  json scene = minimal();
+  json& mesh = scene["meshes"][0];
+  mesh.update({{"simplifyError", 0.001}, {"simplifyTriangles", 268435456}, {"simplifyNormal", 180}});
+  scene["imports"] = json::parse(R"([{"file": "parts.obj", "simplifyTriangles": 1}])");
+  const SceneDescription read = readJson(scene);
+  const prep::SimplifyBounds& bounds = read.meshes[0].preparation.simplify;
+  EXPECT_EQ(bounds.maxError, 0.001);
+  EXPECT_EQ(bounds.triangles, 268435456u);
+  EXPECT_EQ(bounds.maxNormalErrorDegrees, 180);
+  EXPECT_EQ(read.imports[0].preparation.simplify.triangles, 1u);
+  EXPECT_FALSE(read.imports[0].preparation.simplify.maxError);
+
+  // Ranges.
+  for (const auto& [key, value] :
+       {std::pair("simplifyError", "0"), std::pair("simplifyError", "-1"), std::pair("simplifyError", "1e13"),
+        std::pair("simplifyError", "\"1\""), std::pair("simplifyError", "null"), std::pair("simplifyTriangles", "0"),
+        std::pair("simplifyTriangles", "-5"), std::pair("simplifyTriangles", "1.5"),
+        std::pair("simplifyTriangles", "268435457"), std::pair("simplifyNormal", "0"),
+        std::pair("simplifyNormal", "180.5")}) {
+    for (const char* list : {"meshes", "imports"}) {
+      json bad = scene;
+      bad[list][0][key] = json::parse(value);
+      const std::string error = errorMessage([&] { readJson(bad); });
+      EXPECT_TRUE(contains(error, fmt::format("{}[0].{}", list, key)) && contains(error, "expected"))
+          << key << " = " << value << ": " << error;
+    }
+  }
+
+  // Keys that exclude simplification.
+  for (const auto& [key, value] : {std::pair("asIs", "true"), std::pair("skip", R"(["fans"])"),
+                                   std::pair("skip", R"(["orient"])"), std::pair("normals", R"("authored")")}) {
+    json bad = scene;
+    bad["meshes"][0][key] = json::parse(value);
+    const std::string error = errorMessage([&] { readJson(bad); });
+    EXPECT_TRUE(contains(error, "meshes[0].simplifyError") && contains(error, "simplif")) << error;
+  }
+  mesh["normals"] = "authored";
+  mesh["flat"] = true;  // the normals are not used
+  mesh["skip"] = {"weld", "unreferenced"};
+  EXPECT_EQ(errorMessage([&] { readJson(scene); }), "");
+}
+
 TEST(SceneFile, Materials) {
   EXPECT_TRUE(contains(errorOfMaterial(R"({"type": "marble", "albedo": 1})"),
                        "expected lambert, paint, mirror-glass, metal, glass, emitter, polarizer, wave-plate, "

@@ -377,7 +377,7 @@ TEST(Simplify, RefusesBoundsOutOfRange) {
       set(o);
     };
   };
-  EXPECT_TRUE(contains(error(valid([](Options& o) { o.asIs = true; })), "--simplify"));
+  EXPECT_TRUE(contains(error(valid([](Options& o) { o.asIs = true; })), "simplification needs"));
   EXPECT_TRUE(contains(error(valid([](Options& o) { o.steps.orient = false; })), "--skip"));
   EXPECT_TRUE(contains(error(valid([](Options& o) { o.flat = false, o.normals = Normals::authored; })), "--normals"));
 }

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -157,6 +158,49 @@ class ClosedForms(unittest.TestCase):
         for flipped, expected in ((False, 3.0), (True, 0.0)):
             s = Scene(self, [lamp], [("lamp", mirror(0, flipped))], camera={"mediumEta": 1.33}).centre()
             self.assertAlmostEqual(s[0], expected, places=5)
+
+
+class Materials(unittest.TestCase):
+    def kinds(self) -> list[str]:
+        """Returns every kind of material that malus has."""
+        rows = (kRoot / "bake" / "pack" / "material_kinds.def").read_text()
+        found = re.findall(r'^MALUS_MATERIAL_KIND\(\w+, *\d+, *"([a-z-]+)"', rows, re.MULTILINE)
+        self.assertIn("thin-glass", found)
+        return found
+
+    def test_every_kind_is_exported_or_refused_by_name(self):
+        for kind in self.kinds():
+            scene = Scene(self, [material("odd one", kind)], [("odd one", mirror(0))])
+            if kind in export.BSDFS:
+                export.mitsuba_scene(scene.unpacked, 1, 1, 1)
+                continue
+            with self.assertRaises(ValueError) as caught:
+                export.mitsuba_scene(scene.unpacked, 1, 1, 1)
+            for part in ("odd one", kind, "expected", "metal"):
+                self.assertIn(part, str(caught.exception))
+
+    def test_all_materials_without_an_equivalent_are_listed(self):
+        materials = [material("window", "thin-glass"), material("gold", "metal"), material("film", "polarizer")]
+        scene = Scene(self, materials, [(m["name"], mirror(0)) for m in materials])
+        with self.assertRaises(ValueError) as caught:
+            export.mitsuba_scene(scene.unpacked, 1, 1, 1)
+        for part in ("'window' (thin-glass)", "'film' (polarizer)"):
+            self.assertIn(part, str(caught.exception))
+        self.assertNotIn("gold", str(caught.exception))
+
+    def test_mitsubas_thin_dielectric_is_not_a_polarized_pane(self):
+        """The reason why thin-glass is refused. If this fails, Mitsuba has changed and thin-glass may be exported."""
+        pane = mi.load_dict({"type": "thindielectric", "int_ior": 1.5, "ext_ior": 1.0})
+        si = dr.zeros(mi.SurfaceInteraction3f, 1)
+        si.n, si.sh_frame = mi.Normal3f(0, 0, 1), mi.Frame3f(mi.Normal3f(0, 0, 1))
+        si.wi = mi.Vector3f(math.sin(math.radians(60)), 0, math.cos(math.radians(60)))
+        out, weight = pane.sample(mi.BSDFContext(), si, 0.999, mi.Point2f(0.5))
+        self.assertLess(out.wo.z[0], 0)  # transmitted
+        through = integrator.matrices(weight, 1)[0] * out.pdf[0]
+        ts, tp = ((1 - r) / (1 + r) for r in reflectance(60, 1.5))
+        self.assertGreater(tp - ts, 0.2)  # a pane polarizes what it transmits
+        self.assertLess(abs(through[0, 1]), 1e-6)
+        self.assertGreater(abs(through[0, 0] - (ts + tp) / 2), 0.01)
 
 
 class Twosided(unittest.TestCase):

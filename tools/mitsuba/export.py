@@ -57,19 +57,45 @@ class Unpacked:
         return part
 
 
+def glass(m: dict, colour: int) -> dict:
+    # No dispersion: the index at 532 nm in every colour.
+    return {"type": "dielectric", "int_ior": m["eta"][1], "ext_ior": m["outsideEta"]}
+
+
+def metal(m: dict, colour: int) -> dict:
+    return {"type": "conductor", "eta": m["eta"][colour] / m["outsideEta"], "k": m["k"][colour] / m["outsideEta"]}
+
+
+def mirror_glass(m: dict, colour: int) -> dict:
+    # A conductor with k = 0 is a dielectric that only reflects.
+    return {"type": "conductor", "eta": m["eta"][1] / m["outsideEta"], "k": 0.0}
+
+
+def diffuse(m: dict, colour: int) -> dict:
+    return {"type": "diffuse", "reflectance": m["albedo"][colour]}
+
+
+def black(m: dict, colour: int) -> dict:
+    return {"type": "diffuse", "reflectance": 0.0}
+
+
+# BSDF of each kind of material that Mitsuba can describe. Mitsuba has no polarizing element with the rules of malus,
+# and its `thindielectric` depolarizes and sums the reflections of the mean of s and p (a test shows it).
+BSDFS = {"glass": glass, "metal": metal, "mirror-glass": mirror_glass, "lambert": diffuse, "paint": diffuse,
+         "emitter": black}
+
+
 def bsdf(m: dict, colour: int) -> dict:
-    """Returns the BSDF of material m on the side of its normal."""
-    outside = m["outsideEta"]
-    if m["type"] in ("polarizer", "wave-plate"):
-        raise ValueError(f"material '{m['name']}': polarizing elements of type {m['type']} are not exported to Mitsuba; "
-                         "use a scene without them")
-    if m["type"] == "glass":  # no dispersion: the index at 532 nm in every colour
-        return {"type": "dielectric", "int_ior": m["eta"][1], "ext_ior": outside}
-    if m["type"] == "metal":
-        return {"type": "conductor", "eta": m["eta"][colour] / outside, "k": m["k"][colour] / outside}
-    if m["type"] == "mirror-glass":  # a conductor with k = 0 is a dielectric that only reflects
-        return {"type": "conductor", "eta": m["eta"][1] / outside, "k": 0.0}
-    return {"type": "diffuse", "reflectance": 0.0 if m["type"] == "emitter" else m["albedo"][colour]}
+    """Returns the BSDF of material m on the side of its normal. The kind of m must be in BSDFS."""
+    return BSDFS[m["type"]](m, colour)
+
+
+def require_exportable(scene: Unpacked) -> None:
+    """Raises ValueError that names every material without an equivalent in Mitsuba."""
+    others = [f"'{m['name']}' ({m['type']})" for m in scene.materials.values() if m["type"] not in BSDFS]
+    if others:
+        raise ValueError(f"{scene.folder / 'scene.json'}: Mitsuba has no equivalent of material {', '.join(others)}; "
+                         f"expected materials of type {', '.join(BSDFS)}")
 
 
 # Optional keys of materials (bake/unpack.cpp).
@@ -121,7 +147,9 @@ def sensor(scene: Unpacked, width: int, height: int) -> dict:
 
 
 def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environment: bool = True) -> mi.Scene:
-    """Returns the scene at WAVELENGTHS_NM[colour], with or without its environment."""
+    """Returns the scene at WAVELENGTHS_NM[colour], with or without its environment. Raises ValueError for materials
+    without an equivalent in Mitsuba."""
+    require_exportable(scene)
     description = {"type": "scene", "sensor": sensor(scene, width, height)}
     infinity = scene.environment(colour).emitter() if environment else None
     if infinity:

@@ -48,14 +48,21 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
   const glm::dvec3 colour = glm::clamp(source.baseColour, 0.0, 1.0);
   const glm::dvec3 ior(std::clamp(source.ior, 1.0, pack::kMaxEta));
 
+  // The metallic share of a material is opaque.
+  const double transmission = source.transmission * (1 - source.metallic);
+  if (transmission > 0 && transmission <= prep::kTransmissive)
+    prep::addNote(notes, fmt::format("the transmission of material '{}', at most half of the light", source.name));
+
   if (source.emissive != glm::dvec3(0.0)) {
     result.kind = Kind::emitter;
     result.radiance = glm::clamp(source.emissive, 0.0, kMostRadiance);
-  } else if (source.transmission > 0.5) {
-    result.kind = Kind::glass;
+  } else if (transmission > prep::kTransmissive) {
+    result.kind = source.isThinWalled ? Kind::thinGlass : Kind::glass;
     result.eta = ior;
+    if (source.isThinWalled) result.transmittanceParallel = colour;  // of thin glass: internal transmittance
     if (source.hasVolume) result.absorption = volumeAbsorption(source);
     if (alpha > 0) prep::addNote(notes, fmt::format("the roughness of glass '{}'", source.name));
+    if (transmission < 1) prep::addNote(notes, fmt::format("the opaque part of glass '{}'", source.name));
   } else if (source.metallic >= 0.5) {
     result.kind = Kind::metal;
     setMetal(result, colour);

@@ -2,15 +2,21 @@
 // by the first of these rules that fits:
 //
 //   emissive over 0         emitter: radiance = emissive, whose cd/m^2 are taken as the scene's unit
-//   transmission over 0.5   glass: eta = ior; with a volume, absorption = -ln(attenuation colour) / attenuation
-//                           distance per metre, a colour under 1e-6 counting as 1e-6, at most 1e9. Roughness is left
-//                           out, with a note
+//   transmission over 0.5   transmission x (1 - metallic), as metals are opaque. Thin-walled (glTF without a volume, or
+//                           with one of thickness 0): thin-glass, eta = ior, internal transmittance at normal incidence
+//                           = base colour. Otherwise glass: eta = ior; with a volume, absorption = -ln(attenuation
+//                           colour) / attenuation distance per metre, a colour under 1e-6 counting as 1e-6, at most
+//                           1e9. Roughness and an opaque part are left out, with a note
 //   metallic 0.5 or more    metal whose reflectance at normal incidence is the base colour r (0.001 to 0.999):
 //                           n = (1 - r) / (1 + r), k^2 = (r (n + 1)^2 - (n - 1)^2) / (1 - r), the index with the
 //                           least n (edge tint 1) of O. Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4),
 //                           2014; roughness alpha
 //   alpha 0.3 or more       lambert: albedo = base colour
 //   otherwise               paint: albedo = base colour, eta = ior, roughness alpha
+//
+// KHR_materials_transmission multiplies the transmitted light by the base colour at each surface: a wall has one, on
+// which the Fresnel reflection of its two interfaces is not tinted. A body has two, and its colour is that of the
+// volume; the readers note a base colour other than white.
 //
 // alpha = roughness^2, as glTF has it; below 0.01 it is 0. ior is clamped to 1 to 1000, the bounds of a pack.
 #pragma once

@@ -63,8 +63,10 @@ SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& l
   if (!(result.attenuationDistance > 0))
     throw Error(location + ".attenuationDistance", "is out of range", "a positive distance in metres",
                 fmt::to_string(result.attenuationDistance));
-  if (result.transmission > 0 && !result.hasVolume)
-    addNote(notes, "thin walls of transmissive materials without a volume");
+  // Without a volume, or with one of thickness 0, KHR_materials_volume makes the material thin-walled.
+  result.isThinWalled = result.transmission > 0 && !result.hasVolume;
+  if (result.transmission > 0 && result.hasVolume && result.baseColour != glm::dvec3(1.0))
+    addNote(notes, "base colours of transmissive materials with a volume");
   return result;
 }
 

@@ -63,6 +63,7 @@ SourceMaterial convertMaterial(const Statements& from, std::vector<std::string>&
     result.transmission = 1 - std::clamp(*from.d, 0.0, 1.0);
   else if (refracts && from.tf)
     result.transmission = largest(clampToUnit(*from.tf));
+  if (result.transmission > kTransmissive) result.metallic = 0;  // a metal is opaque
   if (from.tf) {
     result.hasVolume = true;
     result.attenuationColour = clampToUnit(*from.tf);

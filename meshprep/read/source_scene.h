@@ -20,6 +20,9 @@
 
 namespace malus::prep {
 
+// Share of the light of a dielectric above which a material transmits; up to it, the material is opaque.
+inline constexpr double kTransmissive = 0.5;
+
 // Material as in glTF 2.0, with its defaults. Colours are linear. Textures are ignored.
 struct SourceMaterial {
   std::string name;  // empty if the file has none
@@ -28,6 +31,7 @@ struct SourceMaterial {
   double roughness = 1;             // 0 to 1; the square root of GGX's alpha
   glm::dvec3 emissive{0.0};         // radiance, W / (m^2 sr) or relative, including the strength
   double transmission = 0;          // 0 to 1
+  bool isThinWalled = false;        // transmits without refraction, tinted by the base colour
   double ior = 1.5;                 // 1 or more
   bool hasVolume = false;           // the interior absorbs light:
   glm::dvec3 attenuationColour{1};  // transmittance of

@@ -62,12 +62,60 @@ TEST(SourceMaterial, GlassAbsorbsByItsVolume) {
   source.attenuationDistance = 1e-300;
   EXPECT_EQ(made(source).absorption.y, pack::kMaxAbsorption);
 
+  source.baseColour = {0.5, 0.5, 0.5};  // the colour of a body is that of its volume
+  EXPECT_EQ(made(source).transmittanceParallel, pack::Material().transmittanceParallel);
+
   source.roughness = 0.5;
   source.name = "frosted";
   std::vector<std::string> notes;
   EXPECT_EQ(convertMaterial(source, notes).roughness, 0);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_CONTAINS(notes[0], "roughness", "'frosted'");
+}
+
+TEST(SourceMaterial, ThinWallsAreTintedPanes) {
+  prep::SourceMaterial source;
+  source.name = "window";
+  source.metallic = 0;
+  source.roughness = 0;
+  source.transmission = 1;
+  source.isThinWalled = true;
+  source.ior = 1.52;
+  source.baseColour = {1, 0.25, 0};
+  source.attenuationColour = glm::dvec3(0.5);  // of a volume, which a wall does not have
+  source.attenuationDistance = 1;
+  std::vector<std::string> notes;
+  const pack::Material pane = convertMaterial(source, notes);
+  EXPECT_EQ(pane.kind, Kind::thinGlass);
+  EXPECT_EQ(pane.eta, glm::dvec3(1.52));
+  EXPECT_EQ(pane.transmittanceParallel, glm::dvec3(1, 0.25, 0));
+  EXPECT_EQ(pane.absorption, glm::dvec3(0));
+  EXPECT_TRUE(notes.empty());
+
+  // Properties that a pane lacks are noted.
+  source.roughness = 0.5;
+  source.transmission = 0.75;
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::thinGlass);
+  EXPECT_EQ(convertMaterial(source, notes).roughness, 0);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[0].find("roughness of glass 'window'"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[1].find("opaque part of glass 'window'"), std::string::npos) << notes[1];
+}
+
+TEST(SourceMaterial, MetalsAndFaintTransmissionAreOpaque) {
+  prep::SourceMaterial source;
+  source.name = "foil";
+  source.transmission = 1;  // without effect on a metal
+  std::vector<std::string> notes;
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::metal);
+  EXPECT_TRUE(notes.empty());
+  source.metallic = 0.4;
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::glass);
+  source.transmission = 0.75;
+  notes.clear();
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::lambert);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("transmission of material 'foil'"), std::string::npos) << notes[0];
 }
 
 TEST(SourceMaterial, DielectricsArePaintOrMatt) {

@@ -440,6 +440,8 @@ TEST(ReadGltf, ReadsMaterials) {
   EXPECT_EQ(all.ior, 2);
   EXPECT_EQ(all.transmission, 0.75);
   EXPECT_TRUE(all.hasVolume);
+  EXPECT_FALSE(all.isThinWalled);
+  EXPECT_TRUE(hasNote(scene, "base colours of transmissive materials with a volume"));
   EXPECT_EQ(all.attenuationDistance, 3);
   EXPECT_EQ(all.attenuationColour, glm::dvec3(1, 0.5, 0));
 
@@ -458,7 +460,24 @@ TEST(ReadGltf, ReadsMaterials) {
   gltf.document["materials"][1]["extensions"]["KHR_materials_volume"].erase("thicknessFactor");
   const SourceScene thin = readGlb(gltf);
   EXPECT_FALSE(thin.materials[1].hasVolume);  // a wall without thickness absorbs nothing
-  EXPECT_TRUE(hasNote(thin, "thin walls of transmissive materials without a volume"));
+  EXPECT_TRUE(thin.materials[1].isThinWalled);
+  EXPECT_FALSE(thin.materials[0].isThinWalled);  // opaque
+  EXPECT_FALSE(hasNote(thin, "base colours of transmissive materials with a volume"));
+  gltf.document["materials"][1]["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0;
+  EXPECT_TRUE(readGlb(gltf).materials[1].isThinWalled);
+  gltf.document["materials"][1]["extensions"].erase("KHR_materials_volume");
+  EXPECT_TRUE(readGlb(gltf).materials[1].isThinWalled);
+
+  // Left out: coverage, and the texture of the transmission as every texture.
+  gltf.document["materials"][1]["alphaMode"] = "BLEND";
+  gltf.document["materials"][1]["doubleSided"] = true;
+  gltf.document["materials"][1]["extensions"]["KHR_materials_transmission"]["transmissionTexture"] = {{"index", 0}};
+  gltf.document["textures"] = {{{"source", 0}}};
+  gltf.document["images"] = {{{"uri", "nowhere.png"}}};
+  const SourceScene noted = readGlb(gltf);
+  EXPECT_TRUE(noted.materials[1].isThinWalled);
+  EXPECT_TRUE(hasNote(noted, "alpha coverage"));
+  EXPECT_TRUE(hasNote(noted, "textures"));
 }
 
 TEST(ReadGltf, ReproducesASphere) {

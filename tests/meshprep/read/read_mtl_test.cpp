@@ -62,6 +62,9 @@ TEST(ReadMtl, RecognizesMetals) {
 
 TEST(ReadMtl, ReadsTransmissionAndEmission) {
   EXPECT_EQ(one("d 0.25\n").transmission, 0.75);
+  EXPECT_FALSE(one("d 0.25\n").isThinWalled);  // a body
+  EXPECT_EQ(one("Kd 0 0 0\nKs 1 1 1\nd 0.25\n").metallic, 0);
+  EXPECT_EQ(one("Kd 0 0 0\nKs 1 1 1\nd 0.75\n").metallic, 1);
   EXPECT_EQ(one("d -halo 0.25\n").transmission, 0.75);
   EXPECT_EQ(one("Tr 0.75\n").transmission, 0.75);
   EXPECT_EQ(one("Tf 0.5 0.75 1\nillum 6\n").transmission, 1);

@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "bake/bake.h"
 #include "render/embree/renderer.h"
 #include "render/reference/renderer.h"
 #include "render/scene/methods.h"
+#include "tests/bake/fixtures.h"
+#include "tests/meshprep/read/gltf_files.h"
 #include "tests/render/test_scene.h"
 
 namespace malus {
@@ -259,6 +262,56 @@ TEST(ClosedForms, HighlightIsTheLobeTimesTheReflectance) {
   EXPECT_NEAR(light[0], arriving * (r.s + r.p) / 2, 1e-5);
   EXPECT_NEAR(light[1], arriving * (r.s - r.p) / 2, 1e-5);
   EXPECT_NEAR(embreeStokes(scene)[0], light[0], 1e-5);
+}
+
+// The scene of a glTF pane without a volume in front of a panel of radiance 1, seen at normal incidence.
+pack::Scene importedPane(const nlohmann::json& material, bool isOpenSurface) {
+  prep::Mesh square;
+  square.positions = {{-1, -1.1, 0}, {1.2, -1.1, 0}, {1.2, 1, 0}, {-1, 1, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  prep::test::GltfFile gltf;
+  gltf.document["materials"] = {material};
+  gltf.addMesh(square, "pane", 0);
+  gltf.addNode({{"name", "pane"}, {"mesh", 0}});
+  const bake::test::TemporaryFolder folder;
+  folder.write("pane.glb", gltf.glb());
+  folder.write("panel.obj", bake::test::kSquareObj);
+  nlohmann::json scene = nlohmann::json::parse(R"({
+    "malus": 1, "name": "pane", "resolution": [1, 1], "depth": 8,
+    "camera": {"position": [0.1, 0.2, 2], "target": [0.1, 0.2, 0], "verticalFovDegrees": 0.1},
+    "materials": {"lamp": {"type": "emitter", "radiance": [1, 1, 1]}},
+    "meshes": [{"name": "panel", "file": "panel.obj", "material": "lamp",
+                "instances": [{"scale": 8, "rotateDegrees": [90, 0, 0], "translate": [0, 0, -1]}]}],
+    "imports": [{"file": "pane.glb"}]})");
+  if (isOpenSurface) scene["imports"][0]["openSurfaces"] = {"pane"};
+  return bake::bake(bake::readSceneFile(folder.write("scene.json", scene.dump())), {}, [](std::string_view) {}).scene;
+}
+
+TEST(ClosedForms, ThinWalledTransmissionOfGltfIsAPane) {
+  // T' = T^2 a / (1 - R^2 a^2) with R = ((n - 1) / (n + 1))^2, T = 1 - R, and the base colour a.
+  nlohmann::json material = nlohmann::json::parse(R"({"name": "window",
+    "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
+    "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}})");
+  const auto expectPane = [&](double n, const glm::dvec3& colour) {
+    for (const bool isOpenSurface : {false, true}) {
+      const pack::Scene scene = importedPane(material, isOpenSurface);
+      EXPECT_EQ(scene.materials.back().kind, MaterialKind::thinGlass);
+      const render::RenderParameters parameters = render::defaultParameters(scene);
+      const render::RenderResult truth = reference::render(scene, parameters, 1),
+                                 fast = embree::Renderer(scene, 1).render("stokes", parameters);
+      const double r = std::pow((n - 1) / (n + 1), 2);
+      for (int c = 0; c < 3; ++c) {
+        const double expected = std::pow(1 - r, 2) * colour[c] / (1 - r * r * colour[c] * colour[c]);
+        EXPECT_NEAR(truth.pixels[static_cast<std::size_t>(c)], expected, 1e-6) << c;
+        EXPECT_NEAR(fast.pixels[static_cast<std::size_t>(c)], expected, 2e-6) << c;
+      }
+    }
+  };
+  expectPane(1.5, glm::dvec3(1));  // 12 / 13
+  material["extensions"]["KHR_materials_ior"] = {{"ior", 2}};
+  material["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 0}, {"attenuationDistance", 0.1}};
+  material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 0.5, 0.125, 1};
+  expectPane(2, {1, 0.5, 0.125});
 }
 
 }  // namespace

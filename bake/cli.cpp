@@ -78,9 +78,9 @@ void runBake(const BakeArguments& arguments) {
 
 void addBakeCommand(CLI::App& app) {
   auto arguments = std::make_shared<BakeArguments>();
-  CLI::App* command = app.add_subcommand("bake", "Bakes a scene description into a scene pack");
-  command->add_option("scene", arguments->input, "Scene description (bake/SCENE.md)")->required();
-  command->add_option("-o,--output", arguments->output, "Pack to write")->required();
+  CLI::App* command = app.add_subcommand("bake", "Bake a scene description into a scene pack");
+  command->add_option("scene", arguments->input, "Scene description (bake/SCENE.md)")->required()->type_name("FILE");
+  command->add_option("-o,--output", arguments->output, "Pack to write")->required()->type_name("PACK");
   command
       ->add_option("--position-error", arguments->settings.bounds.positionError,
                    "Largest distance of a vertex from its source [m]")
@@ -105,8 +105,8 @@ void addBakeCommand(CLI::App& app) {
                     "Bake glass that is not a certified body, with a warning");
   command->add_flag("--force", arguments->force, "Bake although the pack is up to date, and encode every mesh again");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
-  addFormerOption(*command, "--max-error", "--position-error");
   addFormerOption(*command, "--max-normal-error", "--normal-error");
+  addRemovedOption(*command, "--max-error", "--position-error");  // `render`: relative RMS error
   command->callback([arguments] { runBake(*arguments); });
 }
 
@@ -117,17 +117,20 @@ void addInfoCommand(CLI::App& app) {
     bool verify = false, json = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("info", "Prints the contents of a scene pack");
-  command->add_option("pack", arguments->input, "Scene pack")->required();
+  CLI::App* command = app.add_subcommand("info", "Print the contents of a scene pack");
+  command->add_option("pack", arguments->input, "Scene pack")->required()->type_name("PACK");
   command
-      ->add_option("--tolerance", arguments->tolerance,
+      ->add_option("--bounce-tolerance", arguments->tolerance,
                    "Share of the light that deeper bounces than the reported one may change")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_flag("--verify", arguments->verify, "Report that every hash, count and number was checked");
-  command->add_option("--diff", arguments->other,
-                      "Other pack: print the sections and values that differ, and exit with 3 if any does");
-  command->add_flag("--json", arguments->json, "Print as JSON");
+  command
+      ->add_option("--diff", arguments->other,
+                   "Other pack: print the sections and values that differ, and exit with 3 if any does")
+      ->type_name("PACK");
+  command->add_flag("--json", arguments->json, "Print the result as JSON");
+  addRemovedOption(*command, "--tolerance", "--bounce-tolerance");  // `render`: loss along a path
   command->callback([arguments] {
     const pack::Pack pack = pack::read(arguments->input);  // makes every check of the reader
     if (!arguments->other.empty()) {
@@ -157,9 +160,11 @@ void addUnpackCommand(CLI::App& app) {
     bool json = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("unpack", "Unpacks a scene pack into JSON, PLY and EXR files");
-  command->add_option("pack", arguments->input, "Scene pack")->required();
-  command->add_option("-o,--output", arguments->output, "Folder to write (contents: bake/unpack.h)")->required();
+  CLI::App* command = app.add_subcommand("unpack", "Unpack a scene pack into JSON, PLY and EXR files");
+  command->add_option("pack", arguments->input, "Scene pack")->required()->type_name("PACK");
+  command->add_option("-o,--output", arguments->output, "Folder to write (contents: bake/unpack.h)")
+      ->required()
+      ->type_name("FOLDER");
   command->add_flag("--json", arguments->json, "Print scene.json as well");
   command->callback([arguments] {
     const pack::Pack pack = pack::read(arguments->input);

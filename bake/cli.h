@@ -1,7 +1,7 @@
 // The command lines of baking:
 //   malus bake SCENE.json -o OUT.pack [--position-error METRES] [--normal-error DEGREES] [--position-bits N]
 //              [--normal-bits N] [--keep-map] [--force] [--json]
-//   malus info PACK [--verify] [--tolerance T] [--diff OTHER] [--json]
+//   malus info PACK [--verify] [--bounce-tolerance T] [--diff OTHER] [--json]
 //   malus unpack PACK -o FOLDER [--json]
 #pragma once
 

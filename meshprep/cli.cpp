@@ -220,9 +220,9 @@ void addPrepCommand(CLI::App& app) {
   addNormalOptions(prep, arguments->options);
   addCompressionOptions(prep, arguments->bounds);
   addFormerFlag(prep, "--sheet", "--open-surface");
-  addFormerOption(prep, "--max-error", "--position-error");
   addFormerOption(prep, "--max-normal-error", "--normal-error");
-  addFormerOption(prep, "--keep-map", "--source-map");
+  addRemovedOption(prep, "--max-error", "--position-error");  // `render`: relative RMS error
+  addRemovedOption(prep, "--keep-map", "--source-map");       // `bake`: a flag
   prep.callback([arguments] { runPrep(*arguments); });
 }
 

@@ -1,5 +1,7 @@
 #include "meshprep/deprecated_option.h"
 
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "meshprep/base/console.h"
@@ -25,6 +27,14 @@ void addFormerOption(CLI::App& app, const std::string& former, const std::string
 void addFormerFlag(CLI::App& app, const std::string& former, const std::string& name) {
   CLI::Option* const option = app.get_option(name);
   app.add_flag_callback(former, [=] { forward(option, former, name, "true"); })->group("");
+}
+
+void addRemovedOption(CLI::App& app, const std::string& former, const std::string& name) {
+  const auto refuse = [former, name](const std::vector<std::string>&) {
+    throw CLI::ValidationError(
+        former, fmt::format("was removed, because another command has it with another meaning; use {}", name));
+  };
+  app.add_option_function<std::vector<std::string>>(former, refuse)->expected(0, 1)->group("");
 }
 
 }  // namespace malus

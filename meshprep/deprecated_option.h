@@ -1,4 +1,5 @@
-// Former names of command-line options. They stay accepted, print a note with -v, and are not shown in the help.
+// Former names of command-line options. They stay accepted and print a note with -v, unless their meaning differs
+// between commands. They are not shown in the help.
 #pragma once
 
 #include <string>
@@ -12,5 +13,9 @@ void addFormerOption(CLI::App& app, const std::string& former, const std::string
 
 // The same for a flag.
 void addFormerFlag(CLI::App& app, const std::string& former, const std::string& name);
+
+// Refuses `former`, with or without a value, by an error that names `name`: for a former name that another command uses
+// with another meaning.
+void addRemovedOption(CLI::App& app, const std::string& former, const std::string& name);
 
 }  // namespace malus

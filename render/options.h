@@ -30,7 +30,7 @@ void addExposure(CLI::App& command, std::optional<double>& exposure);
 template <class Value>
 CLI::Option* addNumber(CLI::App& command, const char* name, Value& value, std::uint32_t least, std::uint32_t most,
                        const char* description) {
-  CLI::Option* option = command.add_option(name, value, description)->check(CLI::Range(least, most));
+  CLI::Option* option = command.add_option(name, value, description)->check(CLI::Range(least, most))->type_name("N");
   if constexpr (std::is_same_v<Value, std::vector<std::uint32_t>>) option->delimiter(',')->type_name("N,...");
   return option;
 }

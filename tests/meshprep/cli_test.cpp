@@ -214,13 +214,27 @@ TEST_F(PrepCommand, AcceptsFormerOptions) {
     run(arguments);
     return readFile(output_);
   };
-  EXPECT_EQ(bytes({"--max-error", "1e-3", "--max-normal-error", "2", "--sheet"}),
-            bytes({"--position-error", "1e-3", "--normal-error", "2", "--open-surface"}));
-  EXPECT_NE(bytes({"--max-error", "1e-3"}), bytes({"--max-error", "1e-5"}));
-  bytes({"--keep-map", map_.string()});
-  EXPECT_TRUE(std::filesystem::exists(map_));
-  EXPECT_THROW(bytes({"--max-error", "0"}), CLI::ParseError);
-  EXPECT_THROW(bytes({"--max-error", "1", "--position-error", "1"}), CLI::ParseError);
+  EXPECT_EQ(bytes({"--max-normal-error", "2", "--sheet"}), bytes({"--normal-error", "2", "--open-surface"}));
+  EXPECT_NE(bytes({"--max-normal-error", "2"}), bytes({"--max-normal-error", "0.01"}));
+  EXPECT_THROW(bytes({"--max-normal-error", "0"}), CLI::ParseError);
+  EXPECT_THROW(bytes({"--max-normal-error", "1", "--normal-error", "1"}), CLI::ParseError);
+}
+
+TEST_F(PrepCommand, RefusesFormerOptionsOfTwoMeanings) {
+  const TemporaryFile ball(".obj", test::objText(test::sphere(15, 32)));
+  for (const auto& [former, name] :
+       {std::pair("--max-error", "--position-error"), std::pair("--keep-map", "--source-map")})
+    for (const std::vector<std::string>& value : {std::vector<std::string>{}, std::vector<std::string>{"1"}}) {
+      std::vector<std::string> arguments = {ball.path().string(), "-o", output_.string(), former};
+      arguments.insert(arguments.end(), value.begin(), value.end());
+      try {
+        run(arguments);
+        ADD_FAILURE() << former << " was accepted";
+      } catch (const CLI::ValidationError& error) {
+        EXPECT_TRUE(contains(error.what(), former) && contains(error.what(), name)) << error.what();
+      }
+      EXPECT_FALSE(std::filesystem::exists(output_)) << former;
+    }
 }
 
 }  // namespace

@@ -98,5 +98,6 @@ constexpr bool canBeDiffuse(MaterialKind kind) { return hasTrait(kind, material_
 constexpr bool canBeCoated(MaterialKind kind) { return hasTrait(kind, material_traits::kCoatable); }
 constexpr bool canBeRough(MaterialKind kind) { return hasTrait(kind, material_traits::kRough); }
 constexpr bool canHaveIndexMap(MaterialKind kind) { return hasTrait(kind, material_traits::kIndexMap); }
+constexpr bool canHaveMaps(MaterialKind kind) { return canBeDiffuse(kind) || canHaveIndexMap(kind); }
 
 }  // namespace malus::pack

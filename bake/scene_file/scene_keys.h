@@ -1,8 +1,7 @@
 // The keys of scene.json: one row per key with its range, whether it is required, its deprecated name and one line for
 // bake/SCENE.md. Defaults are those of the members. The rows of a material are in bake/pack/material_fields.h.
 //
-// Keys that are lists, objects or files, and rules over several keys, are code beside the rows
-// (bake/scene_file/scene_file.cpp, material.cpp, mesh.cpp); their rows here are for the page alone (Key::none).
+// Keys that are lists, objects or files, and keys with rules over several, are in special_keys.h.
 #pragma once
 
 #include "bake/pack/field.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -166,7 +167,9 @@ void StrictObject::finish() {
   for (const auto& item : value_->items()) {
     if (std::find(known_.begin(), known_.end(), item.key()) != known_.end()) continue;
     const std::string near = nearestName(item.key(), known_);
-    fail(item.key(), "unknown key", near.empty() ? "a key that bake/SCENE.md lists" : fmt::format("'{}'", near));
+    const std::set<std::string> known(known_.begin(), known_.end());
+    fail(item.key(), "unknown key",
+         near.empty() ? fmt::format("one of '{}'", fmt::join(known, "', '")) : fmt::format("'{}'", near));
   }
 }
 

@@ -1,5 +1,5 @@
-// A JSON object of which every key must be read: finish() refuses the others and names the nearest known key. All
-// errors name the file and the path inside the document ("camera.position").
+// A JSON object of which every key must be read: finish() refuses the others and names the nearest known key, or all.
+// All errors name the file and the path inside the document ("camera.position").
 #pragma once
 
 #include <cstdint>

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "bake/pack/material_fields.h"
 #include "bake/pack/record_fields.h"
 #include "bake/scene_file/scene_keys.h"
+#include "bake/scene_file/special_keys.h"
 #include "meshprep/base/atomic_file.h"
 #include "tests/bake/fixtures.h"
 
@@ -147,13 +149,30 @@ struct SceneTable {
   }
 };
 
+std::string specialRows(std::span<const SpecialKey> keys, bool hasKinds) {
+  std::string text;
+  for (const SpecialKey& key : keys)
+    text += fmt::format("| `{}` | {}{} | {} | {} |\n", key.name,
+                        !hasKinds                       ? ""
+                        : key.kinds == pack::kEveryKind ? "all | "
+                                                        : kindNames(key.kinds) + " | ",
+                        key.value, key.fallback, key.text);
+  return text;
+}
+
+// special: rows before those of the record.
+std::string sceneTable(std::span<const SpecialKey> special, std::string_view rows = {}, bool hasKinds = false) {
+  return (hasKinds ? "| key | of | value | default | meaning |\n|---|---|---|---|---|\n"
+                   : "| key | value | default | meaning |\n|---|---|---|---|\n") +
+         specialRows(special, hasKinds) + std::string(rows);
+}
+
 template <class Record, class Describe>
-std::string sceneTable(Describe describe, bool hasKinds = false) {
-  SceneTable table{hasKinds, hasKinds ? "| key | of | value | default | meaning |\n|---|---|---|---|---|\n"
-                                      : "| key | value | default | meaning |\n|---|---|---|---|\n"};
+std::string sceneTable(Describe describe, std::span<const SpecialKey> special = {}, bool hasKinds = false) {
+  SceneTable table{hasKinds};
   const Record any{};
   describe(table, any);
-  return table.text;
+  return sceneTable(special, table.text, hasKinds);
 }
 
 #define MALUS_KEYS(visit) [](auto& visitor, const auto& record) { visit(visitor, record); }
@@ -163,17 +182,18 @@ std::map<std::string, std::string> sceneTables() {
   for (const pack::MaterialKindInfo& info : pack::kMaterialKinds)
     kinds += fmt::format("| `{}` | {} |\n", info.name, info.summary);
   return {{"kinds", kinds},
-          {"scene", sceneTable<SceneDescription>(MALUS_KEYS(visitSceneKeys))},
+          {"scene", sceneTable<SceneDescription>(MALUS_KEYS(visitSceneKeys), kSceneSpecialKeys)},
           {"camera", sceneTable<SceneDescription>(MALUS_KEYS(visitCameraKeys))},
           {"constant", sceneTable<SceneDescription>(MALUS_KEYS(visitConstantKeys))},
-          {"image", sceneTable<SceneDescription>(MALUS_KEYS(visitImageKeys))},
+          {"image", sceneTable<SceneDescription>(MALUS_KEYS(visitImageKeys), kImageSpecialKeys)},
           {"environment", sceneTable<SceneDescription>(MALUS_KEYS(visitEnvironmentKeys))},
-          {"light", sceneTable<pack::PointLight>(MALUS_KEYS(visitLightKeys))},
-          {"material", sceneTable<pack::Material>(MALUS_KEYS(pack::visitMaterial), true)},
-          {"map", sceneTable<TextureDescription>(MALUS_KEYS(visitMapKeys))},
+          {"light", sceneTable<pack::PointLight>(MALUS_KEYS(visitLightKeys), kLightSpecialKeys)},
+          {"material", sceneTable<pack::Material>(MALUS_KEYS(pack::visitMaterial), kMaterialSpecialKeys, true)},
+          {"map", sceneTable<TextureDescription>(MALUS_KEYS(visitMapKeys), kMapSpecialKeys)},
           {"projection", sceneTable<pack::Maps>(MALUS_KEYS(visitProjectionKeys))},
-          {"mesh", sceneTable<MeshDescription>(MALUS_KEYS(visitMeshKeys))},
-          {"cleaning", sceneTable<prep::Options>(MALUS_KEYS(visitCleaningKeys))},
+          {"mesh", sceneTable<MeshDescription>(MALUS_KEYS(visitMeshKeys), kMeshSpecialKeys)},
+          {"cleaning", sceneTable<prep::Options>(MALUS_KEYS(visitCleaningKeys), kCleaningSpecialKeys)},
+          {"import", sceneTable(kImportSpecialKeys)},
           {"transform", sceneTable<Transform>(MALUS_KEYS(visitTransformKeys))}};
 }
 

@@ -54,9 +54,7 @@ TEST(StrictObject, UnknownKeyNamesTheNearest) {
     o.finish();
   };
   EXPECT_CONTAINS(errorIn(R"({"positon": 1})", read), "file.json", "camera.positon", "unknown", "'position'");
-  const std::string capitals = errorIn(R"({"TARGET": 1})", read);
-  EXPECT_CONTAINS(capitals, "file.json", "camera.TARGET", "unknown", "bake/SCENE.md");
-  EXPECT_FALSE(contains(capitals, "'target'")) << capitals;
+  EXPECT_CONTAINS(errorIn(R"({"TARGET": 1})", read), "file.json", "camera.TARGET", "unknown", "'position'", "'target'");
 }
 
 TEST(StrictObject, MissingKeyNamesAMisspeltOne) {

@@ -1,5 +1,6 @@
-// Images in memory and in files. OpenImageIO reads and writes the files. It is linked by a module that is loaded with
-// the first image (image_module.h), because it depends on about 260 shared libraries that most commands do not need.
+// Images in memory and in files. A module that is loaded with the first image reads and writes the files
+// (image_module.h): with OpenImageIO, which depends on about 260 shared libraries that most commands do not need, or in
+// the bundle with OpenEXR and libpng.
 //
 // All functions throw Error if the module or the file cannot be read or written.
 #pragma once
@@ -31,8 +32,9 @@ struct Image {
   int channel(std::string_view name) const;
 };
 
-// Reads an image of any format that OpenImageIO supports (EXR, HDR, PNG, ...). Integers are scaled to [0, 1], without
-// conversion of the transfer function. Limits: 65536 pixels per side, 64 channels, 2^30 values.
+// Reads an image of any format that OpenImageIO supports (EXR, HDR, PNG, ...); in the bundle EXR and PNG. Integers are
+// scaled to [0, 1], without conversion of the transfer function. Limits: 65536 pixels per side, 64 channels, 2^30
+// values.
 Image read(const std::filesystem::path& path);
 
 // Writes a ZIP-compressed EXR of 32-bit floats with all attributes. Equal images give identical files. The file is
@@ -43,8 +45,9 @@ void writeExr(const std::filesystem::path& path, const Image& image);
 void writePng(const std::filesystem::path& path, int width, int height, int channels,
               const std::vector<std::uint8_t>& pixels);
 
-// Writes a linear grey PNG or uncompressed TIFF, by the extension of path. values: width * height samples, rows from
-// the top, stored unscaled; with bits8 each must be at most 255. description: the file's ImageDescription.
+// Writes a linear grey PNG or, not in the bundle, an uncompressed TIFF, by the extension of path. values: width *
+// height samples, rows from the top, stored unscaled; with bits8 each must be at most 255. description: the file's
+// ImageDescription.
 enum class GreyDepth { bits8, bits16 };
 void writeGrey(const std::filesystem::path& path, int width, int height, GreyDepth depth,
                const std::vector<std::uint16_t>& values, const std::string& description);

@@ -1,5 +1,8 @@
-// Interface between the OpenImageIO module (oiio_module.cpp) and its loader (image.cpp). Exceptions must not cross it:
-// each function returns an empty string, or the reason of its failure. Parameters as in image.h.
+// Interface between an image module and its loader (image.cpp). Exceptions must not cross it: each function returns an
+// empty string, or the reason of its failure. Parameters as in image.h.
+//
+// There are two modules: oiio_module.cpp reads every format of OpenImageIO; exr_png_module.cpp, for the bundle, EXR and
+// PNG only. Both give the same values. The loader uses the file malus-image.so.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +12,11 @@
 #include "meshprep/base/image.h"
 
 namespace malus::image {
+
+// Limits that image.h documents: a header of a few bytes can declare any size.
+inline constexpr int kMaxSide = 65536;
+inline constexpr int kMaxChannels = 64;
+inline constexpr std::uint64_t kMaxValues = std::uint64_t{1} << 30;  // 4 GiB
 
 struct Module {
   std::string (*read)(const std::string& path, Image& image);

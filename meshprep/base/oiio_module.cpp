@@ -1,4 +1,4 @@
-// The image module: the only file that includes OpenImageIO.
+// The image module with every format of OpenImageIO: the only file that includes it.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -13,11 +13,6 @@ using OIIO::ImageInput;
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
-
-// Limits that image.h documents: a header of a few bytes can declare any size.
-constexpr int kMaxSide = 65536;
-constexpr int kMaxChannels = 64;
-constexpr std::uint64_t kMaxValues = std::uint64_t{1} << 30;  // 4 GiB
 
 std::string messageOr(const std::string& message, const char* otherwise) {
   return message.empty() ? otherwise : message;

@@ -12,6 +12,8 @@ find_package(draco REQUIRED)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
 find_package(CGAL REQUIRED)
 find_package(OpenImageIO REQUIRED)
+find_package(OpenEXR REQUIRED)
+find_package(PNG REQUIRED)
 find_package(Vulkan REQUIRED)
 find_package(glslang REQUIRED)
 

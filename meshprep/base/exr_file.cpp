@@ -1,0 +1,182 @@
+#include "meshprep/base/exr_file.h"
+
+#include <strings.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <sstream>
+#include <tuple>
+
+#include <ImfChannelList.h>
+#include <ImfFloatAttribute.h>
+#include <ImfFloatVectorAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfMatrixAttribute.h>
+#include <ImfOutputFile.h>
+#include <ImfStdIO.h>
+#include <ImfStringAttribute.h>
+#include <ImfVecAttribute.h>
+#include <ImfVersion.h>
+#include <fmt/format.h>
+
+#include "meshprep/base/image_module.h"
+
+namespace malus::image {
+
+namespace {
+
+// The bytes of a file as the stream that OpenEXR reads.
+class MemoryInput : public Imf::IStream {
+ public:
+  explicit MemoryInput(const std::vector<unsigned char>& bytes) : IStream("memory"), bytes_(bytes) {}
+  bool read(char out[], int count) override {
+    if (static_cast<std::uint64_t>(count) > bytes_.size() - at_) throw std::runtime_error("the file is truncated");
+    std::memcpy(out, bytes_.data() + at_, static_cast<std::size_t>(count));
+    at_ += static_cast<std::size_t>(count);
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t position) override { at_ = std::min<std::uint64_t>(position, bytes_.size()); }
+
+ private:
+  const std::vector<unsigned char>& bytes_;
+  std::uint64_t at_ = 0;
+};
+
+// Sorts as OpenImageIO does: by layer, then the usual names of colours, alpha and depth
+// in any case of letters, then by name.
+auto channelKey(const std::string& channel) {
+  static constexpr const char* kUsual[] = {"R",  "Red", "G",  "Green", "B",  "Blue", "real", "imag",  "A",    "Alpha",
+                                           "AR", "RA",  "AG", "GA",    "AB", "BA",   "Z",    "Depth", "Zback"};
+  const std::size_t dot = channel.find_last_of('.');
+  const std::string layer = dot == std::string::npos ? "" : channel.substr(0, dot);
+  const std::string suffix = dot == std::string::npos ? channel : channel.substr(dot + 1);
+  const auto* const usual = std::find_if(std::begin(kUsual), std::end(kUsual),
+                                         [&](const char* name) { return ::strcasecmp(name, suffix.c_str()) == 0; });
+  return std::tuple(layer, usual - std::begin(kUsual), suffix);
+}
+
+struct Channel {
+  std::string name;
+  Imf::PixelType type;
+};
+
+// Throws std::runtime_error: channels with fewer samples than pixels.
+std::vector<Channel> listChannels(const Imf::Header& header) {
+  std::vector<Channel> result;
+  for (auto at = header.channels().begin(); at != header.channels().end(); ++at) {
+    if (at.channel().xSampling != 1 || at.channel().ySampling != 1)
+      throw std::runtime_error(fmt::format("channel '{}' is subsampled; expected a sample for each pixel", at.name()));
+    result.push_back({at.name(), at.channel().type});
+  }
+  std::sort(result.begin(), result.end(),
+            [](const Channel& a, const Channel& b) { return channelKey(a.name) < channelKey(b.name); });
+  return result;
+}
+
+void readAttributes(const Imf::Header& header, Image& image) {
+  for (auto at = header.begin(); at != header.end(); ++at) {
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&at.attribute()))
+      image.attributes.emplace_back(at.name(), text->value());
+    else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&at.attribute()))
+      image.attributes.emplace_back(at.name(), static_cast<double>(number->value()));
+  }
+}
+
+// Reads halves and floats as floats, and integers scaled to [0, 1].
+void readPixels(Imf::InputFile& file, const std::vector<Channel>& channels, Image& image) {
+  const Imath::Box2i window = file.header().dataWindow();
+  const std::size_t pixelBytes = channels.size() * sizeof(float),
+                    rowBytes = pixelBytes * static_cast<std::size_t>(image.width);
+  Imf::FrameBuffer buffer;
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    buffer.insert(channels[c].name, Imf::Slice::Make(channels[c].type == Imf::UINT ? Imf::UINT : Imf::FLOAT,
+                                                     image.pixels.data() + c, window, pixelBytes, rowBytes));
+  file.setFrameBuffer(buffer);
+  file.readPixels(window.min.y, window.max.y);
+  constexpr float kScale = 1.0f / static_cast<float>(std::numeric_limits<std::uint32_t>::max());
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    if (channels[c].type == Imf::UINT)
+      for (std::size_t i = c; i < image.pixels.size(); i += channels.size()) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, &image.pixels[i], sizeof value);
+        image.pixels[i] = static_cast<float>(value) * kScale;
+      }
+}
+
+void insertAttribute(Imf::Header& header, const std::string& name, const Image::Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    header.insert(name, Imf::StringAttribute(*text));
+  } else if (const auto* number = std::get_if<double>(&value)) {
+    header.insert(name, Imf::FloatAttribute(static_cast<float>(*number)));
+  } else if (const auto* list = std::get_if<std::vector<float>>(&value)) {
+    Imath::M44f matrix;
+    if (list->size() == 16) {
+      std::memcpy(matrix.x, list->data(), sizeof matrix.x);
+      header.insert(name, Imf::M44fAttribute(matrix));
+    } else if (list->size() == 3) {
+      header.insert(name, Imf::V3fAttribute({(*list)[0], (*list)[1], (*list)[2]}));
+    } else {
+      header.insert(name, Imf::FloatVectorAttribute(*list));
+    }
+  }
+}
+
+}  // namespace
+
+bool isExr(const std::vector<unsigned char>& bytes) {
+  return bytes.size() >= 4 && Imf::isImfMagic(reinterpret_cast<const char*>(bytes.data()));
+}
+
+std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image) {
+  try {
+    MemoryInput stream(bytes);
+    Imf::InputFile file(stream);
+    const Imath::Box2i window = file.header().dataWindow();
+    const auto side = [](int low, int high) { return std::int64_t{high} - low + 1; };
+    const std::int64_t width = side(window.min.x, window.max.x), height = side(window.min.y, window.max.y);
+    const std::vector<Channel> channels = listChannels(file.header());
+    if (std::max(width, height) > kMaxSide || channels.empty() || channels.size() > kMaxChannels ||
+        static_cast<std::uint64_t>(width * height) * channels.size() > kMaxValues)
+      return fmt::format("unsupported size {} x {} with {} channels", width, height, channels.size());
+    image.width = static_cast<int>(width);
+    image.height = static_cast<int>(height);
+    for (const Channel& c : channels) image.channels.push_back(c.name);
+    image.pixels.resize(static_cast<std::size_t>(width * height) * channels.size());
+    readAttributes(file.header(), image);
+    readPixels(file, channels, image);
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+std::string encodeExr(const Image& image, std::string& bytes) {
+  try {
+    Imf::Header header(image.width, image.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const std::string& name : image.channels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    for (const auto& [name, value] : image.attributes) insertAttribute(header, name, value);
+    const std::size_t pixelBytes = image.channels.size() * sizeof(float);
+    Imf::FrameBuffer buffer;
+    for (std::size_t c = 0; c < image.channels.size(); ++c)
+      buffer.insert(image.channels[c],
+                    Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, header.dataWindow(), pixelBytes,
+                                     pixelBytes * static_cast<std::size_t>(image.width)));
+    Imf::StdOSStream stream;
+    {
+      Imf::OutputFile file(stream, header);
+      file.setFrameBuffer(buffer);
+      file.writePixels(image.height);
+    }
+    bytes = stream.str();
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace malus::image

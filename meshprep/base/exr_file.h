@@ -1,0 +1,20 @@
+// EXR files by OpenEXR. Functions return an empty string, or the reason of their failure (image_module.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "meshprep/base/image.h"
+
+namespace malus::image {
+
+// First bytes of every EXR file.
+bool isExr(const std::vector<unsigned char>& bytes);
+
+// Decodes the first part of a file. Channels are ordered by layer, and within a layer R, G, B, A, Z before others.
+std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image);
+
+// Encodes as image::writeExr describes.
+std::string encodeExr(const Image& image, std::string& bytes);
+
+}  // namespace malus::image

@@ -1,0 +1,201 @@
+#include "meshprep/base/png_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <csetjmp>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include "meshprep/base/image_module.h"
+
+namespace malus::image {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "samples of 16 bits are swapped from PNG's byte order");
+
+struct Source {
+  const std::vector<unsigned char>* bytes;
+  std::size_t at = 0;
+};
+
+// libpng reports errors by a call that must not return: the message is kept and the caller continues at its setjmp.
+// Functions that call setjmp have no local objects with destructors.
+void keepError(png_structp png, png_const_charp message) {
+  static_cast<std::string*>(png_get_error_ptr(png))->assign(message);
+  png_longjmp(png, 1);
+}
+void ignoreWarning(png_structp, png_const_charp) {}
+
+void readBytes(png_structp png, png_bytep out, std::size_t count) {
+  Source& source = *static_cast<Source*>(png_get_io_ptr(png));
+  if (count > source.bytes->size() - source.at) png_error(png, "the file is truncated");
+  std::memcpy(out, source.bytes->data() + source.at, count);
+  source.at += count;
+}
+void appendBytes(png_structp png, png_bytep data, std::size_t count) {
+  auto& bytes = *static_cast<std::vector<unsigned char>*>(png_get_io_ptr(png));
+  bytes.insert(bytes.end(), data, data + count);
+}
+void flushNothing(png_structp) {}
+
+// Pixels as in the file, after the expansion of palettes and small depths.
+struct Decoded {
+  int width = 0, height = 0, channels = 0, bits = 0;
+  double alphaExponent = 1;  // of the factor that replaces alpha, because colours are encoded
+  std::vector<unsigned char> samples;
+  std::vector<png_bytep> rows;
+};
+
+// False: error has the reason.
+bool readHeader(png_structp png, png_infop info, Decoded& out) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_user_limits(png, kMaxSide, kMaxSide);
+  png_read_info(png, info);
+  png_set_expand(png);
+  png_set_swap(png);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  out.width = static_cast<int>(png_get_image_width(png, info));
+  out.height = static_cast<int>(png_get_image_height(png, info));
+  out.channels = png_get_channels(png, info);
+  out.bits = png_get_bit_depth(png, info);
+  double gamma = 0;
+  if (png_get_valid(png, info, PNG_INFO_sRGB) == 0 && png_get_gAMA(png, info, &gamma) != 0 && gamma > 0)
+    out.alphaExponent = std::round(100 / gamma) / 100;
+  return true;
+}
+
+bool readRows(png_structp png, Decoded& out) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_read_image(png, out.rows.data());
+  png_read_end(png, nullptr);
+  return true;
+}
+
+// Multiplies colours by alpha, in integers, as OpenImageIO does: with the alpha of an encoded colour if the file names
+// an exponent. data: interleaved pixels whose last channel is alpha.
+template <typename Sample>
+void multiplyByAlpha(Sample* data, std::size_t pixels, int channels, double exponent) {
+  constexpr unsigned kMax = std::numeric_limits<Sample>::max();
+  for (std::size_t i = 0; i < pixels; ++i, data += channels) {
+    const unsigned alpha = data[channels - 1];
+    const float factor =
+        std::pow(static_cast<float>(alpha) * (1.0f / static_cast<float>(kMax)), static_cast<float>(exponent));
+    for (int c = 0; c + 1 < channels; ++c)
+      data[c] = exponent == 1 ? static_cast<Sample>(data[c] * alpha / kMax)
+                              : static_cast<Sample>(static_cast<float>(data[c]) * factor);
+  }
+}
+
+template <typename Sample>
+void convert(Decoded& decoded, Image& image) {
+  auto* data = reinterpret_cast<Sample*>(decoded.samples.data());
+  const std::size_t pixels = static_cast<std::size_t>(decoded.width) * static_cast<std::size_t>(decoded.height);
+  if (decoded.channels == 2 || decoded.channels == 4)
+    multiplyByAlpha(data, pixels, decoded.channels, decoded.alphaExponent);
+  constexpr float kScale = 1.0f / static_cast<float>(std::numeric_limits<Sample>::max());
+  image.pixels.resize(pixels * static_cast<std::size_t>(decoded.channels));
+  std::transform(data, data + image.pixels.size(), image.pixels.begin(),
+                 [](Sample s) { return static_cast<float>(s) * kScale; });
+}
+
+std::string unsupportedSize(const Decoded& d) {
+  return fmt::format("unsupported size {} x {} with {} channels", d.width, d.height, d.channels);
+}
+
+std::string decode(png_structp png, png_infop info, const std::string& error, Image& image) {
+  Decoded decoded;
+  if (!readHeader(png, info, decoded)) return error;
+  const std::size_t rowBytes = png_get_rowbytes(png, info), height = static_cast<std::size_t>(decoded.height);
+  if (rowBytes * height / static_cast<std::size_t>(decoded.bits / 8) > kMaxValues) return unsupportedSize(decoded);
+  decoded.samples.resize(rowBytes * height);
+  for (std::size_t y = 0; y < height; ++y) decoded.rows.push_back(decoded.samples.data() + y * rowBytes);
+  if (!readRows(png, decoded)) return error;
+  constexpr const char* kNames[] = {"Y", "A", "R", "G", "B"};
+  image.width = decoded.width;
+  image.height = decoded.height;
+  if (decoded.channels < 3)
+    image.channels.assign(kNames, kNames + decoded.channels);
+  else
+    image.channels.assign(kNames + 2, kNames + 5);
+  if (decoded.channels == 4) image.channels.emplace_back("A");
+  if (decoded.bits == 16)
+    convert<std::uint16_t>(decoded, image);
+  else
+    convert<std::uint8_t>(decoded, image);
+  return {};
+}
+
+bool writeRows(png_structp png, png_infop info, const PngPixels& p, std::vector<png_bytep>& rows, png_text& text) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_IHDR(png, info, static_cast<png_uint_32>(p.width), static_cast<png_uint_32>(p.height), p.bits,
+               p.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (p.transfer == PngTransfer::sRgb)
+    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+  else
+    png_set_gAMA(png, info, 1.0);
+  if (text.text_length > 0) png_set_text(png, info, &text, 1);
+  png_write_info(png, info);
+  png_set_swap(png);
+  png_write_image(png, rows.data());
+  png_write_end(png, info);
+  return true;
+}
+
+}  // namespace
+
+bool isPng(const std::vector<unsigned char>& bytes) {
+  return bytes.size() >= 8 && png_sig_cmp(bytes.data(), 0, 8) == 0;
+}
+
+std::string decodePng(const std::vector<unsigned char>& bytes, Image& image) {
+  std::string error = "damaged file";
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, keepError, ignoreWarning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  if (!info) {
+    png_destroy_read_struct(&png, nullptr, nullptr);
+    return "out of memory";
+  }
+  Source source{&bytes};
+  png_set_read_fn(png, &source, readBytes);
+  std::string result;
+  try {
+    result = decode(png, info, error, image);
+  } catch (const std::bad_alloc&) {
+    result = "out of memory";
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  return result;
+}
+
+std::string encodePng(const PngPixels& pixels, std::vector<unsigned char>& bytes) {
+  std::string error = "cannot encode";
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, keepError, ignoreWarning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  if (!info) {
+    png_destroy_write_struct(&png, nullptr);
+    return "out of memory";
+  }
+  png_set_write_fn(png, &bytes, appendBytes, flushNothing);
+  const std::size_t rowBytes = static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.channels) *
+                               static_cast<std::size_t>(pixels.bits / 8);
+  std::vector<png_bytep> rows;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(pixels.height); ++y)
+    rows.push_back(const_cast<png_bytep>(pixels.data + y * rowBytes));
+  std::string key = "Description", value = pixels.description;
+  png_text text{};
+  text.compression = PNG_TEXT_COMPRESSION_NONE;
+  text.key = key.data();
+  text.text = value.data();
+  text.text_length = value.size();
+  const bool written = writeRows(png, info, pixels, rows, text);
+  png_destroy_write_struct(&png, &info);
+  return written ? std::string() : error;
+}
+
+}  // namespace malus::image

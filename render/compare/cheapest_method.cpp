@@ -79,6 +79,9 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const Render
 
   progress("measuring the error of every method on a small image");
   const RenderResult reference = makeRenderer(Backend::reference, pack.scene, {"", threads})->render("", parameters);
+  std::vector<Preparation> images;
+  for (const std::string& method : methodNames()) images.push_back({method, parameters});
+  renderer.prepare(images);
   std::vector<MethodEstimate> list;
   std::vector<std::vector<double>> samples;
   for (const std::string& method : methodNames()) try {

@@ -134,7 +134,7 @@ TEST_F(Compare, InterruptingAnImageOfSeveralLaunchesKeepsTheFinishedRounds) {
   start.sendSignalWhen = [](std::string_view err) { return contains(err, "round 2"); };
   start.sendSignal = SIGINT;
   const Finished finished = malus({"-v", "compare", pack(), "-o", report(), "--backends", "vulkan", "--methods",
-                                   "stokes", "--width", "100", "--rounds", "100000", "--no-report"},
+                                   "fresnel", "--width", "100", "--rounds", "100000", "--no-report"},
                                   start);
   ASSERT_EQ(finished.exitCode, 130) << finished.err;
   const json document = results();

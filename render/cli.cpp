@@ -162,30 +162,35 @@ void printResult(const RenderArguments& a, const Job& job, const std::string& sc
   const std::string backend = backendInfo(job.backend()).name, &substitutedFor = job.substitutedFor();
   const Cost& cost = result.cost;
   if (!a.json) {
-    fmt::print("{}: {} {}{}, {} x {}, depth {}, {}{:.1f} ms on {}{}\n", scene, backend, job.method(),
+    fmt::print("{}: {} {}{}, {} x {}, depth {}, {}{:.1f} ms on {}{}{}\n", scene, backend, job.method(),
                substitutedFor.empty() ? "" : fmt::format(" (substituted for {})", substitutedFor), result.width,
                result.height, job.parameters().depth, cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "",
-               cost.traceMs, result.device, a.job.checkNumerics ? "; every value is finite and physical" : "");
+               cost.traceMs, result.device,
+               result.withoutRecursion.empty() ? "" : fmt::format("; without recursion: {}", result.withoutRecursion),
+               a.job.checkNumerics ? "; every value is finite and physical" : "");
     return;
   }
   const auto orNull = [](bool known, nlohmann::json value) { return known ? std::move(value) : nlohmann::json(); };
-  const nlohmann::json document = {{"scene", scene},
-                                   {"renderer", backend},
-                                   {"method", job.method()},
-                                   {"device", result.device},
-                                   {"width", result.width},
-                                   {"height", result.height},
-                                   {"depth", job.parameters().depth},
-                                   {"samples", job.parameters().samples},
-                                   {"rays", orNull(cost.rays > 0, cost.rays)},
-                                   {"buildMs", cost.buildMs},
-                                   {"traceMs", cost.traceMs},
-                                   {"wallMs", cost.wallMs},
-                                   {"numericsChecked", a.job.checkNumerics},
-                                   {"effects", a.job.effects},
-                                   {"substitutedFor", orNull(!substitutedFor.empty(), substitutedFor)},
-                                   {"inPlaceOf", orNull(!substitutedFor.empty(), substitutedFor)},
-                                   {"outputs", written}};
+  const nlohmann::json document = {
+      {"scene", scene},
+      {"renderer", backend},
+      {"method", job.method()},
+      {"device", result.device},
+      {"vulkanPath", orNull(result.vulkanPath != VulkanPath::automatic, vulkanPathName(result.vulkanPath))},
+      {"withoutRecursion", orNull(!result.withoutRecursion.empty(), result.withoutRecursion)},
+      {"width", result.width},
+      {"height", result.height},
+      {"depth", job.parameters().depth},
+      {"samples", job.parameters().samples},
+      {"rays", orNull(cost.rays > 0, cost.rays)},
+      {"buildMs", cost.buildMs},
+      {"traceMs", cost.traceMs},
+      {"wallMs", cost.wallMs},
+      {"numericsChecked", a.job.checkNumerics},
+      {"effects", a.job.effects},
+      {"substitutedFor", orNull(!substitutedFor.empty(), substitutedFor)},
+      {"inPlaceOf", orNull(!substitutedFor.empty(), substitutedFor)},
+      {"outputs", written}};
   fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 

@@ -65,6 +65,7 @@ RenderParameters renderParameters(const JobSettings& settings, const pack::Scene
   parameters.everyEffect = settings.effects == "all";
   parameters.tolerance = settings.tolerance;
   parameters.stokes = settings.stokes;
+  parameters.vulkanPath = settings.vulkanPath;
   return parameters;
 }
 

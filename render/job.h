@@ -19,6 +19,7 @@ struct JobSettings {
   std::string method = "fresnel";  // ignored by a backend without methods
   std::string device;              // as RendererOptions::device
   unsigned threads = 0;            // 0: all
+  VulkanPath vulkanPath = VulkanPath::automatic;
 
   std::uint32_t width = 0, height = 0;  // in pixels; 0: the pack's, or what keeps its aspect
   std::vector<std::uint32_t> region;    // x, y, width, height in pixels; empty: the whole image

@@ -1,6 +1,9 @@
 #include "render/options.h"
 
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -40,6 +43,18 @@ void addDevice(CLI::App& command, std::string& device, unsigned& threads) {
                      "Vulkan device: number or part of its name from --list-devices (default: the best)");
 }
 
+void addVulkanPath(CLI::App& command, VulkanPath& path) {
+  std::map<std::string, VulkanPath> paths;
+  for (const VulkanPath p : {VulkanPath::automatic, VulkanPath::pipeline, VulkanPath::query})
+    paths[vulkanPathName(p)] = p;
+  command
+      .add_option_function<std::string>(
+          "--vulkan-path", [&path, paths](const std::string& name) { path = paths.at(name); },
+          "Rays of the Vulkan renderer: by pipelines or by ray queries")
+      ->check(CLI::IsMember(std::vector<std::string>(kVulkanPathNames.begin(), kVulkanPathNames.end())))
+      ->default_str(vulkanPathName(path));
+}
+
 void addExposure(CLI::App& command, std::optional<double>& exposure) {
   command.add_option("--exposure", exposure, "Exposure of 8-bit images and mosaics [stops] (default: the pack's)")
       ->check(finite())
@@ -59,6 +74,7 @@ void addJobOptions(CLI::App& command, std::string& pack, JobSettings& settings) 
   command.add_option("--region", settings.region, "Part of the image: x y width height [pixels] (default: all of it)")
       ->expected(4);
   addDevice(command, settings.device, settings.threads);
+  addVulkanPath(command, settings.vulkanPath);
 }
 
 void requireStokes(Backend backend, std::string_view method, const std::string& option) {

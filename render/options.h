@@ -17,10 +17,11 @@ namespace malus::render {
 // Accepts finite numbers; CLI::Range lets NaN through.
 CLI::Validator finite();
 
-// --backend, --method, --device, --threads
+// --backend, --method, --device, --threads, --vulkan-path
 void addBackend(CLI::App& command, Backend& backend);
 void addMethod(CLI::App& command, std::string& method);
 void addDevice(CLI::App& command, std::string& device, unsigned& threads);
+void addVulkanPath(CLI::App& command, VulkanPath& path);
 
 // --exposure in stops; unset: the pack's.
 void addExposure(CLI::App& command, std::optional<double>& exposure);

@@ -35,8 +35,8 @@ class Renderer {
 
   // Names of the methods that the device can render by; empty if the backend has no methods.
   virtual std::vector<std::string> methods() const = 0;
-  // Largest RenderParameters::depth that the device can render by a method.
-  virtual std::uint32_t maxDepth(std::string_view method) const = 0;
+  // Paths of a device of the Vulkan renderer, the one that iterative methods take automatically first; else empty.
+  virtual std::vector<VulkanPath> vulkanPaths() const { return {}; }
 
   // Prepares images, so that their first render() is faster: Vulkan compiles their shaders in parallel. Optional; what
   // fails is reported by render().
@@ -47,7 +47,7 @@ class Renderer {
   void setProgress(std::function<void(double)> report) { progress_ = std::move(report); }
 
   // Renders parameters.region. method: one of methods(), ignored by a backend without methods. Throws Error: an unknown
-  // or unsupported method, a depth over maxDepth(method). Throws Interrupted (meshprep/base/interrupt.h) within an
+  // method, a path that the device does not have. Throws Interrupted (meshprep/base/interrupt.h) within an
   // InterruptScope, between the parts of an image.
   virtual RenderResult render(std::string_view method, const RenderParameters& parameters) = 0;
   // Renders once more, untimed, to count camera, specular and shadow rays. Needed only if render() left Cost::rays

@@ -114,6 +114,8 @@ void runSweep(const SweepArguments& a) {
       {"method", method},
       {"substitutedFor", substitutedFor.empty() ? nlohmann::json() : nlohmann::json(substitutedFor)},
       {"device", rendered.device},
+      {"withoutRecursion",
+       rendered.withoutRecursion.empty() ? nlohmann::json() : nlohmann::json(rendered.withoutRecursion)},
       {"width", rendered.width},
       {"height", rendered.height},
       {"depth", job.parameters().depth},
@@ -129,9 +131,10 @@ void runSweep(const SweepArguments& a) {
   if (a.json)
     fmt::print("{}", text);
   else
-    fmt::print("{}: {} {}{}, {} frames of {} x {} in {}\n", pack.scene.name, backend, method,
+    fmt::print("{}: {} {}{}, {} frames of {} x {} in {}{}\n", pack.scene.name, backend, method,
                substitutedFor.empty() ? "" : fmt::format(" (substituted for {})", substitutedFor), a.frames,
-               rendered.width, rendered.height, folder.string());
+               rendered.width, rendered.height, folder.string(),
+               rendered.withoutRecursion.empty() ? "" : "; without recursion: " + rendered.withoutRecursion);
 }
 
 }  // namespace

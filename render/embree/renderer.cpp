@@ -11,7 +11,6 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "bake/pack/format.h"
 #include "render/embree/methods.h"
 #include "render/embree/tile.h"
 #include "render/scene/compiled_effects.h"
@@ -58,8 +57,6 @@ Renderer::~Renderer() = default;
 std::string Renderer::device() const { return fmt::format("{}, {} threads", Bvh::version(), impl_->threads); }
 
 std::vector<std::string> Renderer::methods() const { return render::methodNames(); }
-
-std::uint32_t Renderer::maxDepth(std::string_view /*method*/) const { return pack::kMaxDepth; }
 
 render::RenderResult Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
   const render::MethodInfo& info = render::methodNamed(name);

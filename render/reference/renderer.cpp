@@ -14,7 +14,6 @@
 #include <oneapi/tbb/task_arena.h>
 #include <glm/geometric.hpp>
 
-#include "bake/pack/format.h"
 #include "render/embree/embree.h"
 #include "render/reference/surface.h"
 #include "render/scene/render_scene.h"
@@ -319,8 +318,6 @@ Renderer::Renderer(const pack::Scene& scene, unsigned threads) {
 Renderer::~Renderer() = default;
 
 std::string Renderer::device() const { return fmt::format("double precision on {}", embree::Bvh::version()); }
-
-std::uint32_t Renderer::maxDepth(std::string_view /*method*/) const { return pack::kMaxDepth; }
 
 render::RenderResult Renderer::render(std::string_view /*method*/, const render::RenderParameters& parameters) {
   const pack::Scene& scene = impl_->scene;

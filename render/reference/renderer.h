@@ -21,7 +21,6 @@ class Renderer final : public render::Renderer {
   render::Backend backend() const override { return render::Backend::reference; }
   std::string device() const override;
   std::vector<std::string> methods() const override { return {}; }
-  std::uint32_t maxDepth(std::string_view method) const override;
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
 
  private:

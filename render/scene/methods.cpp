@@ -56,6 +56,10 @@ bool hasStokes(const MethodInfo& method, const RenderParameters& parameters) {
   return method.hasStokes && (!method.isIterative || parameters.stokes);
 }
 
+std::size_t payloadBytes(const MethodInfo& method, VulkanPath path) {
+  return method.isIterative && path == VulkanPath::pipeline ? kHitRecordBytes : method.payloadBytes;
+}
+
 const MethodInfo& methodNamed(std::string_view name) {
   for (const MethodInfo& m : methods())
     if (m.name == name || (!m.alias.empty() && m.alias == name)) return m;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/scene/render_parameters.h"
+#include "render/scene/vulkan_path.h"
 
 namespace malus::render {
 
@@ -37,6 +38,9 @@ struct MethodInfo {
 
 // Whether an image of the method has Stokes channels.
 bool hasStokes(const MethodInfo& method, const RenderParameters& parameters);
+
+// Payload of a ray by a path of the Vulkan renderer, or by another renderer (automatic): the method's, or a hit record.
+std::size_t payloadBytes(const MethodInfo& method, VulkanPath path);
 
 const std::vector<MethodInfo>& methods();
 const MethodInfo& methodNamed(std::string_view name);  // name or alias; throws Error for any other name

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bake/pack/scene.h"
+#include "render/scene/vulkan_path.h"
 
 namespace malus::render {
 
@@ -48,6 +49,7 @@ struct RenderParameters {
   double tolerance = 0;        // of iterative methods: share of a source's radiance that a path may lose
   bool stokes = false;         // of iterative methods: Stokes vectors too, by four analysers
   bool checkNumerics = false;  // find unphysical values (fault.h); slow
+  VulkanPath vulkanPath = VulkanPath::automatic;  // of the Vulkan renderer; ignored by others
 };
 
 // The settings of the pack.

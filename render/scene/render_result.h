@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/scene/fault.h"
+#include "render/scene/vulkan_path.h"
 #include "shaders/gpu/constants.h"
 
 namespace malus::render {
@@ -33,6 +34,8 @@ struct RenderResult {
   Cost cost;
   Faults faults;  // if RenderParameters::checkNumerics is set
   std::string device;
+  VulkanPath vulkanPath = VulkanPath::automatic;  // the path taken; automatic: not by the Vulkan renderer
+  std::string withoutRecursion;  // reason if a stack replaced the recursion of a recursive method; else empty
 };
 
 }  // namespace malus::render

@@ -81,18 +81,6 @@ void Device::createDevice(bool statistics) {
   functions_ = loadDeviceFunctions(device, statistics);
 }
 
-std::uint32_t Device::maxDepth() const {
-  const std::uint64_t limit = std::min<std::uint64_t>(capabilities().maxRayRecursionDepth, UINT32_MAX);
-  return limit < 2 ? 0 : static_cast<std::uint32_t>(limit) - 2;
-}
-
-void Device::requireDepth(std::uint32_t depth) const {
-  if (depth > maxDepth())
-    throw Error("--depth", fmt::format("exceeds the recursion limit of device '{}'", physical_.name),
-                fmt::format("at most {}, or an iterative method (--method), which has no such limit", maxDepth()),
-                fmt::format("{}", depth));
-}
-
 void Device::submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const {
   const auto step = [&](const char* function) { return fmt::format("{} ({})", function, purpose); };
   const Commands commands(get(), pool_.get(), purpose);

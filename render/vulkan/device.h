@@ -28,12 +28,6 @@ class Device {
   const Capabilities& capabilities() const { return physical_.capabilities; }
   bool hasStatistics() const { return functions_.getPipelineExecutableStatistics != nullptr; }
 
-  // Most specular interactions of a recursive method: the camera ray, and the shadow ray of the last hit, use two
-  // levels of the recursion limit.
-  std::uint32_t maxDepth() const;
-  // Throws Error if a recursive method cannot reach this depth.
-  void requireDepth(std::uint32_t depth) const;
-
   // Records commands, submits them and waits for their end. Their writes are visible to the host and to later
   // submissions. purpose: for messages. Throws Error.
   void submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const;

@@ -53,8 +53,8 @@ Shaders createShaders(const Device& device, const Variant& variant) {
 
 }  // namespace
 
-std::uint32_t requiredRecursion(const Variant& variant, std::uint32_t depth) {
-  return isIterative(variant) ? 1 : depth + 2;
+std::uint32_t requiredRecursion(Tracing tracing, std::uint32_t depth) {
+  return tracing == Tracing::recursion ? depth + 2 : 1;
 }
 
 VkShaderStageFlagBits shaderStage(Stage stage) {

@@ -8,9 +8,9 @@
 
 namespace malus::vulkan {
 
-// Levels of recursion for a depth (most specular interactions): a recursive method adds the camera ray and a shadow ray
-// from the last hit; an iterative method traces from its ray generation shader only.
-std::uint32_t requiredRecursion(const Variant& variant, std::uint32_t depth);
+// Nested traces for a depth (most specular interactions): recursion adds the camera ray and a shadow ray from the last
+// hit; otherwise only the ray generation shader traces.
+std::uint32_t requiredRecursion(Tracing tracing, std::uint32_t depth);
 
 VkShaderStageFlagBits shaderStage(Stage stage);
 

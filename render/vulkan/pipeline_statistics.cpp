@@ -15,6 +15,7 @@
 #include "render/vulkan/bindings.h"
 #include "render/vulkan/check.h"
 #include "render/vulkan/pipeline.h"
+#include "render/vulkan/tracing_choice.h"
 #include "shaders/effects.h"
 
 namespace malus::vulkan {
@@ -54,18 +55,14 @@ void fillFields(StageStatistics& stage) {
 // "closest hit: paint" for a kind of surface, "miss: shadow" for the stage "shaders/stages/shadow.rmiss".
 std::string stageName(const StageSource& source) {
   if (source.stage == Stage::raygen) return "ray generation";
-  if (source.stage == Stage::closestHit) {
-    std::string kind(
-        std::string_view(shaders::kCompiledEffects[source.kind].macro).substr(sizeof("MALUS_EFFECT_") - 1));
-    std::transform(kind.begin(), kind.end(), kind.begin(), [](char c) {
-      return c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    });
-    return "closest hit: " + kind;
-  }
-  const std::string_view path = source.path;
-  const std::size_t begin = path.rfind('/') + 1;
-  const std::string_view name = path.substr(begin, path.rfind('.') - begin);
-  return fmt::format("miss: {}", name);
+  const std::size_t begin = source.path.rfind('/') + 1;
+  std::string name = source.path.substr(begin, source.path.rfind('.') - begin);
+  if (source.kind)
+    name = std::string_view(shaders::kCompiledEffects[*source.kind].macro).substr(sizeof("MALUS_EFFECT_") - 1);
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+    return c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  });
+  return fmt::format("{}: {}", source.stage == Stage::miss ? "miss" : "closest hit", name);
 }
 
 std::uint64_t toInteger(const VkPipelineExecutableStatisticKHR& s) {
@@ -152,21 +149,23 @@ nlohmann::json numberToJson(const Number& number) { return number ? nlohmann::js
 }  // namespace
 
 std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const pack::Scene& scene,
-                                                   const std::vector<std::string>& methods, std::uint32_t depth) {
-  device.requireDepth(depth);
+                                                   const std::vector<std::string>& methods, std::uint32_t depth,
+                                                   render::VulkanPath path) {
   const Owned<VkDescriptorSetLayout> layout = createBindingsLayout(device);
   render::RenderParameters parameters = render::defaultParameters(scene);
   parameters.depth = depth;
+  parameters.vulkanPath = path;
   std::vector<PipelineStatistics> result;
   for (const std::string& method : methods) {
-    const Variant variant = variantFor(scene, method, parameters);
-    const Pipeline pipeline(device, variant, layout.get(), requiredRecursion(variant, depth),
+    const render::MethodInfo& info = render::methodNamed(method);
+    const Variant variant = variantFor(scene, method, parameters, chooseTracing(device, info, parameters).tracing);
+    const Pipeline pipeline(device, variant, layout.get(), requiredRecursion(variant.tracing, depth),
                             VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);
     PipelineStatistics& s = result.emplace_back();
     s.device = device.physical().name;
     s.driver = device.physical().driver;
     s.method = method;
-    s.payloadBytes = render::methodNamed(method).payloadBytes;
+    s.payloadBytes = render::payloadBytes(info, vulkanPath(variant.tracing));
     s.stages = stageStatistics(device, pipeline.get(), variant);
     s.groupStackBytes = groupStackBytes(device, pipeline.get(), variant);
   }
@@ -174,11 +173,12 @@ std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const p
 }
 
 std::vector<PipelineStatistics> deviceStatistics(const pack::Scene& scene, const std::vector<std::string>& methods,
-                                                 std::uint32_t depth, const std::string& wanted) {
+                                                 std::uint32_t depth, const std::string& wanted,
+                                                 render::VulkanPath path) {
   const Instance instance(0);
   const Device device(instance, wanted, true);
   if (!device.hasStatistics()) return {};
-  return pipelineStatistics(device, scene, methods, depth);
+  return pipelineStatistics(device, scene, methods, depth, path);
 }
 
 nlohmann::json toJson(const PipelineStatistics& statistics) {

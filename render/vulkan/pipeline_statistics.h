@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/pack/scene.h"
+#include "render/scene/vulkan_path.h"
 
 namespace malus::vulkan {
 
@@ -42,14 +43,16 @@ struct PipelineStatistics {
 };
 
 // Compiles the methods' pipelines for the effects of a scene, without running them. depth: most specular interactions.
-// Throws Error: an unknown method, a depth over the device's recursion limit, a failed compilation.
+// Throws Error: an unknown method, a failed compilation.
 std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const pack::Scene& scene,
-                                                   const std::vector<std::string>& methods, std::uint32_t depth);
+                                                   const std::vector<std::string>& methods, std::uint32_t depth,
+                                                   render::VulkanPath path = render::VulkanPath::automatic);
 
 // The same on a device of this machine (wanted: as for Device); empty if its driver reports no statistics. Throws
 // Error.
 std::vector<PipelineStatistics> deviceStatistics(const pack::Scene& scene, const std::vector<std::string>& methods,
-                                                 std::uint32_t depth, const std::string& wanted);
+                                                 std::uint32_t depth, const std::string& wanted,
+                                                 render::VulkanPath path = render::VulkanPath::automatic);
 
 // {family, device, driver, method, payloadBytes, stages: [{stage, registers: {vector, scalar},
 // spills: {vector, scalar}, lds, codeSize, scratch, instructions, latency, inverseThroughput, wavesPerSimd,

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "bake/pack/format.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/scene/methods.h"
@@ -20,6 +19,7 @@
 #include "render/vulkan/programs.h"
 #include "render/vulkan/scene_buffers.h"
 #include "render/vulkan/timestamps.h"
+#include "render/vulkan/tracing_choice.h"
 
 namespace malus::vulkan {
 using Clock = std::chrono::steady_clock;
@@ -57,7 +57,6 @@ struct Renderer::Impl {
     bindings.bind(Binding::tlas, acceleration.top());
   }
 
-  void requireSupported(std::string_view method, const render::RenderParameters& parameters) const;
   double dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels);
   std::uint64_t maxLaunchPixels(std::size_t channels) const;
   void launchAll(const Program& program, const Variant& variant, const render::RenderParameters& parameters,
@@ -92,24 +91,9 @@ std::string Renderer::device() const {
   return fmt::format("{}, {}", impl_->device.physical().name, impl_->device.physical().driver);
 }
 
-std::vector<std::string> Renderer::methods() const {
-  std::vector<std::string> names;
-  for (const render::MethodInfo& m : render::methods())
-    if (!m.isIterative || impl_->device.capabilities().rayQuery) names.emplace_back(m.name);
-  return names;
-}
+std::vector<std::string> Renderer::methods() const { return render::methodNames(); }
 
-std::uint32_t Renderer::maxDepth(std::string_view method) const {
-  return render::methodNamed(method).isIterative ? pack::kMaxDepth : impl_->device.maxDepth();
-}
-
-void Renderer::Impl::requireSupported(std::string_view method, const render::RenderParameters& parameters) const {
-  if (!render::methodNamed(method).isIterative)
-    device.requireDepth(parameters.depth);
-  else if (!device.capabilities().rayQuery)
-    throw Error("--method", fmt::format("device '{}' lacks ray queries", device.physical().name),
-                "a recursive method, another device (--device) or --backend embree", fmt::format("'{}'", method));
-}
+std::vector<render::VulkanPath> Renderer::vulkanPaths() const { return availablePaths(impl_->device); }
 
 // Traces the camera's region, copies it to the host and waits. Returns the time of the submission in milliseconds.
 double Renderer::Impl::dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels) {
@@ -168,7 +152,7 @@ void Renderer::Impl::launchAll(const Program& program, const Variant& variant,
 }
 
 render::RenderResult Renderer::Impl::trace(const Variant& variant, const render::RenderParameters& parameters) {
-  Program& program = programs.get({variant, requiredRecursion(variant, parameters.depth)});
+  Program& program = programs.get({variant, requiredRecursion(variant.tracing, parameters.depth)});
   render::RenderResult image;
   image.width = parameters.region.width;
   image.height = parameters.region.height;
@@ -218,11 +202,13 @@ render::Faults Renderer::Impl::checkNumerics(Variant variant, const render::Rend
 }
 
 render::RenderResult Renderer::render(std::string_view method, const render::RenderParameters& parameters) {
-  impl_->requireSupported(method, parameters);
   impl_->progress = progress();
-  const Variant variant = variantFor(impl_->scene, method, parameters);
+  const TracingChoice choice = chooseTracing(impl_->device, render::methodNamed(method), parameters);
+  const Variant variant = variantFor(impl_->scene, method, parameters, choice.tracing);
   render::RenderResult image = impl_->trace(variant, parameters);
   image.device = device();
+  image.vulkanPath = vulkanPath(choice.tracing);
+  image.withoutRecursion = choice.withoutRecursion;
   if (parameters.checkNumerics) image.faults = impl_->checkNumerics(variant, parameters);
   return image;
 }
@@ -230,9 +216,9 @@ render::RenderResult Renderer::render(std::string_view method, const render::Ren
 void Renderer::prepare(const std::vector<render::Preparation>& images) {
   std::vector<Programs::Key> keys;
   for (const render::Preparation& image : images) try {
-      impl_->requireSupported(image.method, image.parameters);
-      Variant variant = variantFor(impl_->scene, image.method, image.parameters);
-      keys.push_back({variant, requiredRecursion(variant, image.parameters.depth)});
+      const TracingChoice choice = chooseTracing(impl_->device, render::methodNamed(image.method), image.parameters);
+      Variant variant = variantFor(impl_->scene, image.method, image.parameters, choice.tracing);
+      keys.push_back({variant, requiredRecursion(choice.tracing, image.parameters.depth)});
       variant.countRays = true;
       if (image.countRays) keys.push_back({variant, keys.back().recursion});
     } catch (const Error&) {  // reported by render()
@@ -241,8 +227,8 @@ void Renderer::prepare(const std::vector<render::Preparation>& images) {
 }
 
 std::uint64_t Renderer::countRays(std::string_view method, const render::RenderParameters& parameters) {
-  impl_->requireSupported(method, parameters);
-  Variant variant = variantFor(impl_->scene, method, parameters);
+  const TracingChoice choice = chooseTracing(impl_->device, render::methodNamed(method), parameters);
+  Variant variant = variantFor(impl_->scene, method, parameters, choice.tracing);
   variant.countRays = true;
   return impl_->trace(variant, parameters).cost.rays;
 }

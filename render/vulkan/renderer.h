@@ -1,4 +1,5 @@
-// The Vulkan renderer: a ray-tracing pipeline with true recursion, on a GPU or, with lavapipe, on the CPU.
+// The Vulkan renderer: ray-tracing pipelines and ray queries, on a GPU or, with lavapipe, on the CPU. Recursive methods
+// recurse where the device allows it and use a stack elsewhere (tracing_choice.h).
 #pragma once
 
 #include <cstdint>
@@ -45,10 +46,8 @@ class Renderer final : public render::Renderer {
 
   render::Backend backend() const override { return render::Backend::vulkan; }
   std::string device() const override;
-  // Iterative methods need ray queries.
   std::vector<std::string> methods() const override;
-  // Recursive methods are limited by the device's recursion depth, iterative ones are not.
-  std::uint32_t maxDepth(std::string_view method) const override;
+  std::vector<render::VulkanPath> vulkanPaths() const override;
 
  private:
   struct Impl;

@@ -30,12 +30,16 @@ ShaderTable::ShaderTable(const Device& device, VkPipeline pipeline, const std::v
   const VkDeviceSize stride = alignUp(handleBytes, limits.shaderGroupHandleAlignment),
                      base = limits.shaderGroupBaseAlignment;
 
-  // The groups of each region: ray generation, the misses, one hit per mesh.
+  // The groups of each region: ray generation, the misses, the hits.
   std::vector<std::uint32_t> misses, hits;
   std::map<std::uint32_t, std::uint32_t> groupOfKind;
   for (std::uint32_t i = 0; i < groups.size(); ++i) {
     if (groups[i].stage == Stage::miss) misses.push_back(i);
-    if (groups[i].stage == Stage::closestHit) groupOfKind[groups[i].kind] = i;
+    if (groups[i].stage != Stage::closestHit) continue;
+    if (groups[i].kind)
+      groupOfKind[*groups[i].kind] = i;
+    else
+      hits.push_back(i);
   }
   if (!groupOfKind.empty())
     for (const gpu::Mesh& mesh : scene.meshes) hits.push_back(groupOfKind.at(scene.materials[mesh.material].kind));

@@ -12,7 +12,8 @@ namespace malus::vulkan {
 class ShaderTable {
  public:
   // device: must outlive the table. groups: the shader groups of the pipeline, in order. The table has one hit record
-  // per mesh: the group of its material's kind of surface. Throws Error.
+  // per mesh, the group of its material's kind of surface, or a single one if one group serves every kind. Throws
+  // Error.
   ShaderTable(const Device& device, VkPipeline pipeline, const std::vector<StageSource>& groups,
               const render::RenderScene& scene);
 

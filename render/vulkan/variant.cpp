@@ -24,20 +24,25 @@ bool readsMaterialExtras(const Variant& variant) {
   return false;
 }
 
+bool isIterative(const Variant& variant) { return render::methodNamed(variant.method).isIterative; }
+
 }  // namespace
 
 bool has(const Variant& variant, Effect effect) { return (variant.effects & shaders::effectBit(effect)) != 0; }
 
-bool isIterative(const Variant& variant) { return variant.stackSize > 0; }
-
-Variant variantFor(const pack::Scene& scene, std::string_view method, const render::RenderParameters& parameters) {
+Variant variantFor(const pack::Scene& scene, std::string_view method, const render::RenderParameters& parameters,
+                   Tracing tracing) {
   Variant variant;
   variant.method = method;
   variant.effects = render::compiledEffects(scene, parameters);
+  variant.tracing = tracing;
   const render::MethodInfo& info = render::methodNamed(method);
-  if (!info.isIterative) return variant;
-  variant.fourAnalysers = render::hasStokes(info, parameters);
-  variant.stackSize = render::pathStackSize(variant.effects, parameters.depth);
+  if (info.isIterative) {
+    variant.fourAnalysers = render::hasStokes(info, parameters);
+    variant.stackSize = render::pathStackSize(variant.effects, parameters.depth);
+  } else if (tracing != Tracing::recursion) {
+    variant.stackSize = std::max(parameters.depth, 1u);
+  }
   return variant;
 }
 
@@ -46,8 +51,9 @@ std::string preamble(const Variant& variant) {
       "#extension GL_EXT_ray_tracing : require\n"
       "#extension GL_EXT_scalar_block_layout : require\n"
       "#extension GL_GOOGLE_include_directive : require\n";
-  if (isIterative(variant))
-    text += fmt::format("#extension GL_EXT_ray_query : require\n#define MALUS_PATH_STACK_SIZE {}\n", variant.stackSize);
+  if (variant.tracing == Tracing::rayQueries)
+    text += "#extension GL_EXT_ray_query : require\n#define MALUS_RAY_QUERIES\n";
+  if (variant.tracing != Tracing::recursion) text += fmt::format("#define MALUS_STACK_SIZE {}\n", variant.stackSize);
   text += fmt::format("#define MALUS_METHOD \"{}\"\n", variant.method);
   for (std::size_t i = 0; i < shaders::kCompiledEffects.size(); ++i) {
     const shaders::CompiledEffect& effect = shaders::kCompiledEffects[i];
@@ -62,9 +68,15 @@ std::string preamble(const Variant& variant) {
 }
 
 std::vector<StageSource> stageSources(const Variant& variant) {
-  if (isIterative(variant)) return {{"shaders/stages/camera_path.rgen", Stage::raygen}};
-  std::vector<StageSource> sources = {{"shaders/stages/raygen.rgen", Stage::raygen},
-                                      {"shaders/stages/environment.rmiss", Stage::miss}};
+  std::vector<StageSource> sources = {
+      {isIterative(variant) ? "shaders/stages/camera_path.rgen" : "shaders/stages/raygen.rgen", Stage::raygen}};
+  if (variant.tracing == Tracing::rayQueries) return sources;
+  if (variant.tracing == Tracing::hitRecords) {
+    sources.push_back({"shaders/stages/hit_record.rmiss", Stage::miss});
+    sources.push_back({"shaders/stages/hit_record.rchit", Stage::closestHit});
+    return sources;
+  }
+  sources.push_back({"shaders/stages/environment.rmiss", Stage::miss});
   if (has(variant, Effect::kPointLights) && has(variant, Effect::kShadows))
     sources.push_back({"shaders/stages/shadow.rmiss", Stage::miss});
   for (std::uint32_t kind = 0; kind < gpu::kSurfaceKinds; ++kind)
@@ -87,9 +99,9 @@ std::string stageText(const StageSource& source) {
        {"shaders/gpu/language.glsl", "shaders/optics/math.h", "shaders/optics/all.h", "shaders/gpu/constants.h",
         "shaders/gpu/scene.h", "shaders/gpu/fault.h", "shaders/methods/selected.h"})
     text += fmt::format("#include \"{}\"\n", file);
-  if (source.stage != Stage::closestHit) return text + fmt::format("#include \"{}\"\n", source.path);
+  if (!source.kind) return text + fmt::format("#include \"{}\"\n", source.path);
   return text + fmt::format("#define MALUS_SHADE shade{}\n#include \"shaders/stages/surface.rchit\"\n",
-                            shaders::kCompiledEffects[source.kind].identifier);
+                            shaders::kCompiledEffects[*source.kind].identifier);
 }
 
 }  // namespace malus::vulkan

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,34 +14,47 @@
 
 namespace malus::vulkan {
 
+// Form in which the rays of a variant are traced.
+enum class Tracing : std::uint8_t {
+  recursion,   // recursive methods: closest-hit shaders shade, trace further rays and return payloads
+  hitRecords,  // the ray generation shader shades and traces every ray; the pipeline returns which triangle is hit
+  rayQueries,  // the same by ray queries, without other shaders
+};
+
 struct Variant {
   std::string method = "fresnel";
   std::uint32_t effects = shaders::kEveryEffect;  // bits of shaders::Effect
   bool fourAnalysers = false;                     // iterative: Stokes vectors, not only colours
   bool countRays = false;
   bool checkNumerics = false;
-  std::uint32_t stackSize = 0;  // iterative: paths that can wait on the stack; recursive: 0
+  Tracing tracing = Tracing::recursion;
+  // Without recursion: entries of the stack, which are waiting paths of an iterative method (pathStackSize()) and
+  // waiting surfaces of a recursive one. At least 1; with recursion 0.
+  std::uint32_t stackSize = 0;
   auto operator<=>(const Variant&) const = default;
 };
 
-// The variant for an image by a method, with the effects that the image needs. Throws Error: an unknown method.
-Variant variantFor(const pack::Scene& scene, std::string_view method, const render::RenderParameters& parameters);
+// The variant for an image by a method, with the effects that the image needs. tracing: not recursion for an iterative
+// method. Throws Error: an unknown method.
+Variant variantFor(const pack::Scene& scene, std::string_view method, const render::RenderParameters& parameters,
+                   Tracing tracing);
 bool has(const Variant& variant, shaders::Effect effect);
-bool isIterative(const Variant& variant);
 
 // Extensions and macros of the variant, in GLSL.
 std::string preamble(const Variant& variant);
 
 enum class Stage { raygen, miss, closestHit, compute };
 
-// One shader of a pipeline. A closest hit is shaders/stages/surface.rchit for one kind of surface.
+// One shader of a pipeline.
 struct StageSource {
-  std::string path;  // of its file in the repository; of a closest hit, of the kind of surface
+  std::string path;  // of its file in the repository; of a closest hit of one kind of surface, with that kind
   Stage stage;
-  std::uint32_t kind = 0;  // of a closest hit: gpu::SurfaceKind
+  // gpu::SurfaceKind of a closest hit that shades (shaders/stages/surface.rchit); empty: every kind.
+  std::optional<std::uint32_t> kind = std::nullopt;
 };
-// Recursive: ray generation, the environment's miss shader, the shadow's where the variant has shadows, and a
-// closest-hit shader for each gpu::SurfaceKind of the variant, in order. Iterative: ray generation only.
+// With recursion: ray generation, the environment's miss shader, the shadow's where the variant has shadows, and a
+// closest-hit shader for each gpu::SurfaceKind of the variant, in order. With hit records: ray generation, one miss and
+// one closest-hit shader. With ray queries: ray generation only.
 std::vector<StageSource> stageSources(const Variant& variant);
 
 // Text of a shader file by its path; empty: no such file. "shaders/methods/selected.h" is the variant's method.

@@ -13,9 +13,11 @@
 //   MaterialExtra materialExtra(material)
 //     Returns the rarer properties of a material. Called only if an effect of the build needs them.
 //   Payload traceRay(origin, direction, depth)
-//     Traces one ray and shades what it meets, with `depth` specular interactions left. Recursive methods only.
+//     Traces one ray and shades what it meets, with `depth` specular interactions left. Recursive methods with
+//     recursion only.
 //   bool findHit(origin, direction, depth, out hit)
-//     Returns whether the ray meets a surface, and the nearest hit. Iterative methods only.
+//     Returns whether the ray meets a surface, and the nearest hit. Iterative methods, and recursive ones without
+//     recursion (shade_stack.h).
 //   mask visible(origin, direction, distance)
 //     Returns whether no surface blocks the ray within the distance.
 //   void noteFault(hit, stokes, kind, colour, slack)
@@ -38,7 +40,7 @@ MaterialExtra materialExtra(word material) {
 #endif
 }
 
-#ifdef MALUS_PATH_STACK_SIZE
+#ifdef MALUS_STACK_SIZE
 bool findHit(real3 origin, real3 direction, real depth, OUT(Hit) hit);
 #else
 Payload traceRay(real3 origin, real3 direction, real depth);

@@ -1,15 +1,9 @@
-// Drivers of the recursive methods: they trace the rays of a Scattering and combine the light that comes back.
-// slack: rounding error of the light that has met the surface so far (check.h).
-
-FN bool canScatter(IN(Hit) h) { return h.depth > R(0.5); }
-
-FN Payload black() { return payloadUnpolarized(splat3(R(0.0))); }
+// Drivers of the recursive methods, by recursion: they trace the rays of a Scattering and combine the light that comes
+// back. shade_stack.h does the same without recursion.
 
 // Sends light to the camera through the medium that the ray came through. sDir: s direction of the surface.
 FN Payload sendToCamera(IN(Hit) h, SurfaceLight toCamera, real3 sDir, real3 slack) {
-  SurfaceLight light = toCamera;
-  if (kEffectAbsorption) light = lightScale(light, mediumTransmittance(h));
-  Payload sent = payloadFromSurface(light, h.d, sDir);
+  Payload sent = sentPayload(toCamera, h.d, sDir, arrivalTransmittance(h));
   if (kCheckNumerics) checkSent(h, sent, slack);
   return sent;
 }
@@ -17,34 +11,24 @@ FN Payload sendToCamera(IN(Hit) h, SurfaceLight toCamera, real3 sDir, real3 slac
 // Light of the reflected ray and the highlight, behind the surface's reflection.
 FN_INLINE SurfaceLight reflectedLight(IN(Hit) h, IN(Scattering) s, real3 highlight, real3 sDir, INOUT(real3) slack) {
   Payload returned = traceRay(originAbove(h), s.reflected, h.depth - R(1.0));
-  if (kCheckNumerics) slack = slack + roundingSlack(payloadStokes(returned, s.reflected));
-  SurfaceLight arriving = lightAtSurface(returned, s.reflected, sDir);
+  SurfaceLight arriving = returnedLight(returned, s.reflected, sDir, slack);
   return lightThroughInterface(s.reflection, lightAdd(arriving, lightUnpolarized(highlight)));
 }
 
 // Light of the transmitted ray, behind the surface's transmission.
 FN_INLINE SurfaceLight transmittedLight(IN(Hit) h, IN(Scattering) s, real3 sDir, INOUT(real3) slack) {
   Payload returned = traceRay(originBelow(h), s.transmitted, h.depth - R(1.0));
-  if (kCheckNumerics) slack = slack + roundingSlack(payloadStokes(returned, s.transmitted));
-  return lightThroughInterface(s.transmission, lightAtSurface(returned, s.transmitted, sDir));
-}
-
-// Light that one facet reflects toward the camera, in the frame of the surface.
-FN SurfaceLight facetLight(IN(Hit) h, IN(Material) m, IN(Facet) facet, real3 sDir, INOUT(real3) slack) {
-  Payload returned = traceRay(originAbove(h), facet.mirror, h.depth - R(1.0) + kBehindRough);
-  if (kCheckNumerics) slack = slack + roundingSlack(payloadStokes(returned, facet.mirror));
-  FresnelTerms f = opaqueTerms(facet.c, m, h.material);
-  real3 facetS = surfaceS(h.d, facet.normal);
-  SurfaceLight reflected = lightThroughInterface(f, lightAtSurface(returned, facet.mirror, facetS));
-  Payload sent = payloadFromSurface(lightScale(reflected, splat3(facet.weight)), h.d, facetS);
-  return lightAtSurface(sent, h.d, sDir);
+  return lightThroughInterface(s.transmission, returnedLight(returned, s.transmitted, sDir, slack));
 }
 
 FN SurfaceLight roughReflectedLight(IN(Hit) h, IN(Material) m, real3 sDir, INOUT(real3) slack) {
   SurfaceLight sum = lightUnpolarized(splat3(R(0.0)));
   for (uint i = 0u; i < kFacets; ++i) {
     Facet facet = sampleFacet(h, camera.facets[i].x, camera.facets[i].y);
-    if (facet.weight > R(0.0)) sum = lightAdd(sum, facetLight(h, m, facet, sDir, slack));
+    if (facet.weight > R(0.0)) {
+      Payload returned = traceRay(originAbove(h), facet.mirror, facetDepth(h.depth));
+      sum = lightAdd(sum, facetLight(h, m, facet, returned, sDir, slack));
+    }
   }
   return sum;
 }
@@ -88,3 +72,18 @@ FN Payload shadeTransmitting(IN(Hit) h, IN(Scattering) s) {
   SurfaceLight toCamera = transmittedLight(h, s, sDir, slack);
   return sendToCamera(h, toCamera, sDir, slack);
 }
+
+// Light that each kind of surface sends toward the camera. Surfaces that transmit are black where no specular
+// interaction is left.
+#define MALUS_RULE_ROW(id, name, alias, description)
+#define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
+#define MALUS_SOURCE_ROW(id, macro, build, name, alias, description)
+#define MALUS_SURFACE_ROW(id, macro, build, name, alias, description)      \
+  FN Payload shade##id(INOUT(Hit) h, IN(Material) m) {                     \
+    if (kShape##id != kOpaqueShape && !canScatter(h)) return black();      \
+    Scattering s = scatter##id(h, m);                                      \
+    if (kShape##id == kOpaqueShape) return shadeOpaque(h, m, s);           \
+    if (kShape##id == kTransparentShape) return shadeTransparent(h, m, s); \
+    return shadeTransmitting(h, s);                                        \
+  }
+#include "shaders/effects.def"

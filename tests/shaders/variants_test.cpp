@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "render/scene/vulkan_path.h"
 #include "render/vulkan/glsl_compiler.h"
 #include "render/vulkan/variant.h"
 #include "shaders/gpu/scene.h"
@@ -158,7 +159,10 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
     Variant off;
     off.method = method;
     off.effects = kLit;
-    off.stackSize = std::string(method) == "importance" ? 6 : 0;
+    if (std::string(method) == "importance") {
+      off.tracing = vulkan::Tracing::rayQueries;
+      off.stackSize = 6;
+    }
     const Counts without = countInstructions(off);
     const auto expectBinding = [&](const Counts& c, std::uint32_t binding, bool there) {
       EXPECT_EQ(std::count(c.bindings.begin(), c.bindings.end(), binding) > 0, there) << method << ' ' << binding;
@@ -208,22 +212,48 @@ TEST(VariantsTest, StageCounts) {
   EXPECT_EQ(vulkan::stageSources(metal).size(), 3u);
 }
 
-TEST(VariantsTest, IterativeMethodsHaveOneStageAndNoPayload) {
+// A method that traces from its ray generation shader alone, with a set of effects and of other properties.
+Variant withoutRecursion(const char* method, vulkan::Tracing tracing, int flags) {
+  Variant variant;
+  variant.method = method;
+  variant.tracing = tracing;
+  variant.stackSize = 6;
+  variant.effects = kSets[flags % 4];
+  variant.fourAnalysers = (flags & 4) != 0;
+  variant.countRays = (flags & 8) == 0;
+  variant.checkNumerics = (flags & 8) != 0;
+  return variant;
+}
+
 #define MALUS_NAME(M) f32::M::kName,
-  for (const char* method : {MALUS_FOR_EACH_ITERATIVE(MALUS_NAME)})
-    for (int flags = 0; flags < 16; ++flags) {
-      Variant variant;
-      variant.method = method;
-      variant.stackSize = 6;
-      variant.effects = kSets[flags % 4];
-      variant.fourAnalysers = (flags & 4) != 0;
-      variant.countRays = (flags & 8) == 0;
-      variant.checkNumerics = (flags & 8) != 0;
+const char* const kEveryMethod[] = {MALUS_FOR_EACH_METHOD(MALUS_NAME) MALUS_FOR_EACH_ITERATIVE(MALUS_NAME)};
+
+TEST(VariantsTest, RayQueriesNeedOneStageAndNoPayload) {
+  for (const char* method : kEveryMethod)
+    for (int flags = 0; flags < 16; flags += 5) {  // each set, and each property with and without
+      const Variant variant = withoutRecursion(method, vulkan::Tracing::rayQueries, flags);
       SCOPED_TRACE(std::string(method) + " flags " + std::to_string(flags));
       ASSERT_EQ(vulkan::stageSources(variant).size(), 1u);
       const Module module(compiled(variant, vulkan::stageSources(variant).front()));
       EXPECT_TRUE(module.incoming.empty());
       EXPECT_TRUE(module.outgoing.empty());
+    }
+}
+
+TEST(VariantsTest, HitRecordsAreTheOnlyPayload) {
+  for (const char* method : kEveryMethod)
+    for (int flags = 0; flags < 16; flags += 5) {  // each set, and each property with and without
+      const Variant variant = withoutRecursion(method, vulkan::Tracing::hitRecords, flags);
+      const std::vector<vulkan::StageSource> sources = vulkan::stageSources(variant);
+      ASSERT_EQ(sources.size(), 3u);
+      for (const vulkan::StageSource& source : sources) {
+        SCOPED_TRACE(std::string(method) + " flags " + std::to_string(flags) + " " + source.path);
+        const Module module(compiled(variant, source));
+        const std::vector<std::uint32_t> one = {static_cast<std::uint32_t>(render::kHitRecordBytes)}, none;
+        EXPECT_EQ(module.outgoing, source.stage == Stage::raygen ? one : none);
+        EXPECT_EQ(module.incoming, source.stage == Stage::raygen ? none : one);
+      }
+      EXPECT_EQ(countInstructions(variant).queries, 0u);
     }
 }
 

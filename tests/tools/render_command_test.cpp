@@ -20,6 +20,34 @@ TEST(Render, CheckNumerics) {
   }
 }
 
+TEST(Render, VulkanPath) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const auto render = [&](const char* limits, const char* method, const char* path) {
+    Start start;
+    start.environment = {{"MALUS_DEVICE", "llvmpipe"}, {"MALUS_VULKAN_LIMITS", limits}};
+    start.timeoutSeconds = 600;
+    return malus({"render", folder / "tiny.pack", "-o", folder / "a.exr", "--backend", "vulkan", "--width", "16",
+                  "--method", method, "--vulkan-path", path, "--json"},
+                 start);
+  };
+  const auto taken = [](const Finished& done) {
+    EXPECT_EQ(done.exitCode, 0) << done.err;
+    return json::parse(done.out).at("vulkanPath");
+  };
+  EXPECT_EQ(taken(render("", "fresnel-iterative", "auto")), "query");
+  EXPECT_EQ(taken(render("", "fresnel-iterative", "pipeline")), "pipeline");
+  EXPECT_EQ(taken(render("rayQuery=0", "fresnel-iterative", "auto")), "pipeline");
+  expectRefusal(render("rayQuery=0", "fresnel-iterative", "query"), "--vulkan-path", "rayQuery", "pipeline");
+  EXPECT_EQ(render("", "fresnel", "magic").exitCode, 2);
+  // A recursive method that cannot recurse reports it.
+  const Finished limited = render("maxRayRecursionDepth=1", "fresnel", "pipeline");
+  EXPECT_EQ(taken(limited), "pipeline");
+  EXPECT_TRUE(contains(limited.out, "nested rays")) << limited.out;
+  EXPECT_TRUE(json::parse(render("", "fresnel", "auto").out).at("withoutRecursion").is_null());
+}
+
 TEST(Render, SweepsAgreeBetweenMethods) {
   const Folder folder;
   writeTinyScene(folder.path());

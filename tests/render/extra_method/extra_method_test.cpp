@@ -34,12 +34,16 @@ TEST_P(ExtraMethod, RendersWithEmbree) {
 
 TEST_P(ExtraMethod, CompilesToSpirv) {
   const pack::Scene scene = mirrorScene();
-  const vulkan::Variant variant = vulkan::variantFor(scene, GetParam(), defaultParameters(scene));
-  for (const vulkan::StageSource& source : vulkan::stageSources(variant))
-    EXPECT_FALSE(vulkan::compileGlsl(vulkan::stageText(source), vulkan::preamble(variant), source.stage, source.path,
-                                     [&](std::string_view path) { return vulkan::includedSource(variant, path); })
-                     .empty())
-        << source.path;
+  for (const vulkan::Tracing tracing :
+       {vulkan::Tracing::recursion, vulkan::Tracing::hitRecords, vulkan::Tracing::rayQueries}) {
+    if (tracing == vulkan::Tracing::recursion && methodNamed(GetParam()).isIterative) continue;
+    const vulkan::Variant variant = vulkan::variantFor(scene, GetParam(), defaultParameters(scene), tracing);
+    for (const vulkan::StageSource& source : vulkan::stageSources(variant))
+      EXPECT_FALSE(vulkan::compileGlsl(vulkan::stageText(source), vulkan::preamble(variant), source.stage, source.path,
+                                       [&](std::string_view path) { return vulkan::includedSource(variant, path); })
+                       .empty())
+          << source.path;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Rows, ExtraMethod, ::testing::Values("perfect-mirror", "perfect-iterative"),

@@ -1,5 +1,4 @@
-// Recursive methods: light that each kind of surface sends toward the camera. Surfaces that transmit are black where no
-// specular interaction is left.
+// Recursive methods: light that the kinds of surface that end a path send toward the camera.
 
 FN Payload shadeLambert(IN(Hit) h, IN(Material) m) {
   real3 diffuse = directLight(h, m, h.normal).diffuse;
@@ -25,15 +24,15 @@ FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
   return sent;
 }
 
+// The light of a surface that ends the path.
+FN Payload shadeSource(IN(Hit) h, IN(Material) m) {
 #define MALUS_RULE_ROW(id, name, alias, description)
 #define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
-#define MALUS_SOURCE_ROW(id, macro, build, name, alias, description)
-#define MALUS_SURFACE_ROW(id, macro, build, name, alias, description)      \
-  FN Payload shade##id(INOUT(Hit) h, IN(Material) m) {                     \
-    if (kShape##id != kOpaqueShape && !canScatter(h)) return black();      \
-    Scattering s = scatter##id(h, m);                                      \
-    if (kShape##id == kOpaqueShape) return shadeOpaque(h, m, s);           \
-    if (kShape##id == kTransparentShape) return shadeTransparent(h, m, s); \
-    return shadeTransmitting(h, s);                                        \
+#define MALUS_SURFACE_ROW(id, macro, build, name, alias, description)
+#define MALUS_SOURCE_ROW(id, macro, build, name, alias, description) \
+  if (kEffect##id) {                                                 \
+    if (m.kind == k##id) return shade##id(h, m);                     \
   }
 #include "shaders/effects.def"
+  return black();
+}

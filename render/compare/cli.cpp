@@ -48,7 +48,9 @@ void addDeviceStatistics(Comparison& comparison, const Arguments& a) {
   for (const auto& [name, pack] : comparison.packs)
     if (!comparison.interrupted) try {
         append(comparison,
-               vulkan::deviceStatistics(pack.scene, a.settings.methods, a.depth(pack.scene), a.settings.device), name);
+               vulkan::deviceStatistics(pack.scene, a.settings.methods, a.depth(pack.scene), a.settings.device,
+                                        a.settings.vulkanPath),
+               name);
       } catch (const Error& error) {  // the timings are still valid
         console::warn(fmt::format("{}: no statistics of the device's pipelines: {}", name, error.what()));
       }
@@ -129,6 +131,7 @@ void addCompareCommand(CLI::App& app) {
   addDepth(*command, settings.depths);
   command->add_option("--rounds", settings.rounds, "Timed rounds after the warm-up")->capture_default_str();
   addDevice(*command, settings.device, settings.threads);
+  addVulkanPath(*command, settings.vulkanPath);
   command
       ->add_option("--polarizer", settings.polarizerDegrees,
                    "Linear polarizer in front of the camera, from the image's x axis, counter-clockwise [degrees]")

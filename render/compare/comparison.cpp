@@ -7,6 +7,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/compare/effects_table.h"
+#include "render/compare/paths_table.h"
 #include "render/compare/timing_rounds.h"
 #include "render/compare/warm_up.h"
 #include "render/scene/methods.h"
@@ -52,6 +53,7 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
   comparison.interrupted = interrupted();
   summarizeRows(comparison, groups);
   summarizeEffects(comparison);
+  summarizePaths(comparison);
   return comparison;
 }
 

@@ -16,6 +16,7 @@
 #include "render/compare/image_error.h"
 #include "render/compare/statistics.h"
 #include "render/progress.h"
+#include "render/scene/vulkan_path.h"
 
 namespace malus::render {
 
@@ -27,19 +28,23 @@ struct ComparisonSettings {
   double scale = 1;
   std::vector<std::uint32_t> depths;  // empty: the scene's
   std::uint32_t rounds = 7;
-  unsigned threads = 0;                    // 0: all
-  std::string device;                      // as RendererOptions::device
-  std::optional<double> polarizerDegrees;  // filter in front of the camera
-  std::vector<std::string> gpuFamilies;    // for a compiler's static estimates: navi21, navi31, ...
+  unsigned threads = 0;                           // 0: all
+  std::string device;                             // as RendererOptions::device
+  VulkanPath vulkanPath = VulkanPath::automatic;  // automatic: iterative methods by each path that the device has
+  std::optional<double> polarizerDegrees;         // filter in front of the camera
+  std::vector<std::string> gpuFamilies;           // for a compiler's static estimates: navi21, navi31, ...
 };
 
 // One method on one renderer with one view of one scene.
 struct ComparisonRow {
   std::string scene, method;
   Backend backend = Backend::vulkan;
-  bool everyEffect = false;  // every effect is compiled in; else those that the image needs
+  bool everyEffect = false;                       // every effect is compiled in; else those that the image needs
+  VulkanPath vulkanPath = VulkanPath::automatic;  // of the Vulkan renderer: the path taken
+  bool isSecondPath = false;     // an iterative method once more, by the path that is not taken automatically
+  std::string withoutRecursion;  // as RenderResult::withoutRecursion
   std::uint32_t width = 0, height = 0, depth = 0;
-  std::size_t payloadBytes = 0;  // per ray, of a recursive method
+  std::size_t payloadBytes = 0;  // per ray: of a recursive method, or a hit record
   std::size_t stateBytes = 0;    // per pixel, of an iterative method: the current path and the stack of waiting paths
   std::uint64_t rays = 0;
   std::vector<double> samplesMs;  // tracing alone, one per round; on Vulkan by the device's clock
@@ -52,6 +57,8 @@ struct ComparisonRow {
   std::string status = "ok";  // or the reason of the failure
   std::string image;          // file name in images/
   bool ok() const { return status == "ok"; }
+  // Rows that are compared by method: one per method, renderer and view.
+  bool isMain() const { return !everyEffect && !isSecondPath; }
 };
 
 struct ComparisonReference {
@@ -72,12 +79,21 @@ struct EffectsComparison {
   double brightest = 0;                                      // of any pixel and colour in `all`
 };
 
+// An iterative method by both paths of one Vulkan device and with one view. Indices into Comparison::rows.
+struct PathComparison {
+  std::size_t query = 0, pipeline = 0;
+  Spread pipelineToQuery;        // ratio of times, round by round
+  bool differs = false;          // significantly
+  double largestDifference = 0;  // of any pixel and colour
+};
+
 struct Comparison {
   std::map<std::string, pack::Pack> packs;     // by scene name
   std::map<std::string, std::string> devices;  // by renderer
   std::vector<ComparisonReference> references;
   std::vector<ComparisonRow> rows;
   std::vector<EffectsComparison> effects;
+  std::vector<PathComparison> paths;
   nlohmann::json gpuModel = nlohmann::json::array();  // one entry per family, scene and method
   std::uint32_t rounds = 0;                           // finished ones
   bool interrupted = false;

@@ -1,27 +1,32 @@
 #include "render/compare/effects_table.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "render/compare/image_error.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
 
-std::vector<MethodVariant> methodVariants(const std::vector<std::string>& methods, const EffectsChoice& cheapest) {
+std::vector<MethodVariant> methodVariants(const std::vector<std::string>& methods, const EffectsChoice& cheapest,
+                                          VulkanPath vulkanPath, VulkanPath secondPath) {
   const auto contains = [&](std::string_view name) {
     return std::find(methods.begin(), methods.end(), name) != methods.end();
   };
   std::vector<MethodVariant> variants;
-  variants.reserve(methods.size() + 3);
-  for (const std::string& method : methods) variants.push_back({method, false});
+  variants.reserve(2 * methods.size() + 3);
+  for (const std::string& method : methods) variants.push_back({method, false, vulkanPath});
   if (contains(completeRecursiveMethod().name) && !contains(cheapest.method))
-    variants.push_back({cheapest.method, false});
+    variants.push_back({cheapest.method, false, vulkanPath});
   for (const MethodInfo& m : render::methods())
-    if (m.isComplete() && contains(m.name)) variants.push_back({m.name, true});
+    if (m.isComplete() && contains(m.name)) variants.push_back({m.name, true, vulkanPath});
+  if (secondPath == VulkanPath::automatic) return variants;
+  for (const std::string& method : methods)
+    if (methodNamed(method).isIterative) variants.push_back({method, false, secondPath, true});
   return variants;
 }
 
 void EffectsTable::add(std::size_t index, const ComparisonRow& row, const RenderResult& rendered) {
+  if (row.isSecondPath) return;
   const MethodInfo& method = methodNamed(row.method);
   const bool isAll = row.everyEffect && !method.isIterative,
              isAutomatic = !row.everyEffect && row.method == cheapest_.method,
@@ -30,27 +35,20 @@ void EffectsTable::add(std::size_t index, const ComparisonRow& row, const Render
   if (isAutomatic) entry_.automatic = index;
   if (isImportance) entry_.importance = index;
   if (!isAll && !isAutomatic && !isImportance) return;
-  std::vector<float>& rgb = colours_[index];
-  for (std::size_t i = 0; i < rendered.pixels.size(); i += rendered.channels)
-    rgb.insert(rgb.end(), {rendered.pixels[i], rendered.pixels[i + 1], rendered.pixels[i + 2]});
+  colours_[index] = colours(rendered);
 }
 
-double EffectsTable::largestDifference(std::size_t index) const {
-  double largest = 0;
+double EffectsTable::largestDifferenceFromAll(std::size_t index) const {
   const auto found = colours_.find(index);
-  if (found == colours_.end()) return largest;
-  const std::vector<float>& all = colours_.at(entry_.all);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    largest = std::max(largest, static_cast<double>(std::abs(found->second[i] - all[i])));
-  return largest;
+  return found == colours_.end() ? 0 : largestDifference(found->second, colours_.at(entry_.all));
 }
 
 bool EffectsTable::finish(EffectsComparison& entry) const {
   if (entry_.all == EffectsComparison::kNoRow) return false;
   entry = entry_;
   entry.why = cheapest_.why;
-  entry.automaticDifference = largestDifference(entry_.automatic);
-  entry.importanceDifference = largestDifference(entry_.importance);
+  entry.automaticDifference = largestDifferenceFromAll(entry_.automatic);
+  entry.importanceDifference = largestDifferenceFromAll(entry_.importance);
   const std::vector<float>& all = colours_.at(entry_.all);
   entry.brightest = *std::max_element(all.begin(), all.end());
   return true;

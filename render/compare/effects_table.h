@@ -14,12 +14,16 @@ namespace malus::render {
 // A method to render, with the effects that the scene needs or with every effect.
 struct MethodVariant {
   std::string method;
-  bool everyEffect;
+  bool everyEffect = false;
+  VulkanPath vulkanPath = VulkanPath::automatic;
+  bool isSecondPath = false;
 };
 
 // Everything that a comparison renders: `methods`; the cheapest exact method in place of the complete recursive one;
-// and the complete methods once more with every effect.
-std::vector<MethodVariant> methodVariants(const std::vector<std::string>& methods, const EffectsChoice& cheapest);
+// the complete methods once more with every effect; and the iterative methods once more by secondPath, unless that is
+// automatic. vulkanPath: of all others.
+std::vector<MethodVariant> methodVariants(const std::vector<std::string>& methods, const EffectsChoice& cheapest,
+                                          VulkanPath vulkanPath, VulkanPath secondPath);
 
 class EffectsTable {
  public:
@@ -31,7 +35,7 @@ class EffectsTable {
   bool finish(EffectsComparison& entry) const;
 
  private:
-  double largestDifference(std::size_t index) const;  // from the row with every effect
+  double largestDifferenceFromAll(std::size_t index) const;  // from the row with every effect
 
   const EffectsChoice& cheapest_;
   EffectsComparison entry_;

@@ -46,4 +46,18 @@ ImageError imageError(const RenderResult& image, const RenderResult& reference, 
   return error;
 }
 
+std::vector<float> colours(const RenderResult& image) {
+  std::vector<float> rgb;
+  rgb.reserve(kColourChannels * image.width * image.height);
+  for (std::size_t i = 0; i < image.pixels.size(); i += image.channels)
+    rgb.insert(rgb.end(), {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
+  return rgb;
+}
+
+double largestDifference(const std::vector<float>& a, const std::vector<float>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, static_cast<double>(std::abs(a[i] - b[i])));
+  return largest;
+}
+
 }  // namespace malus::render

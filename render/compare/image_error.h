@@ -1,6 +1,8 @@
 // The error of a method's image against the reference of the same view.
 #pragma once
 
+#include <vector>
+
 #include "render/scene/render_result.h"
 
 namespace malus::render {
@@ -18,5 +20,11 @@ struct ImageError {
 // Compares the colours behind the filter. exposureEv: of the display, in stops, for FLIP. A non-finite value in the
 // image makes meanAbs, maxAbs and relRms infinite. Throws Error if the sizes differ.
 ImageError imageError(const RenderResult& image, const RenderResult& reference, double exposureEv);
+
+// r, g, b of every pixel.
+std::vector<float> colours(const RenderResult& image);
+
+// Largest absolute difference of two lists of equal length.
+double largestDifference(const std::vector<float>& a, const std::vector<float>& b);
 
 }  // namespace malus::render

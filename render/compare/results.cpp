@@ -24,6 +24,9 @@ json toJson(const ComparisonRow& row) {
                  {"stateBytes", row.stateBytes}, {"status", row.status}};
   const bool rendered = row.ok(), timed = rendered && !row.samplesMs.empty();
   const auto when = [](bool known, json value) { return known ? std::move(value) : json(); };
+  const auto orNull = [](bool known, std::string text) { return known ? json(std::move(text)) : json(); };
+  result["vulkanPath"] = orNull(row.vulkanPath != VulkanPath::automatic, vulkanPathName(row.vulkanPath));
+  result["withoutRecursion"] = orNull(!row.withoutRecursion.empty(), row.withoutRecursion);
   result["rays"] = when(rendered, row.rays);
   result["samplesMs"] = row.samplesMs;
   result["medianMs"] = when(timed, row.time.median);
@@ -82,107 +85,67 @@ json toJson(const EffectsComparison& e, const Comparison& comparison) {
           {"brightest", e.brightest}};
 }
 
-}  // namespace
-
-json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
-  json backends = json::array();
-  for (const Backend b : settings.backends) backends.push_back(backendInfo(b).name);
-  json scenes = json::object(), references = json::array(), rows = json::array(), everything = json::array(),
-       effects = json::array(), exposure = json::object();
-  for (const auto& [name, pack] : comparison.packs) {
-    scenes[name] = {{"title", pack.scene.title},
-                    {"vertices", pack.scene.vertexCount()},
-                    {"triangles", pack.scene.triangleCount()},
-                    {"packHash", fmt::format("{:016x}", pack.hash)},
-                    {"exposureEv", pack.scene.exposureEv}};
-    exposure[name] = pack.scene.exposureEv;
-  }
-  for (const ComparisonReference& r : comparison.references)
-    references.push_back({{"scene", r.scene},
-                          {"width", r.width},
-                          {"height", r.height},
-                          {"depth", r.depth},
-                          {"image", fmt::format("images/{}", r.image)}});
-  for (const ComparisonRow& row : comparison.rows) (row.everyEffect ? everything : rows).push_back(toJson(row));
-  for (const EffectsComparison& e : comparison.effects) effects.push_back(toJson(e, comparison));
-  return {{"malus", MALUS_VERSION},
-          {"commit", MALUS_COMMIT},
-          {"compiler", fmt::format("{} {}", MALUS_COMPILER, __VERSION__)},
-          {"devices", comparison.devices},
-          {"settings",
-           {{"rounds", comparison.rounds},
-            {"roundsAsked", settings.rounds},
-            {"interrupted", comparison.interrupted},
-            {"widths", settings.widths},
-            {"heights", settings.heights},
-            {"scale", settings.scale},
-            {"depths", settings.depths},
-            {"methods", settings.methods},
-            {"backends", backends},
-            {"threads", settings.threads},
-            {"effects", "auto"},
-            {"exposureEv", exposure},
-            {"polarizerDegrees", settings.polarizerDegrees ? json(*settings.polarizerDegrees) : json()}}},
-          {"scenes", scenes},
-          {"references", references},
-          {"rows", rows},
-          {"rowsWithAllEffects", everything},
-          {"effects", effects},
-          {"gpuModel", comparison.gpuModel}};
+// An iterative method by both paths. Repeats both rows, so that it can be read alone.
+json toJson(const PathComparison& e, const Comparison& comparison) {
+  const auto rowJson = [&](const ComparisonRow& r) {
+    return json{{"medianMs", r.samplesMs.empty() ? json() : json(r.time.median)},
+                {"ratioToSchlick", spreadJson(r.ratioToSchlick)},
+                {"payloadBytes", r.payloadBytes},
+                {"stateBytes", r.stateBytes}};
+  };
+  const ComparisonRow &query = comparison.rows[e.query], &pipeline = comparison.rows[e.pipeline];
+  return {{"scene", query.scene},
+          {"renderer", backendInfo(query.backend).name},
+          {"width", query.width},
+          {"height", query.height},
+          {"depth", query.depth},
+          {"method", query.method},
+          {"query", rowJson(query)},
+          {"pipeline", rowJson(pipeline)},
+          {"pipelineToQuery", spreadJson(e.pipelineToQuery)},
+          {"differs", e.differs},
+          {"largestDifference", number(e.largestDifference)}};
 }
 
-std::string toCsv(const Comparison& comparison) {
-  std::string text =
-      "scene,renderer,method,effects,width,height,depth,payloadBytes,stateBytes,rays,medianMs,lowMs,highMs,wallMs,"
-      "cpuMs,buildMs,uploadMs,"
-      "compileMs,readBackMs,ratioToSchlick,ratioLow,ratioHigh,meanAbs,maxAbs,relRms,shareOver1Percent,perceptual,"
-      "energyRatio,status\n";
-  for (const ComparisonRow& r : comparison.rows) {
-    std::string status;
-    for (const char c : r.status) {
-      if (c == '"') status.push_back('"');
-      status.push_back(c);
-    }
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"\n",
-                        r.scene, backendInfo(r.backend).name, r.method, r.everyEffect ? "all" : "auto", r.width,
-                        r.height, r.depth, r.payloadBytes, r.stateBytes, r.rays, r.time.median, r.time.low, r.time.high,
-                        median(r.wallMs), median(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs, median(r.readBackMs),
-                        r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high, r.error.meanAbs,
-                        r.error.maxAbs, r.error.relRms, r.error.shareOver1Percent, r.error.perceptual,
-                        r.error.energyRatio, status);
-  }
-  return text;
+// "-" if a row was not timed.
+std::string ratioText(const Spread& s) {
+  return s.median > 0 ? fmt::format("{:.3f} ({:.3f}-{:.3f})", s.median, s.low, s.high) : "-";
 }
 
-std::string toTable(const Comparison& comparison) {
-  std::string text, heading;
-  for (const ComparisonRow& r : comparison.rows) {
-    if (r.everyEffect) continue;
-    const std::string renderer = backendInfo(r.backend).name;
-    const std::string group = fmt::format("{}, {} x {}, depth {}, {}", r.scene, r.width, r.height, r.depth, renderer);
-    if (group != heading) {
-      heading = group;
-      text += fmt::format("\n{} ({})\n  {:<18}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10}{:>9}{:>9}  {}\n", group,
-                          comparison.devices.count(renderer) ? comparison.devices.at(renderer) : "no device", "method",
-                          "bytes", "rays", "ms", "ratio to schlick", "Mray/s", "rel RMS", "err >1%", "energy",
-                          "no significant difference");
-    }
-    if (!r.ok()) {
-      text += fmt::format("  {:<18}{:>6}  failed: {}\n", r.method, r.payloadBytes, r.status);
-      continue;
-    }
-    std::string same = fmt::format("{}", fmt::join(r.noSignificantDifference, " "));
-    const bool timed = !r.samplesMs.empty();
-    text += fmt::format("  {:<18}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10.4f}{:>8.2f}%{:>9.4f}  {}\n", r.method,
-                        r.payloadBytes, r.rays, timed ? fmt::format("{:.1f}", r.time.median) : "-",
-                        timed ? fmt::format("{:.3f} ({:.3f}-{:.3f})", r.ratioToSchlick.median, r.ratioToSchlick.low,
-                                            r.ratioToSchlick.high)
-                              : "-",
-                        timed ? fmt::format("{:.1f}", static_cast<double>(r.rays) / r.time.median * 1e-3) : "-",
-                        r.error.relRms, 100 * r.error.shareOver1Percent, r.error.energyRatio, same);
+// The rows of a group that ran without recursion: "sp stokes: reason"; empty if there is none.
+std::string withoutRecursionLine(const std::vector<const ComparisonRow*>& rows) {
+  std::string names, reason;
+  for (const ComparisonRow* r : rows) {
+    if (r->withoutRecursion.empty()) continue;
+    names += " " + r->method;
+    reason = r->withoutRecursion;
   }
-  if (comparison.effects.empty()) return text;
-  text += fmt::format(
+  return names.empty() ? names : fmt::format("  without recursion:{} ({})\n", names, reason);
+}
+
+// Title and column heads of the rows of one renderer and view.
+std::string groupHeading(const ComparisonRow& r, const Comparison& comparison) {
+  const std::string renderer = backendInfo(r.backend).name;
+  return fmt::format("\n{}, {} x {}, depth {}, {} ({})\n  {:<18}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10}{:>9}{:>9}  {}\n",
+                     r.scene, r.width, r.height, r.depth, renderer,
+                     comparison.devices.count(renderer) ? comparison.devices.at(renderer) : "no device", "method",
+                     "bytes", "rays", "ms", "ratio to schlick", "Mray/s", "rel RMS", "err >1%", "energy",
+                     "no significant difference");
+}
+
+std::string rowText(const ComparisonRow& r) {
+  if (!r.ok()) return fmt::format("  {:<18}{:>6}  failed: {}\n", r.method, r.payloadBytes, r.status);
+  const bool timed = !r.samplesMs.empty();
+  return fmt::format("  {:<18}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10.4f}{:>8.2f}%{:>9.4f}  {}\n", r.method, r.payloadBytes,
+                     r.rays, timed ? fmt::format("{:.1f}", r.time.median) : "-", ratioText(r.ratioToSchlick),
+                     timed ? fmt::format("{:.1f}", static_cast<double>(r.rays) / r.time.median * 1e-3) : "-",
+                     r.error.relRms, 100 * r.error.shareOver1Percent, r.error.energyRatio,
+                     fmt::join(r.noSignificantDifference, " "));
+}
+
+std::string effectsTable(const Comparison& comparison) {
+  if (comparison.effects.empty()) return {};
+  std::string text = fmt::format(
       "\nexact intensity by stokes with all effects, with the effects that the image needs, and by importance\n"
       "  {:<34}{:>10}  {:<42}{}\n",
       "", "all, ms", "auto: time over all, largest difference", "importance: time over all, largest difference");
@@ -199,6 +162,117 @@ std::string toTable(const Comparison& comparison) {
                         cell(e.importance, e.importanceToAll, e.importanceDifference));
   }
   return text;
+}
+
+std::string pathsTable(const Comparison& comparison) {
+  if (comparison.paths.empty()) return {};
+  std::string text = fmt::format(
+      "\niterative methods by ray queries and by pipelines whose rays return a hit record of {} bytes\n"
+      "  {:<34}{:<18}{:>10}{:>14}  {:<26}{:<26}{:<26}{}\n",
+      kHitRecordBytes, "", "method", "query, ms", "pipeline, ms", "pipeline / query", "query to schlick",
+      "pipeline to schlick", "largest difference");
+  for (const PathComparison& e : comparison.paths) {
+    const ComparisonRow &query = comparison.rows[e.query], &pipeline = comparison.rows[e.pipeline];
+    text += fmt::format("  {:<34}{:<18}{:>10.1f}{:>14.1f}  {:<26}{:<26}{:<26}{:.1e}\n",
+                        fmt::format("{} {} x {}", query.scene, query.width, query.height), query.method,
+                        query.time.median, pipeline.time.median, ratioText(e.pipelineToQuery),
+                        ratioText(query.ratioToSchlick), ratioText(pipeline.ratioToSchlick), e.largestDifference);
+  }
+  return text;
+}
+
+}  // namespace
+
+json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
+  json backends = json::array();
+  for (const Backend b : settings.backends) backends.push_back(backendInfo(b).name);
+  json scenes = json::object(), references = json::array(), rows = json::array(), everything = json::array(),
+       secondPath = json::array(), effects = json::array(), paths = json::array(), exposure = json::object();
+  for (const auto& [name, pack] : comparison.packs) {
+    scenes[name] = {{"title", pack.scene.title},
+                    {"vertices", pack.scene.vertexCount()},
+                    {"triangles", pack.scene.triangleCount()},
+                    {"packHash", fmt::format("{:016x}", pack.hash)},
+                    {"exposureEv", pack.scene.exposureEv}};
+    exposure[name] = pack.scene.exposureEv;
+  }
+  for (const ComparisonReference& r : comparison.references)
+    references.push_back({{"scene", r.scene},
+                          {"width", r.width},
+                          {"height", r.height},
+                          {"depth", r.depth},
+                          {"image", fmt::format("images/{}", r.image)}});
+  for (const ComparisonRow& row : comparison.rows)
+    (row.everyEffect ? everything : row.isSecondPath ? secondPath : rows).push_back(toJson(row));
+  for (const EffectsComparison& e : comparison.effects) effects.push_back(toJson(e, comparison));
+  for (const PathComparison& e : comparison.paths) paths.push_back(toJson(e, comparison));
+  return {{"malus", MALUS_VERSION},
+          {"commit", MALUS_COMMIT},
+          {"compiler", fmt::format("{} {}", MALUS_COMPILER, __VERSION__)},
+          {"devices", comparison.devices},
+          {"settings",
+           {{"rounds", comparison.rounds},
+            {"roundsAsked", settings.rounds},
+            {"interrupted", comparison.interrupted},
+            {"widths", settings.widths},
+            {"heights", settings.heights},
+            {"scale", settings.scale},
+            {"depths", settings.depths},
+            {"methods", settings.methods},
+            {"backends", backends},
+            {"threads", settings.threads},
+            {"vulkanPath", vulkanPathName(settings.vulkanPath)},
+            {"effects", "auto"},
+            {"exposureEv", exposure},
+            {"polarizerDegrees", settings.polarizerDegrees ? json(*settings.polarizerDegrees) : json()}}},
+          {"scenes", scenes},
+          {"references", references},
+          {"rows", rows},
+          {"rowsWithAllEffects", everything},
+          {"rowsOnSecondPath", secondPath},
+          {"effects", effects},
+          {"paths", paths},
+          {"gpuModel", comparison.gpuModel}};
+}
+
+std::string toCsv(const Comparison& comparison) {
+  std::string text =
+      "scene,renderer,method,effects,width,height,depth,payloadBytes,stateBytes,rays,medianMs,lowMs,highMs,wallMs,"
+      "cpuMs,buildMs,uploadMs,"
+      "compileMs,readBackMs,ratioToSchlick,ratioLow,ratioHigh,meanAbs,maxAbs,relRms,shareOver1Percent,perceptual,"
+      "energyRatio,vulkanPath,status\n";
+  for (const ComparisonRow& r : comparison.rows) {
+    std::string status;
+    for (const char c : r.status) {
+      if (c == '"') status.push_back('"');
+      status.push_back(c);
+    }
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"\n",
+                    r.scene, backendInfo(r.backend).name, r.method, r.everyEffect ? "all" : "auto", r.width, r.height,
+                    r.depth, r.payloadBytes, r.stateBytes, r.rays, r.time.median, r.time.low, r.time.high,
+                    median(r.wallMs), median(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs, median(r.readBackMs),
+                    r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high, r.error.meanAbs,
+                    r.error.maxAbs, r.error.relRms, r.error.shareOver1Percent, r.error.perceptual, r.error.energyRatio,
+                    r.vulkanPath == VulkanPath::automatic ? "" : vulkanPathName(r.vulkanPath), status);
+  }
+  return text;
+}
+
+std::string toTable(const Comparison& comparison) {
+  std::string text, heading;
+  std::vector<const ComparisonRow*> group;
+  for (const ComparisonRow& r : comparison.rows) {
+    if (!r.isMain()) continue;
+    if (const std::string title = groupHeading(r, comparison); title != heading) {
+      text += withoutRecursionLine(group) + title;
+      heading = title;
+      group.clear();
+    }
+    group.push_back(&r);
+    text += rowText(r);
+  }
+  return text + withoutRecursionLine(group) + effectsTable(comparison) + pathsTable(comparison);
 }
 
 }  // namespace malus::render

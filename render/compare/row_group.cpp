@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "render/job.h"
+#include "render/scene/methods.h"
 
 namespace malus::render {
 
@@ -30,6 +31,7 @@ std::string groupTitle(const RowGroup& group) {
 RenderParameters rowParameters(const ComparisonRow& row, const RowGroup& group) {
   RenderParameters parameters = group.parameters;
   parameters.everyEffect = row.everyEffect;
+  parameters.vulkanPath = row.vulkanPath;
   return parameters;
 }
 
@@ -49,6 +51,9 @@ RenderResult renderFirst(ComparisonRow& row, RowGroup& group) {
   row.uploadMs = result.cost.uploadMs;
   row.compileMs = result.cost.compileMs;
   row.rays = result.cost.rays;
+  row.vulkanPath = result.vulkanPath;
+  row.withoutRecursion = result.withoutRecursion;
+  row.payloadBytes = payloadBytes(methodNamed(row.method), row.vulkanPath);
   return result;
 }
 

@@ -20,13 +20,14 @@ struct RowGroup {
 // "SCENE WIDTH x HEIGHT, depth DEPTH", for progress messages.
 std::string groupTitle(const RowGroup& group);
 
-// The parameters of a row: those of its group, with every effect compiled in if the row asks for it.
+// The parameters of a row: those of its group, with the effects and the path of the row.
 RenderParameters rowParameters(const ComparisonRow& row, const RowGroup& group);
 
 // Renders a row and appends its times to the samples of the row. Throws as Renderer::render() does.
 void renderTimed(ComparisonRow& row, RowGroup& group);
 
-// Renders a row for the first time: stores its ray count and what was spent once (build, upload, compilation).
+// Renders a row for the first time: stores its ray count, the path taken and what was spent once (build, upload,
+// compilation).
 RenderResult renderFirst(ComparisonRow& row, RowGroup& group);
 
 }  // namespace malus::render

@@ -19,10 +19,10 @@ void summarizeRow(Comparison& comparison, const RowGroup& group, std::size_t i) 
   row.time = computeSpread(row.samplesMs);
   for (const std::size_t j : group.rows) {
     const ComparisonRow& other = comparison.rows[j];
-    if (other.backend != row.backend || !other.ok() || other.everyEffect) continue;
+    if (other.backend != row.backend || !other.ok() || !other.isMain()) continue;
     if (other.samplesMs.size() != row.samplesMs.size()) continue;
     if (other.method == baselineMethod().name) row.ratioToSchlick = ratioSpread(row.samplesMs, other.samplesMs);
-    if (i != j && !row.everyEffect && !differSignificantly(row.samplesMs, other.samplesMs))
+    if (i != j && row.isMain() && !differSignificantly(row.samplesMs, other.samplesMs))
       row.noSignificantDifference.push_back(other.method);
   }
 }

@@ -8,6 +8,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/compare/effects_table.h"
+#include "render/compare/paths_table.h"
 #include "render/image/output.h"
 #include "render/job.h"
 #include "render/scene/compiled_effects.h"
@@ -66,6 +67,8 @@ ComparisonRow makeRow(const RowGroup& group, Backend backend, const MethodVarian
   row.backend = backend;
   row.method = variant.method;
   row.everyEffect = variant.everyEffect;
+  row.vulkanPath = variant.vulkanPath;
+  row.isSecondPath = variant.isSecondPath;
   row.width = group.parameters.width;
   row.height = group.parameters.height;
   row.depth = group.parameters.depth;
@@ -78,15 +81,16 @@ ComparisonRow makeRow(const RowGroup& group, Backend backend, const MethodVarian
   return row;
 }
 
-// Renders a row and stores its error and, unless it has every effect, its image.
+// Renders a row and stores its error and, of a main row, its image.
 RenderResult renderRow(ComparisonRow& row, RowGroup& group, const RenderResult& reference, const Output& output) {
   const pack::Pack& pack = *group.pack;
   const std::string backend = backendInfo(row.backend).name;
-  output.progress(
-      fmt::format("{}: {} {}{}", groupTitle(group), backend, row.method, row.everyEffect ? ", all effects" : ""));
+  output.progress(fmt::format("{}: {} {}{}{}", groupTitle(group), backend, row.method,
+                              row.everyEffect ? ", all effects" : "",
+                              row.isSecondPath ? fmt::format(", {}", vulkanPathName(row.vulkanPath)) : ""));
   RenderResult result = renderFirst(row, group);
   row.error = imageError(result, reference, pack.scene.exposureEv);
-  if (row.everyEffect) return result;
+  if (!row.isMain()) return result;
   row.image = fileName(group, fmt::format("{}-{}", backend, row.method));
   writeImage(output.images / row.image, toImage(result, pack, group.parameters, backend, row.method), 0);
   return result;
@@ -101,6 +105,7 @@ void prepareRows(const RowGroup& group, Backend backend, const std::vector<Metho
   for (const MethodVariant& variant : variants) {
     Preparation& image = images.emplace_back(Preparation{variant.method, group.parameters, true});
     image.parameters.everyEffect = variant.everyEffect;
+    image.parameters.vulkanPath = variant.vulkanPath;
   }
   try {
     (*group.renderers)[backend].prepare(images);
@@ -108,21 +113,36 @@ void prepareRows(const RowGroup& group, Backend backend, const std::vector<Metho
   }
 }
 
+// The path that iterative methods do not take automatically; automatic: there is none, or the user chose a path.
+VulkanPath secondPath(RowGroup& group, Backend backend, VulkanPath chosen) {
+  if (chosen != VulkanPath::automatic) return VulkanPath::automatic;
+  try {
+    const std::vector<VulkanPath> paths = (*group.renderers)[backend].vulkanPaths();
+    return paths.size() < 2 ? VulkanPath::automatic : paths[1];
+  } catch (const Error&) {  // every row reports it
+    return VulkanPath::automatic;
+  }
+}
+
 // Renders every method on one backend.
-void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const std::vector<std::string>& methods,
+void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const ComparisonSettings& settings,
                 const RenderResult& reference, const Output& output) {
   const RenderParameters& p = group.parameters;
   const EffectsChoice cheapest =
       chooseEffects({"auto"}, completeRecursiveMethod().name, group.pack->scene, {p.depth, p.analyser, false, false});
-  EffectsTable table(cheapest);
-  const std::vector<MethodVariant> variants = methodVariants(methods, cheapest);
+  EffectsTable effects(cheapest);
+  PathsTable paths;
+  const std::vector<MethodVariant> variants =
+      methodVariants(settings.methods, cheapest, settings.vulkanPath, secondPath(group, backend, settings.vulkanPath));
   prepareRows(group, backend, variants, output);
   for (const MethodVariant& variant : variants) {
     if (interrupted()) break;
     ComparisonRow row = makeRow(group, backend, variant);
     const std::size_t index = comparison.rows.size();
     try {
-      table.add(index, row, renderRow(row, group, reference, output));
+      const RenderResult rendered = renderRow(row, group, reference, output);
+      effects.add(index, row, rendered);
+      paths.add(index, row, rendered);
       comparison.devices[backendInfo(backend).name] = (*group.renderers)[backend].device();
     } catch (const Interrupted&) {
       break;
@@ -132,7 +152,8 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
     group.rows.push_back(index);
     comparison.rows.push_back(std::move(row));
   }
-  if (EffectsComparison entry; table.finish(entry)) comparison.effects.push_back(std::move(entry));
+  if (EffectsComparison entry; effects.finish(entry)) comparison.effects.push_back(std::move(entry));
+  for (const PathComparison& entry : paths.finish()) comparison.paths.push_back(entry);
 }
 
 }  // namespace
@@ -149,7 +170,7 @@ std::vector<RowGroup> warmUp(Comparison& comparison, const ComparisonSettings& s
       groups.push_back({&pack, parameters, renderers, {}});
       const RenderResult reference = renderReference(comparison, groups.back(), settings.threads, output);
       for (const Backend backend : settings.backends)
-        renderRows(comparison, groups.back(), backend, settings.methods, reference, output);
+        renderRows(comparison, groups.back(), backend, settings, reference, output);
     }
   }
   return groups;

@@ -20,11 +20,13 @@ class Compare : public testing::Test {
   }
   std::string pack() const { return folder_ / "tiny.pack"; }
   std::string report() const { return folder_ / "report"; }
-  Finished compare(std::vector<std::string> more) const {
+  Finished compare(std::vector<std::string> more,
+                   std::vector<std::pair<std::string, std::string>> environment = {}) const {
     std::vector<std::string> arguments = {"compare", pack(), "-o", report(), "--width", "32", "--no-report"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     Start start;
-    start.environment = {{"MALUS_DEVICE", "llvmpipe"}};
+    start.environment = std::move(environment);
+    start.environment.emplace_back("MALUS_DEVICE", "llvmpipe");
     start.timeoutSeconds = 1500;
     return malus(arguments, start);
   }
@@ -57,6 +59,23 @@ TEST_F(Compare, EveryMethodOnBothRenderers) {
       EXPECT_EQ(row.at("ratioToSchlick").at("median"), 1);
     }
   }
+  // Iterative methods once more by pipelines, with the same rays and the same image.
+  ASSERT_EQ(document.at("rowsOnSecondPath").size(), 3u);
+  for (const json& row : document.at("rowsOnSecondPath")) {
+    EXPECT_EQ(row.at("status"), "ok");
+    EXPECT_EQ(row.at("vulkanPath"), "pipeline");
+    EXPECT_EQ(row.at("payloadBytes"), 16);
+    EXPECT_EQ(row.at("samplesMs").size(), 2u);
+    rays["vulkan"].insert(row.at("rays").get<std::uint64_t>());
+  }
+  ASSERT_EQ(document.at("paths").size(), 3u);
+  for (const json& entry : document.at("paths")) {
+    EXPECT_GT(entry.at("query").at("medianMs"), 0);
+    EXPECT_GT(entry.at("pipeline").at("medianMs"), 0);
+    EXPECT_GT(entry.at("pipelineToQuery").at("median"), 0);
+    EXPECT_EQ(entry.at("largestDifference"), 0);
+  }
+  EXPECT_TRUE(contains(finished.out, "pipeline / query"));
   // Fairness: every method sends the same rays.
   for (const auto& [renderer, counts] : rays) EXPECT_EQ(counts.size(), 1u) << renderer;
   EXPECT_TRUE(contains(finished.out, "ratio to schlick"));
@@ -78,8 +97,24 @@ TEST_F(Compare, SizesAndDepths) {
                 "--height");
 }
 
+TEST_F(Compare, OnePathOnRequest) {
+  const Finished finished = compare(
+      {"--rounds", "1", "--backends", "vulkan", "--methods", "fresnel,fresnel-iterative", "--vulkan-path", "query"});
+  ASSERT_EQ(finished.exitCode, 0) << finished.err;
+  const json document = results();
+  ASSERT_EQ(document.at("rows").size(), 3u);
+  for (const json& row : document.at("rows")) {
+    EXPECT_EQ(row.at("vulkanPath"), "query");
+    EXPECT_EQ(row.at("withoutRecursion").is_null(), row.at("method") == "fresnel-iterative");
+  }
+  EXPECT_TRUE(document.at("rowsOnSecondPath").empty());
+  EXPECT_TRUE(document.at("paths").empty());
+  EXPECT_TRUE(contains(finished.out, "without recursion: schlick fresnel")) << finished.out;
+}
+
 TEST_F(Compare, FailedRowsKeepTheirReasonAndOthersContinue) {
-  const Finished finished = compare({"--rounds", "1", "--methods", "fresnel", "--depth", "40"});
+  const Finished finished = compare({"--rounds", "1", "--methods", "fresnel", "--vulkan-path", "query"},
+                                    {{"MALUS_VULKAN_LIMITS", "rayQuery=0"}});
   ASSERT_EQ(finished.exitCode, 0) << finished.err;
   std::size_t failed = 0;
   const json document = results();
@@ -89,7 +124,7 @@ TEST_F(Compare, FailedRowsKeepTheirReasonAndOthersContinue) {
       continue;
     }
     ++failed;
-    EXPECT_TRUE(contains(row.at("status").get<std::string>(), "--depth")) << row.at("status");
+    EXPECT_TRUE(contains(row.at("status").get<std::string>(), "--vulkan-path")) << row.at("status");
     EXPECT_TRUE(row.at("medianMs").is_null());
   }
   EXPECT_EQ(failed, 2u);

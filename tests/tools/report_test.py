@@ -237,6 +237,28 @@ class Report(unittest.TestCase):
         self.assertIn("payloads of 12 to 36 bytes", page)
         self.assertNotIn("The method with the smaller payload: faster", page)
 
+    def test_paths_of_a_device(self):
+        self.assertNotIn('id="paths"', self.page())
+        ratio = lambda median: {"median": median, "low": median - 0.01, "high": median + 0.01}  # noqa: E731
+        self.results["paths"] = [
+            {"scene": "tiny", "renderer": "vulkan", "width": kWidth, "height": kHeight, "depth": 3,
+             "method": "importance", "differs": True, "largestDifference": 0.0, "pipelineToQuery": ratio(1.371),
+             "query": {"medianMs": 8.25, "ratioToSchlick": ratio(0.825), "payloadBytes": 0, "stateBytes": 388},
+             "pipeline": {"medianMs": 11.31, "ratioToSchlick": None, "payloadBytes": 16, "stateBytes": 388}}]
+        page = self.page()
+        self.assertIn('id="paths"', page)
+        for text in ("1.371 (1.361 to 1.381)", "8.25", "11.3", "0.825 (0.815 to 0.835)"):
+            self.assertIn(text, page)
+
+    def test_methods_without_recursion_are_named(self):
+        self.assertNotIn("a stack replaces", self.page())
+        for entry in self.results["rows"]:
+            if entry["renderer"] == "vulkan" and entry["method"] in ("fresnel", "stokes"):
+                entry["withoutRecursion"] = "depth 3 needs <5> nested rays"
+        page = self.page()
+        self.assertEqual(page.count("a stack replaces"), 1)
+        self.assertIn("fresnel and stokes: depth 3 needs &lt;5&gt; nested rays", page)
+
     def test_the_gpu_model_is_called_an_estimate(self):
         self.assertNotIn('id="gpu"', self.page())
         stage = {"registers": {"vgpr": 64}, "spills": 0, "lds": 0, "codeSize": 400, "instructions": 90, "latency": 300,

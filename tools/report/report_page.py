@@ -16,6 +16,7 @@ from report_errors import ErrorSummary, kOff, relative_error
 from report_findings import findings
 from report_gpu import gpu_sections
 from report_images import ExrImage, jpeg, kImageWidth, kStokesWidth, packed_stokes, png, shrunk
+from report_paths import ratio_with_interval, without_recursion
 from report_plots import error_against_time
 from report_words import first_sentence, second_sentence
 
@@ -183,6 +184,7 @@ def page(folder: pathlib.Path, results: dict) -> str:
         findings=[{**f, "answer": [Markup(a) for a in f["answer"]]}
                   for f in findings(groups, wrongs, added, devices, model, results["rows"])],
         effects=effects, reasons=replacement_reasons(effects), interval=ratio_interval,
+        paths=results.get("paths") or [], ratio_with_interval=ratio_with_interval, without_recursion=without_recursion,
         gpu=gpu_sections(model, results["rows"]), number=number, wheel=wheel(),
         dolp_gradient=gradient(mapped(numpy.linspace(0, 1, 32), "viridis")), least_dolp=kSignificantDoLP,
         image_width=kImageWidth, stokes_width=kStokesWidth,

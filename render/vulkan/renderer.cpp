@@ -238,6 +238,7 @@ std::vector<DeviceDescription> devices() {
   const std::vector<PhysicalDevice> list = listPhysicalDevices(instance);
   const PhysicalDevice* const byDefault = findDefaultDevice(list);
   std::vector<DeviceDescription> result;
+  result.reserve(list.size());
   for (const PhysicalDevice& d : list) result.push_back({d.name, d.driver, d.problem, &d == byDefault});
   return result;
 }

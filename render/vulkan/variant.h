@@ -31,7 +31,7 @@ struct Variant {
   // Without recursion: entries of the stack, which are waiting paths of an iterative method (pathStackSize()) and
   // waiting surfaces of a recursive one. At least 1; with recursion 0.
   std::uint32_t stackSize = 0;
-  auto operator<=>(const Variant&) const = default;
+  auto operator<=>(const Variant&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 is wrong here
 };
 
 // The variant for an image by a method, with the effects that the image needs. tracing: not recursion for an iterative

@@ -279,11 +279,4 @@ void listMethods() {
   for (const MethodInfo& m : methods()) fmt::print("{:<17} {:>2} bytes per ray\n", m.name, m.payloadBytes);
 }
 
-void listDevices() {
-  int number = 0;
-  for (const vulkan::DeviceDescription& d : vulkan::devices())
-    fmt::print("{}  {}; driver {}{}{}\n", number++, d.name, d.driver,
-               d.problem.empty() ? "" : "; not usable: " + d.problem, d.isDefault ? "; used by default" : "");
-}
-
 }  // namespace malus::render

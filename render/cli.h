@@ -1,7 +1,7 @@
 // malus render PACK -o OUT.exr [-o OUT.png] [--backend B] [--method M]
 //              [--polarizer DEG | --analyser right|left] [--wave-plate AXIS[,RETARDANCE]]
 //              [--output-dolp FILE] [--output-aolp FILE] [--mosaic FILE [--mosaic-bits 8|12|16]] ...
-// and the lists that `malus --list-methods` and `malus --list-devices` print.
+// and the list that `malus --list-methods` prints.
 //
 // --json prints one object: scene, renderer, method, device, width, height, depth, samples, rays (null if not counted),
 // buildMs, traceMs, wallMs, numericsChecked, effects, substitutedFor (null, or the method that was asked for and the
@@ -18,7 +18,5 @@ void addRenderCommand(CLI::App& app);
 
 // Prints a line per method: name and bytes per ray.
 void listMethods();
-// Prints a line per Vulkan device. Throws Error if there is none.
-void listDevices();
 
 }  // namespace malus::render

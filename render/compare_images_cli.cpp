@@ -24,6 +24,7 @@ struct CompareImagesArguments {
   std::vector<std::string> channels = {"R", "G", "B"};
   double threshold = 1e-3, gain = 10;
   std::optional<double> failOver;
+  std::optional<std::uint64_t> maxOutliers;
   bool json = false;
 };
 
@@ -54,6 +55,7 @@ void runCompareImages(const CompareImagesArguments& arguments) {
   if (!arguments.difference.empty()) writeImage(arguments.difference, differenceImage(a, b, arguments.gain), 0);
   printDifference(arguments, d);
   if (arguments.failOver && !(d.max <= *arguments.failOver)) throw ImagesDiffer{};
+  if (arguments.maxOutliers && d.outliers > *arguments.maxOutliers) throw ImagesDiffer{};
 }
 
 }  // namespace
@@ -71,6 +73,7 @@ void addCompareImagesCommand(CLI::App& app) {
   command->add_option("--fail-over", a->failOver, "Exit with code 3 if the largest difference is above this")
       ->check(finite())
       ->check(CLI::NonNegativeNumber);
+  command->add_option("--max-outliers", a->maxOutliers, "Exit with code 3 if more pixels are outliers");
   command->add_option("--difference", a->difference, "Image to write: the absolute difference times --gain")
       ->type_name("FILE");
   command->add_option("--gain", a->gain, "Factor of the difference image")

@@ -15,6 +15,7 @@
 #include "render/cli.h"
 #include "render/compare/cli.h"
 #include "render/compare_images_cli.h"
+#include "render/devices_cli.h"
 #include "render/material_cli.h"
 #include "render/sweep_cli.h"
 #include "render/vulkan/gpu_model.h"
@@ -63,6 +64,7 @@ int run(int argc, char** argv) {
   malus::render::addCompareImagesCommand(app);
   malus::render::addSweepCommand(app);
   malus::render::addMaterialCommand(app);
+  malus::render::addDevicesCommand(app);
   malus::addCompletionCommand(app);
   try {
     app.parse(argc, argv);  // runs the subcommand

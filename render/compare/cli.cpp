@@ -9,6 +9,7 @@
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
+#include "render/compare/devices_table.h"
 #include "render/compare/results.h"
 #include "render/method_option.h"
 #include "render/options.h"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Arguments {
-  std::vector<std::string> packs;
+  std::vector<std::string> packs, shown;
   std::string output;
   ComparisonSettings settings;
   bool noReport = false, json = false;
@@ -46,7 +47,7 @@ void append(Comparison& comparison, const std::vector<vulkan::PipelineStatistics
 void addDeviceStatistics(Comparison& comparison, const Arguments& a) {
   if (!comparison.devices.contains(backendInfo(Backend::vulkan).name)) return;
   for (const auto& [name, pack] : comparison.packs)
-    if (!comparison.interrupted) try {
+    if (!comparison.interrupted && !comparison.timeIsOver) try {
         append(comparison,
                vulkan::deviceStatistics(pack.scene, a.settings.methods, a.depth(pack.scene), a.settings.device,
                                         a.settings.vulkanPath),
@@ -67,7 +68,37 @@ void addFamilyEstimates(Comparison& comparison, const Arguments& a) {
     }
 }
 
+// The results of several devices side by side, and their page if there is an output folder.
+void showDevices(const Arguments& a) {
+  std::vector<nlohmann::json> results;
+  for (const std::string& file : a.shown) results.push_back(readResults(file));
+  fmt::print("{}\n", devicesTable(results));
+  if (a.output.empty() || a.noReport) return;
+  std::error_code failed;
+  fs::create_directories(a.output, failed);
+  if (failed) throw Error(a.output, "cannot create the folder", "a writable place", failed.message());
+  std::vector<std::string> arguments = a.shown;
+  arguments.insert(arguments.begin(), a.output);
+  runReportScript("devices_report.py", arguments, "", "cannot write the report");
+  fmt::print("report: {}\n", (fs::path(a.output) / "index.html").string());
+}
+
+void writeResults(const Comparison& comparison, const Arguments& a) {
+  const fs::path folder = a.output;
+  writeFile(folder / "results.json", toJson(comparison, a.settings).dump(1) + "\n");
+  writeFile(folder / "results.csv", toCsv(comparison));
+}
+
+void checkArguments(const Arguments& a) {
+  if (!a.shown.empty() && !a.packs.empty())
+    throw CLI::ValidationError("--show", "excludes scene packs: it shows results of earlier comparisons");
+  if (a.shown.empty() && a.packs.empty()) throw CLI::RequiredError("PACK, or --show with a results.json,");
+  if (a.shown.empty() && a.output.empty()) throw CLI::RequiredError("--output");
+}
+
 void runCompare(const Arguments& a) {
+  checkArguments(a);
+  if (!a.shown.empty()) return showDevices(a);
   const fs::path folder = a.output;
   std::error_code failed;
   fs::create_directories(folder / "images", failed);
@@ -75,21 +106,23 @@ void runCompare(const Arguments& a) {
     throw Error((folder / "images").string(), "cannot create the folder", "a writable place", failed.message());
 
   const InterruptScope scope;
-  Comparison comparison = compare({a.packs.begin(), a.packs.end()}, a.settings, folder, console::progress);
+  Comparison comparison = compare({a.packs.begin(), a.packs.end()}, a.settings, folder, console::progress,
+                                  [&](const Comparison& finished) { writeResults(finished, a); });
   console::progressDone();
   addDeviceStatistics(comparison, a);
   addFamilyEstimates(comparison, a);
-  const nlohmann::json results = toJson(comparison, a.settings);
-  writeFile(folder / "results.json", results.dump(1) + "\n");
-  writeFile(folder / "results.csv", toCsv(comparison));
+  writeResults(comparison, a);
   if (a.json)
-    fmt::print("{}\n", results.dump(1));
+    fmt::print("{}\n", toJson(comparison, a.settings).dump(1));
   else
     fmt::print("{}\n", toTable(comparison));
   if (comparison.interrupted) {
     console::warn(fmt::format("interrupted: {} finished rounds are in {}", comparison.rounds, folder.string()));
     throw Interrupted{};
   }
+  if (comparison.timeIsOver)
+    console::warn(
+        fmt::format("the time of --minutes is over after {} of {} rounds", comparison.rounds, a.settings.rounds));
   if (a.noReport) return;
   console::progress("writing the report");
   runReportScript("compare_report.py", {folder.string()}, "",
@@ -118,8 +151,10 @@ void addCompareCommand(CLI::App& app) {
   ComparisonSettings& settings = a->settings;
   settings.methods = methodNames();
   CLI::App* command = app.add_subcommand("compare", "Compare methods and renderers: error against time");
-  command->add_option("packs", a->packs, "Scene packs")->required()->type_name("PACK");
-  command->add_option("-o,--output", a->output, "Folder for the report")->required()->type_name("FOLDER");
+  command->add_option("packs", a->packs, "Scene packs")->type_name("PACK");
+  command->add_option("-o,--output", a->output, "Folder for the report")->type_name("FOLDER");
+  command->add_option("--show", a->shown, "Print the results of several devices side by side, render nothing")
+      ->type_name("FILE...");
   command->add_option("--methods", settings.methods, "Methods (default: all)")->delimiter(',')->transform(methodName());
   addBackends(*command, settings.backends);
   CLI::Option* width = addWidth(*command, settings.widths);
@@ -130,6 +165,13 @@ void addCompareCommand(CLI::App& app) {
       ->excludes(height);
   addDepth(*command, settings.depths);
   command->add_option("--rounds", settings.rounds, "Timed rounds after the warm-up")->capture_default_str();
+  command
+      ->add_option(
+          "--minutes", settings.minutes,
+          "Time limit: leaves out methods and rounds that exceed it, the first methods are preferred; 0 for none")
+      ->check(finite())
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   addDevice(*command, settings.device, settings.threads);
   addVulkanPath(*command, settings.vulkanPath);
   command

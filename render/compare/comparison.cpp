@@ -1,6 +1,7 @@
 #include "render/compare/comparison.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include <fmt/format.h>
 
@@ -41,19 +42,49 @@ std::map<std::string, pack::Pack> readPacks(const std::vector<std::filesystem::p
   return packs;
 }
 
-}  // namespace
-
-Comparison compare(const std::vector<std::filesystem::path>& packs, const ComparisonSettings& asked,
-                   const std::filesystem::path& folder, const Progress& progress) {
-  const ComparisonSettings settings = completeSettings(asked);
-  Comparison comparison;
-  comparison.packs = readPacks(packs);
-  std::vector<RowGroup> groups = warmUp(comparison, settings, folder, progress);
-  timeRounds(comparison, groups, settings.rounds, progress);
-  comparison.interrupted = interrupted();
+void summarize(Comparison& comparison, const std::vector<RowGroup>& groups) {
   summarizeRows(comparison, groups);
   summarizeEffects(comparison);
   summarizePaths(comparison);
+}
+
+// Reports what is finished, after rounds at most every five seconds, so that writing it does not disturb the times.
+class Watch {
+ public:
+  explicit Watch(const Snapshot& snapshot) : snapshot_(snapshot) {}
+  bool isDue() const { return snapshot_ && std::chrono::steady_clock::now() - last_ >= std::chrono::seconds(5); }
+  void report(const Comparison& comparison) {
+    if (snapshot_) snapshot_(comparison);
+    last_ = std::chrono::steady_clock::now();
+  }
+
+ private:
+  const Snapshot& snapshot_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Comparison compare(const std::vector<std::filesystem::path>& packs, const ComparisonSettings& asked,
+                   const std::filesystem::path& folder, const Progress& progress, const Snapshot& snapshot) {
+  const ComparisonSettings settings = completeSettings(asked);
+  Comparison comparison;
+  comparison.packs = readPacks(packs);
+  const TimeLimit limit(settings.minutes);
+  Watch watch(snapshot);
+  const auto afterView = [&](const std::vector<RowGroup>& groups) {
+    summarize(comparison, groups);
+    watch.report(comparison);
+  };
+  std::vector<RowGroup> groups = warmUp(comparison, settings, limit, folder, progress, afterView);
+  timeRounds(comparison, groups, settings.rounds, limit, progress, [&] {
+    if (!watch.isDue()) return;
+    summarize(comparison, groups);
+    watch.report(comparison);
+  });
+  comparison.interrupted = interrupted();
+  comparison.timeIsOver = limit.isOver() && comparison.rounds < settings.rounds;
+  summarize(comparison, groups);
   return comparison;
 }
 

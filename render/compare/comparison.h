@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,8 +29,9 @@ struct ComparisonSettings {
   double scale = 1;
   std::vector<std::uint32_t> depths;  // empty: the scene's
   std::uint32_t rounds = 7;
-  unsigned threads = 0;                           // 0: all
-  std::string device;                             // as RendererOptions::device
+  double minutes = 0;    // time limit: images and rounds that it leaves no time for are left out; 0: none
+  unsigned threads = 0;  // 0: all
+  std::string device;    // as RendererOptions::device
   VulkanPath vulkanPath = VulkanPath::automatic;  // automatic: iterative methods by each path that the device has
   std::optional<double> polarizerDegrees;         // filter in front of the camera
   std::vector<std::string> gpuFamilies;           // for a compiler's static estimates: navi21, navi31, ...
@@ -95,14 +97,19 @@ struct Comparison {
   std::vector<EffectsComparison> effects;
   std::vector<PathComparison> paths;
   nlohmann::json gpuModel = nlohmann::json::array();  // one entry per family, scene and method
+  nlohmann::json deviceInfo;                          // of the Vulkan device (vulkan::toJson); null: not used
   std::uint32_t rounds = 0;                           // finished ones
   bool interrupted = false;
+  bool timeIsOver = false;  // ended by ComparisonSettings::minutes
 };
+
+// Receives what is finished, with its statistics, after the first pass of each view and after rounds.
+using Snapshot = std::function<void(const Comparison&)>;
 
 // Writes every image to folder/images. A row that fails keeps its reason, and the others continue. Within an
 // InterruptScope, Ctrl-C ends it after the current render, and what is finished is returned. Throws Error: no pack, no
 // round, a pack that cannot be read, two packs of one scene.
 Comparison compare(const std::vector<std::filesystem::path>& packs, const ComparisonSettings& settings,
-                   const std::filesystem::path& folder, const Progress& progress);
+                   const std::filesystem::path& folder, const Progress& progress, const Snapshot& snapshot = {});
 
 }  // namespace malus::render

@@ -15,6 +15,7 @@ struct RowGroup {
   RenderParameters parameters;
   std::shared_ptr<RendererSet> renderers;  // of the pack's scene; groups of one scene share them
   std::vector<std::size_t> rows;           // indices into Comparison::rows
+  std::uint32_t rounds = 0;                // finished ones
 };
 
 // "SCENE WIDTH x HEIGHT, depth DEPTH", for progress messages.

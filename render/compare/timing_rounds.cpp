@@ -15,6 +15,7 @@ namespace {
 // The statistics of row i against the rows of its renderer and view.
 void summarizeRow(Comparison& comparison, const RowGroup& group, std::size_t i) {
   ComparisonRow& row = comparison.rows[i];
+  row.noSignificantDifference.clear();
   if (!row.ok() || row.samplesMs.empty()) return;
   row.time = computeSpread(row.samplesMs);
   for (const std::size_t j : group.rows) {
@@ -29,30 +30,47 @@ void summarizeRow(Comparison& comparison, const RowGroup& group, std::size_t i) 
 
 }  // namespace
 
-void timeRounds(Comparison& comparison, std::vector<RowGroup>& groups, std::uint32_t rounds, const Progress& progress) {
-  for (std::uint32_t round = 0; round < rounds && !interrupted(); ++round) {
-    for (RowGroup& group : groups) {
-      if (interrupted()) break;
-      progress(fmt::format("round {} of {}: {}", round + 1, rounds, groupTitle(group)));
-      for (std::size_t k = 0; k < group.rows.size() && !interrupted(); ++k) {
-        ComparisonRow& row = comparison.rows[group.rows[(k + round) % group.rows.size()]];
-        if (!row.ok()) continue;
-        try {
-          renderTimed(row, group);
-        } catch (const Interrupted&) {  // the loops end by interrupted()
-        } catch (const Error& error) {
-          row.status = error.what();
-        }
-      }
+namespace {
+
+// One round of a group. False: interrupted, or the time is over.
+bool timeRound(Comparison& comparison, RowGroup& group, std::uint32_t round, const TimeLimit& limit) {
+  for (std::size_t k = 0; k < group.rows.size(); ++k) {
+    if (interrupted() || limit.isOver()) return false;
+    ComparisonRow& row = comparison.rows[group.rows[(k + round) % group.rows.size()]];
+    if (!row.ok()) continue;
+    try {
+      renderTimed(row, group);
+    } catch (const Interrupted&) {
+      return false;
+    } catch (const Error& error) {
+      row.status = error.what();
     }
-    if (!interrupted()) comparison.rounds = round + 1;
+  }
+  return true;
+}
+
+}  // namespace
+
+void timeRounds(Comparison& comparison, std::vector<RowGroup>& groups, std::uint32_t rounds, const TimeLimit& limit,
+                const Progress& progress, const std::function<void()>& afterRound) {
+  for (std::uint32_t round = 0; round < rounds; ++round) {
+    for (RowGroup& group : groups) {
+      progress(fmt::format("round {} of {}: {}", round + 1, rounds, groupTitle(group)));
+      if (!timeRound(comparison, group, round, limit)) return;
+      group.rounds = round + 1;
+    }
+    comparison.rounds = round + 1;
+    afterRound();
   }
 }
 
 void summarizeRows(Comparison& comparison, const std::vector<RowGroup>& groups) {
-  for (ComparisonRow& row : comparison.rows)
-    for (auto* samples : {&row.samplesMs, &row.wallMs, &row.readBackMs, &row.cpuMs})
-      if (row.ok()) samples->resize(std::min<std::size_t>(samples->size(), comparison.rounds));
+  for (const RowGroup& group : groups)
+    for (const std::size_t i : group.rows) {
+      ComparisonRow& row = comparison.rows[i];
+      for (auto* samples : {&row.samplesMs, &row.wallMs, &row.readBackMs, &row.cpuMs})
+        if (row.ok()) samples->resize(std::min<std::size_t>(samples->size(), std::max(group.rounds, 1u)));
+    }
   for (const RowGroup& group : groups)
     for (const std::size_t i : group.rows) summarizeRow(comparison, group, i);
 }

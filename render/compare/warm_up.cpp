@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -13,6 +15,7 @@
 #include "render/job.h"
 #include "render/scene/compiled_effects.h"
 #include "render/scene/methods.h"
+#include "render/vulkan/device_description.h"
 
 namespace malus::render {
 
@@ -22,6 +25,13 @@ namespace {
 struct Output {
   std::filesystem::path images;
   const Progress& progress;
+};
+
+// A view's share of the time for the first pass.
+struct Share {
+  const TimeLimit& limit;
+  std::size_t view, views;
+  bool isOver() const { return limit.isFirstPassOver(view, views); }
 };
 
 std::string fileName(const RowGroup& group, const std::string& what) {
@@ -96,8 +106,8 @@ RenderResult renderRow(ComparisonRow& row, RowGroup& group, const RenderResult& 
   return result;
 }
 
-// Compiles all rows of one backend at once. A backend that cannot be used is reported by its rows.
-void prepareRows(const RowGroup& group, Backend backend, const std::vector<MethodVariant>& variants,
+// Compiles rows of one backend at once. A backend that cannot be used is reported by its rows.
+void prepareRows(const RowGroup& group, Backend backend, std::span<const MethodVariant> variants,
                  const Output& output) {
   output.progress(
       fmt::format("{}: {}, preparing {} methods", groupTitle(group), backendInfo(backend).name, variants.size()));
@@ -126,7 +136,7 @@ VulkanPath secondPath(RowGroup& group, Backend backend, VulkanPath chosen) {
 
 // Renders every method on one backend.
 void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const ComparisonSettings& settings,
-                const RenderResult& reference, const Output& output) {
+                const RenderResult& reference, const Share& share, const Output& output) {
   const RenderParameters& p = group.parameters;
   const EffectsChoice cheapest =
       chooseEffects({"auto"}, completeRecursiveMethod().name, group.pack->scene, {p.depth, p.analyser, false, false});
@@ -134,10 +144,13 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
   PathsTable paths;
   const std::vector<MethodVariant> variants =
       methodVariants(settings.methods, cheapest, settings.vulkanPath, secondPath(group, backend, settings.vulkanPath));
-  prepareRows(group, backend, variants, output);
-  for (const MethodVariant& variant : variants) {
-    if (interrupted()) break;
-    ComparisonRow row = makeRow(group, backend, variant);
+  // Within a time limit only as many at once as there are threads to compile them: the limit may leave out the rest.
+  const std::size_t atOnce = settings.minutes > 0 ? std::max(1u, std::thread::hardware_concurrency()) : variants.size();
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    if (interrupted() || (share.isOver() && !group.rows.empty())) break;
+    if (i % atOnce == 0)
+      prepareRows(group, backend, std::span(variants).subspan(i, std::min(atOnce, variants.size() - i)), output);
+    ComparisonRow row = makeRow(group, backend, variants[i]);
     const std::size_t index = comparison.rows.size();
     try {
       const RenderResult rendered = renderRow(row, group, reference, output);
@@ -152,25 +165,32 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
     group.rows.push_back(index);
     comparison.rows.push_back(std::move(row));
   }
+  if (backend == Backend::vulkan && comparison.devices.contains(backendInfo(backend).name))
+    comparison.deviceInfo = vulkan::toJson(vulkan::chosenDevice(settings.device));
   if (EffectsComparison entry; effects.finish(entry)) comparison.effects.push_back(std::move(entry));
   for (const PathComparison& entry : paths.finish()) comparison.paths.push_back(entry);
 }
 
 }  // namespace
 
-std::vector<RowGroup> warmUp(Comparison& comparison, const ComparisonSettings& settings,
-                             const std::filesystem::path& folder, const Progress& progress) {
+std::vector<RowGroup> warmUp(Comparison& comparison, const ComparisonSettings& settings, const TimeLimit& limit,
+                             const std::filesystem::path& folder, const Progress& progress,
+                             const std::function<void(const std::vector<RowGroup>&)>& afterView) {
   const Output output{folder / "images", progress};
   std::vector<RowGroup> groups;
+  std::size_t count = 0;
+  for (const auto& [name, pack] : comparison.packs) count += views(pack.scene, settings).size();
   for (auto& [name, pack] : comparison.packs) {
     const auto renderers =
         std::make_shared<RendererSet>(pack.scene, RendererOptions{settings.device, settings.threads});
     for (const RenderParameters& parameters : views(pack.scene, settings)) {
-      if (interrupted()) break;
+      if (interrupted() || limit.isOver()) break;
+      const Share share{limit, groups.size(), count};
       groups.push_back({&pack, parameters, renderers, {}});
       const RenderResult reference = renderReference(comparison, groups.back(), settings.threads, output);
       for (const Backend backend : settings.backends)
-        renderRows(comparison, groups.back(), backend, settings, reference, output);
+        renderRows(comparison, groups.back(), backend, settings, reference, share, output);
+      afterView(groups);
     }
   }
   return groups;

@@ -190,6 +190,18 @@ bool Capabilities::has(std::string_view extension) const {
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
+std::vector<std::pair<std::string, std::uint64_t>> listValues(const Capabilities& capabilities) {
+  std::vector<std::pair<std::string, std::uint64_t>> list;
+  for (const Feature& feature : kFeatures) list.emplace_back(feature.name, capabilities.*feature.member ? 1 : 0);
+  for (const Limit& limit : kLimits) list.emplace_back(limit.name, capabilities.*limit.member);
+  VkDeviceSize largest = 0;
+  for (std::uint32_t i = 0; i < capabilities.memory.memoryHeapCount; ++i)
+    if ((capabilities.memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
+      largest = std::max(largest, capabilities.memory.memoryHeaps[i].size);
+  list.emplace_back(kMemoryHeapSize, largest);
+  return list;
+}
+
 Capabilities readCapabilities(VkPhysicalDevice device) {
   const std::string_view limits = limitsFromEnvironment();
   Capabilities result;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <vulkan/vulkan.h>
@@ -51,6 +52,9 @@ struct Capabilities {
 
   bool has(std::string_view extension) const;
 };
+
+// Features (0 or 1), limits and, as memoryHeapSize, the size of the largest device-local heap [bytes], by their names.
+std::vector<std::pair<std::string, std::uint64_t>> listValues(const Capabilities& capabilities);
 
 // Reads the description of a device and lowers it by MALUS_VULKAN_LIMITS, a list of NAME=VALUE, separated by commas.
 // NAME is an extension or a feature, which the value 0 hides; a limit, lowered to the value; an alignment, raised to

@@ -233,14 +233,4 @@ std::uint64_t Renderer::countRays(std::string_view method, const render::RenderP
   return impl_->trace(variant, parameters).cost.rays;
 }
 
-std::vector<DeviceDescription> devices() {
-  const Instance instance(0);
-  const std::vector<PhysicalDevice> list = listPhysicalDevices(instance);
-  const PhysicalDevice* const byDefault = findDefaultDevice(list);
-  std::vector<DeviceDescription> result;
-  result.reserve(list.size());
-  for (const PhysicalDevice& d : list) result.push_back({d.name, d.driver, d.problem, &d == byDefault});
-  return result;
-}
-
 }  // namespace malus::vulkan

@@ -18,16 +18,6 @@ struct Options {
   unsigned threads = 0;  // of lavapipe; 0: chosen by the number of cores
 };
 
-struct DeviceDescription {
-  std::string name;
-  std::string driver;
-  std::string problem;     // empty: usable
-  bool isDefault = false;  // chosen by an empty Options::device
-};
-// All devices, in the order of their numbers for Options::device; at least one. Throws Error: no Vulkan driver, no
-// device.
-std::vector<DeviceDescription> devices();
-
 class Renderer final : public render::Renderer {
  public:
   // Uploads the scene, which must outlive the renderer, and builds its acceleration structures. Throws Error: no usable

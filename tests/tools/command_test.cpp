@@ -395,6 +395,7 @@ TEST_F(BadInput, NoVulkanDriver) {
       .environment = {{"VK_ICD_FILENAMES", "/nowhere/icd.json"}, {"VK_DRIVER_FILES", "/nowhere/icd.json"}}};
   expectRefusal(malus({"render", pack(), "-o", output_ / "a.exr", "--backend", "vulkan"}, start), "Vulkan");
   expectRefusal(malus({"--list-devices"}, start), "Vulkan");
+  expectRefusal(malus({"devices"}, start), "driver");
   expectNothingLeft();
 }
 

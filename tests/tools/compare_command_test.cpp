@@ -178,6 +178,68 @@ TEST_F(Compare, InterruptingAnImageOfSeveralLaunchesKeepsTheFinishedRounds) {
   for (const json& row : document.at("rows")) EXPECT_EQ(row.at("samplesMs").size(), rounds);
 }
 
+TEST_F(Compare, ATimeLimitKeepsTheFirstMethodsAndTheFinishedRounds) {
+  const Finished finished = malus({"compare", pack(), "-o", report(), "--backends", "embree", "--width", "200",
+                                   "--rounds", "100000", "--minutes", "0.05", "--no-report"});
+  ASSERT_EQ(finished.exitCode, 0) << finished.err;
+  const json document = results();
+  EXPECT_EQ(document.at("settings").at("timeIsOver"), true);
+  EXPECT_LT(document.at("settings").at("rounds").get<int>(), 100000);
+  EXPECT_TRUE(contains(finished.err, "--minutes")) << finished.err;
+  ASSERT_GE(document.at("rows").size(), 1u);
+  EXPECT_EQ(document.at("rows")[0].at("method"), "schlick");
+  EXPECT_EQ(compare({"--minutes", "-1"}).exitCode, 2);
+}
+
+TEST_F(Compare, ALimitThatIsTooShortStillRendersTheFirstMethod) {
+  ASSERT_EQ(compare({"--backends", "embree", "--methods", "stokes,schlick", "--minutes", "0.00001"}).exitCode, 0);
+  const json document = results();
+  ASSERT_EQ(document.at("rows").size(), 1u);
+  EXPECT_EQ(document.at("rows")[0].at("status"), "ok");
+  EXPECT_TRUE(document.at("rows")[0].at("medianMs").is_null());
+}
+
+TEST_F(Compare, ResultsAreWrittenAsTheyCome) {
+  Start start;
+  start.sendSignalWhen = [](std::string_view err) { return contains(err, "round 2 of"); };
+  start.sendSignal = SIGKILL;
+  malus({"-v", "compare", pack(), "-o", report(), "--backends", "embree", "--width", "200", "--rounds", "100000",
+         "--no-report"},
+        start);
+  const json document = results();
+  ASSERT_EQ(document.at("rows").size(), 12u);
+  for (const json& row : document.at("rows")) EXPECT_TRUE(row.at("error").is_object());
+}
+
+TEST_F(Compare, ShowPutsDevicesSideBySide) {
+  ASSERT_EQ(compare({"--rounds", "1", "--methods", "schlick,stokes"}).exitCode, 0);
+  json other = results();
+  EXPECT_TRUE(other.at("deviceInfo").at("values").contains("maxRayRecursionDepth"));
+  EXPECT_EQ(other.at("deviceInfo").at("rayTracingCores"), "no");
+  other.at("devices").at("vulkan") = "Quick GPU";
+  for (json& row : other.at("rows"))
+    if (row.at("method") == "stokes") row.at("ratioToSchlick") = {{"median", 1.375}, {"low", 1.25}, {"high", 1.5}};
+  writeText(folder_ / "other.json", other.dump());
+  const Finished shown =
+      malus({"compare", "--show", report() + "/results.json", folder_ / "other.json", "-o", folder_ / "page"});
+  ASSERT_EQ(shown.exitCode, 0) << shown.err;
+  EXPECT_TRUE(contains(shown.out, "Quick GPU", "llvmpipe", "Embree", "stokes", "1.375", "ray-tracing cores"))
+      << shown.out;
+  const std::string page = readText(folder_ / "page/index.html");
+  EXPECT_TRUE(contains(page, "Quick GPU", "llvmpipe", "1.375", "ray-tracing cores")) << page.size();
+}
+
+TEST_F(Compare, ShowRefusesOtherFiles) {
+  writeText(folder_ / "text.json", "no");
+  writeText(folder_ / "list.json", "[]");
+  writeText(folder_ / "row.json", R"({"devices": {}, "scenes": {}, "rows": [{"scene": "a"}]})");
+  for (const char* name : {"text.json", "list.json", "row.json", "missing.json"})
+    expectRefusal(malus({"compare", "--show", folder_ / name}), name);
+  EXPECT_EQ(malus({"compare", pack(), "--show", folder_ / "list.json"}).exitCode, 2);
+  EXPECT_EQ(malus({"compare"}).exitCode, 2);
+  EXPECT_EQ(malus({"compare", pack()}).exitCode, 2);
+}
+
 TEST_F(Compare, MaxErrorChoosesAMethodAndCachesItsMeasurements) {
   Start start;
   start.environment = {{"XDG_CACHE_HOME", folder_ / "cache"}};

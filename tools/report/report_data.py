@@ -40,9 +40,12 @@ class Group:
 
 
 def read_results(folder: pathlib.Path) -> dict:
-    path = folder / "results.json"
     if not folder.is_dir():
         raise ReportError(f"{folder}: no such folder; expected an output folder of malus compare")
+    return read_results_file(folder / "results.json")
+
+
+def read_results_file(path: pathlib.Path) -> dict:
     try:
         results = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:

@@ -1,4 +1,5 @@
 #include "render/vulkan/renderer.h"
+#include "render/vulkan/device_description.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,10 +9,11 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "bake/bake.h"
 #include "bake/pack/reader.h"
-#include "meshprep/base/error.h"
+#include "meshprep/base/atomic_file.h"
 #include "render/embree/renderer.h"
 #include "render/reference/renderer.h"
 #include "render/scene/effects_choice.h"
@@ -27,38 +28,22 @@ namespace fs = std::filesystem;
 using Colours = std::array<double, 3>;
 using render::RenderResult;
 
-// Bounds of a scene. Pixels count as outliers if a component of a Stokes vector differs by more
-// than `threshold`; edges and magnified roundings explain `outliers` of them.
+// Bounds of a scene, from tolerances.json, which gpu-check uses too. Pixels count as outliers if a component of a
+// Stokes vector differs by more than `threshold`; edges and magnified roundings explain `outliers` of them.
 struct Expected {
   double threshold = 1e-4;
   std::size_t outliers = 0;
   bool renderersAgree = true;  // Vulkan with the others
-  bool vulkanSupportsIt = true;
 };
 const std::map<std::string, Expected>& scenes() {
-  static const std::map<std::string, Expected> kScenes = {
-      {"bad-triangles", {}},
-      {"brewster-pair", {}},
-      {"camera-along-edge", {1e-4, 2}},
-      {"camera-on-surface", {1e-4, 4}},
-      {"facing-mirrors", {1e-4, 0, true, false}},  // 64 bounces: deeper than pipelines recurse
-      {"far-away", {1e-4, 4}},
-      {"fresnel-rhomb", {}},
-      {"glass-gold-gold-glass", {1e-6}},  // nearly dark
-      {"glass-slab", {}},
-      {"glass-sphere", {1e-4, 4}},
-      {"gold-periscope", {}},
-      {"inside-glass", {1e-4, 2}},
-      {"into-the-edge", {1e-4, 2}},
-      {"mirror-loop", {}},
-      {"nested-media", {1e-4, 6}},
-      {"paint-under-glass-in-brewster-mirror", {}},
-      {"room", {1e-4, 4}},
-      {"slivers", {}},
-      {"thin-slab", {}},
-      {"tiny", {1e-4, 6}},
-      {"touching-bodies", {1e-4, 4, false}},  // which of two coincident faces is hit is undefined
-  };
+  static const std::map<std::string, Expected> kScenes = [] {
+    const nlohmann::json document = nlohmann::json::parse(readTextFile(MALUS_TOLERANCES));
+    std::map<std::string, Expected> result;
+    for (const auto& [name, entry] : document.items())
+      result[name] = {entry.at("threshold").get<double>(), entry.at("outliers").get<std::size_t>(),
+                      entry.value("renderersAgree", true)};
+    return result;
+  }();
   return kScenes;
 }
 
@@ -98,10 +83,8 @@ const Images& renderedImages(const std::string& name) {
   expectSound(p.reference, scene, name + ", reference");
   p.embree = embree::Renderer(scene, 0).render("stokes", parameters);
   expectSound(p.embree, scene, name + ", embree stokes");
-  if (scenes().at(name).vulkanSupportsIt) {
-    p.vulkan = vulkan::Renderer(scene, {}).render("stokes", parameters);
-    expectSound(p.vulkan, scene, name + ", vulkan stokes");
-  }
+  p.vulkan = vulkan::Renderer(scene, {}).render("stokes", parameters);
+  expectSound(p.vulkan, scene, name + ", vulkan stokes");
   return all.emplace(name, std::move(p)).first->second;
 }
 
@@ -141,7 +124,7 @@ TEST_P(HardScenes, RenderersAgreeWithTheReference) {
         << what << ", largest difference " << largest;
   };
   expectClose(p.embree, "embree");
-  if (expected.vulkanSupportsIt && expected.renderersAgree) expectClose(p.vulkan, "vulkan");
+  if (expected.renderersAgree) expectClose(p.vulkan, "vulkan");
   // The image is not empty.
   EXPECT_GT(*std::max_element(p.reference.pixels.begin(), p.reference.pixels.end()), 0.01f);
 }
@@ -156,7 +139,6 @@ TEST_P(HardScenes, EveryMethodIsSound) {
 // The intensity by the cheapest method that the effects allow, against full Stokes vectors with everything compiled in.
 TEST_P(HardScenes, AutoEqualsAll) {
   const pack::Scene& scene = bakedPack(GetParam()).scene;
-  const Expected& expected = scenes().at(GetParam());
   render::RenderParameters parameters = render::defaultParameters(scene);
   embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
@@ -175,11 +157,10 @@ TEST_P(HardScenes, AutoEqualsAll) {
       };
       parameters.everyEffect = true;
       const RenderResult all = embree.render(method, parameters);
-      const bool onVulkan = expected.vulkanSupportsIt || method == "importance";
-      const RenderResult allVulkan = onVulkan ? vulkan.render(method, parameters) : RenderResult();
+      const RenderResult allVulkan = vulkan.render(method, parameters);
       parameters.everyEffect = false;
       expectEqual(embree.render(cheaper, parameters), all, "embree");
-      if (onVulkan) expectEqual(vulkan.render(cheaper, parameters), allVulkan, "vulkan");
+      expectEqual(vulkan.render(cheaper, parameters), allVulkan, "vulkan");
     }
   }
 }
@@ -343,9 +324,7 @@ TEST(HardScene, AutoIsExactIfPolarizationIsNotVisible) {
 // Closed forms at the centre pixel, with six digits as in the READMEs.
 void expectCentre(const std::string& name, const std::vector<Colours>& stokes, double tolerance = 2e-6) {
   const Images& p = renderedImages(name);
-  const Expected& expected = scenes().at(name);
   for (const RenderResult* image : {&p.reference, &p.embree, &p.vulkan}) {
-    if (image == &p.vulkan && !expected.vulkanSupportsIt) continue;
     const char* what = image == &p.reference ? "reference" : image == &p.embree ? "embree" : "vulkan";
     const auto centre = centrePixel(*image);
     for (std::size_t k = 0; k < stokes.size(); ++k)

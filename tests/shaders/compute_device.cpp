@@ -8,6 +8,7 @@
 
 #include "meshprep/base/error.h"
 #include "render/vulkan/check.h"
+#include "render/vulkan/physical_device.h"
 
 namespace malus::test {
 
@@ -49,25 +50,16 @@ struct ComputeDevice::Memory {
 };
 
 ComputeDevice::ComputeDevice(const vulkan::Instance& instance) {
-  const char* wanted = std::getenv("MALUS_DEVICE");
-  for (VkPhysicalDevice device : instance.physicalDevices()) {
-    VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(device, &properties);
-    const std::string name = properties.deviceName;
-    if (!physical_ && (!wanted || name.find(wanted) != std::string::npos)) physical_ = device;
-  }
-  if (!physical_) throw Error("Vulkan", "no device for the test", wanted ? wanted : "any");
-
+  physical_ = vulkan::choosePhysicalDevice(instance, "").handle;
   VkPhysicalDeviceVulkan12Features core12{};
   core12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
   VkPhysicalDeviceFeatures2 features{};
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features.pNext = &core12;
   vkGetPhysicalDeviceFeatures2(physical_, &features);
-  if (!features.features.shaderFloat64 || !core12.scalarBlockLayout)
-    throw Error("Vulkan", "the device cannot run the test", "shaderFloat64 and scalarBlockLayout");
+  hasDouble_ = features.features.shaderFloat64 != 0;
   features.features = {};
-  features.features.shaderFloat64 = VK_TRUE;
+  features.features.shaderFloat64 = hasDouble_ ? VK_TRUE : VK_FALSE;
   core12 = {};
   core12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
   core12.scalarBlockLayout = VK_TRUE;

@@ -168,13 +168,16 @@ void compare(const ComputeDevice& device) {
 }
 
 TEST(GlslValuesTest, FloatAndDoubleEqualCpp) {
-  ASSERT_NE(std::getenv("MALUS_VALIDATION"), nullptr) << "ctest sets it";
+  // The bundle has no validation layers, and its devices may lack double arithmetic.
+  const bool inBundle = std::getenv("MALUS_IN_BUNDLE") != nullptr;
+  ASSERT_TRUE(inBundle || std::getenv("MALUS_VALIDATION") != nullptr) << "ctest sets it";
   const vulkan::Instance instance(0);
-  ASSERT_TRUE(instance.isValidating());
+  ASSERT_TRUE(inBundle || instance.isValidating());
   {
     const ComputeDevice device(instance);
     compare<Single>(device);
-    compare<Double>(device);
+    ASSERT_TRUE(inBundle || device.hasDouble());
+    if (device.hasDouble()) compare<Double>(device);
   }
   EXPECT_NO_THROW(instance.requireNoMessages());
 }

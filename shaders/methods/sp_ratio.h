@@ -1,7 +1,7 @@
 // Method `sp-ratio`: section 3.2 of the paper. As `sp-cosine`, with I_p stored as one number for all colours,
-// ratio = sum I_p / sum I_s. If the sum of I_s is at most 1e-20 of that of I_p, the powers are exchanged so that no
-// light is lost: I_p is stored as I_s, the ratio is 0, and the cosine is that of the p direction, 90 degrees away. 20
-// bytes.
+// ratio = sum I_p / sum I_s. If the sum of I_s is at most 1e-20 of that of I_p, or negligible, the powers are exchanged
+// so that no light is lost: I_p is stored as I_s, the ratio is 0, and the cosine is that of the p direction, 90 degrees
+// away. 20 bytes.
 
 #include "shaders/methods/powers.h"
 
@@ -35,7 +35,7 @@ FN SurfaceLight lightAtSurface(Payload p, real3 d, real3 s) {
 FN Payload payloadFromSurface(SurfaceLight l, real3 d, real3 s) {
   real sumS = l.s.x + l.s.y + l.s.z;
   real sumP = l.p.x + l.p.y + l.p.z;
-  mask dark = lessEqualR(sumS, sumP * R(1e-20));
+  mask dark = lessEqualR(sumS, maxR(sumP * R(1e-20), kNegligible));
   // A direction at 90 degrees to (c, +sqrt(1 - c^2)), its y not negative: (-sign(c) sqrt(1 - c^2), |c|).
   real c = cosineFromS(d, s);
   real across = R(0.0) - signNotZero(c) * sqrtR(maxR((R(1.0) - c) * (R(1.0) + c), R(0.0)));

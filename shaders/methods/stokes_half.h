@@ -24,7 +24,7 @@ FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.rootRg = wordOfReal(de
 
 FN real amplitude(real s0) { return minR(sqrtR(maxR(s0, R(0.0))), R(65504.0)); }
 FN real relative(real s, real s0) {
-  mask dark = lessEqualR(s0, R(0.0));
+  mask dark = lessR(s0, kNegligible);
   return maxR(minR(selectR(dark, R(0.0), s / selectR(dark, R(1.0), s0)), R(1.0)), R(-1.0));
 }
 

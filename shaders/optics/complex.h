@@ -20,10 +20,9 @@ FN real complexNormSq(Complex a) { return a.re * a.re + a.im * a.im; }
 // Quotient a / b, scaled against overflow; 0 where b = 0, because every 0/0 of the optics is an absent interface.
 FN Complex complexDiv(Complex a, Complex b) {
   real m = maxR(absR(b.re), absR(b.im));
-  real scale = R(1.0) / selectR(equalR(m, R(0.0)), R(1.0), m);
+  real scale = R(1.0) / divisor(m);
   Complex c = makeComplex(b.re * scale, b.im * scale);
-  real normSq = complexNormSq(c);
-  real inverse = scale / selectR(equalR(normSq, R(0.0)), R(1.0), normSq);
+  real inverse = scale / divisor(complexNormSq(c));
   return makeComplex((a.re * c.re + a.im * c.im) * inverse, (a.im * c.re - a.re * c.im) * inverse);
 }
 
@@ -32,7 +31,7 @@ FN Complex complexDiv(Complex a, Complex b) {
 FN Complex complexSqrtLower(real zRe, real zIm) {
   real zAbs = sqrtR(zRe * zRe + zIm * zIm);
   real larger = sqrtR(R(0.5) * (zAbs + absR(zRe)));
-  real smaller = absR(zIm) / selectR(equalR(larger, R(0.0)), R(1.0), R(2.0) * larger);
+  real smaller = absR(zIm) / divisor(R(2.0) * larger);
   mask positive = lessEqualR(R(0.0), zRe);
   return makeComplex(selectR(positive, larger, smaller), R(0.0) - selectR(positive, smaller, larger));
 }

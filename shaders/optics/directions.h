@@ -9,6 +9,6 @@ FN real3 mirrorDirection(real3 d, real3 n, real c) { return normalize3(d + n * (
 FN real3 refractedDirection(real3 d, real3 n, real c, real n1, real n2) {
   RefractionTerms f = refractionTerms(c, n1, n2);
   real sum = c + f.t;
-  real difference = (R(0.0) - f.etaSqM1) / selectR(equalR(sum, R(0.0)), R(1.0), sum);
+  real difference = (R(0.0) - f.etaSqM1) / divisor(sum);
   return normalize3(d + n * selectR(f.matched, R(0.0), difference));
 }

@@ -44,7 +44,7 @@ FN Film thinFilm(real c, real n1, real nf, real roundTripPhase, real n3, real k3
   FilmInterface b = filmInterface(sinSq, q2, q3, makeComplex(differenceRe, R(0.0) - e3Im));
   // Round trip through the film: e = e^{-2 i beta}.
   Complex rotation = cisTwoPi(roundTripPhase * n1 * q2.re);
-  real decay = expR(R(6.28318530717958647693) * roundTripPhase * n1 * q2.im);
+  real decay = attenuation(R(0.0) - R(6.28318530717958647693) * roundTripPhase * n1 * q2.im);
   Complex phase = makeComplex(rotation.re * decay, (R(0.0) - rotation.im) * decay);
 
   // r = (r12 + r23 e) / (1 + r12 r23 e)

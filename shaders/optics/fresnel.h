@@ -1,7 +1,7 @@
 // Fresnel equations of a smooth interface between a medium of real index n1, in which the light arrives, and a medium
 // of index n2 - i k2, with time dependence e^{+i w t} and roots with Im <= 0:
 //
-//   r_s = (c - t)/(c + t),  r_p = (t - eta^2 c)/(t + eta^2 c)
+//   r_s = (c - t)/(c + t),  r_p = (eta^2 c - t)/(eta^2 c + t)
 //
 // c: cosine of the angle of incidence, in [0, 1]; eta = (n2 - i k2)/n1; t = sqrt(eta^2 - sin^2). The sign of r_p is
 // that of CONVENTIONS.md (Interfaces): r_p = -r_s at normal incidence. The functions evaluate
@@ -26,7 +26,8 @@ struct Transmittance {
   real x;
 };
 
-// Quantities of refraction at a dielectric: t = sqrt(eta^2 - sin^2), with eta = n2/n1.
+// Quantities of refraction at a dielectric: t = sqrt(eta^2 - sin^2), with eta = n2/n1. What uses both reflection and
+// transmission computes them from the same terms: near the critical angle two evaluations may differ.
 struct RefractionTerms {
   real eta;      // n2/n1
   real etaSq;    // eta^2
@@ -54,8 +55,7 @@ FN RefractionTerms refractionTerms(real c, real n1, real n2) {
 }
 
 // Reflection at a dielectric. Total reflection gives R_s = R_p = 1 exactly; n1 = n2 reflects nothing at every angle.
-FN Reflectance dielectricReflectance(real c, real n1, real n2) {
-  RefractionTerms f = refractionTerms(c, n1, n2);
+FN Reflectance reflectanceFromTerms(real c, RefractionTerms f) {
   // Partial reflection: r_s = -(eta^2 - 1)/(c + t)^2, rho = r_p/r_s = (sin^2 - c t)/(sin^2 + c t).
   real sum = c + f.t;
   real rs = f.etaSqM1 / selectR(orM(f.matched, f.total), R(1.0), sum * sum);
@@ -73,10 +73,13 @@ FN Reflectance dielectricReflectance(real c, real n1, real n2) {
   return r;
 }
 
+FN Reflectance dielectricReflectance(real c, real n1, real n2) {
+  return reflectanceFromTerms(c, refractionTerms(c, n1, n2));
+}
+
 // Transmission through a dielectric: T_s = 4 c t/(c + t)^2, T_p = 4 eta^2 c t/(eta^2 c + t)^2. All 0 in total
 // reflection; 1 at every angle for n1 = n2. Source: Born and Wolf, 1.5.
-FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
-  RefractionTerms f = refractionTerms(c, n1, n2);
+FN Transmittance transmittanceFromTerms(real c, RefractionTerms f) {
   mask none = orM(f.matched, f.total);
   real four = R(4.0) * c * f.t;
   real s = selectR(none, R(1.0), c + f.t);
@@ -87,6 +90,10 @@ FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
   t.tp = selectR(none, through, minR(four * f.etaSq / (p * p), R(1.0)));
   t.x = selectR(none, through, minR(four * f.eta / (s * p), R(1.0)));
   return t;
+}
+
+FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
+  return transmittanceFromTerms(c, refractionTerms(c, n1, n2));
 }
 
 // Reflection at a conductor of index n2 - i k2, k2 >= 0; with k2 = 0 a dielectric that only reflects. Source: Born and

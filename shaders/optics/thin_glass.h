@@ -25,13 +25,13 @@ FN real absorbedFraction(real x) {
   real tail = R(1.0) - x / R(6.0) * (R(1.0) - x / R(7.0) * (R(1.0) - x / R(8.0)));
   real series =
       x * (R(1.0) - x / R(2.0) * (R(1.0) - x / R(3.0) * (R(1.0) - x / R(4.0) * (R(1.0) - x / R(5.0) * tail))));
-  return selectR(lessR(x, R(0.03)), series, R(1.0) - expR(R(0.0) - x));
+  return selectR(lessR(x, R(0.03)), series, R(1.0) - attenuation(x));
 }
 
 // Sum of one polarization: T' and R' from R, T = 1 - R, a = e^-x and loss = 1 - a^2. T = 0 gives T' = 0 and R' = R.
 FN void sumInternalReflections(real r, real t, real a, real loss, OUT(real) transmitted, OUT(real) reflected) {
   real denominator = loss + a * a * (t * (R(2.0) - t));
-  real ratio = t / selectR(lessR(R(0.0), denominator), denominator, R(1.0));
+  real ratio = t / divisor(denominator);
   transmitted = minR(a * t * ratio, R(1.0));
   reflected = minR(r * (R(1.0) + a * a * t * ratio), R(1.0));
 }
@@ -41,18 +41,18 @@ FN void sumInternalReflections(real r, real t, real a, real loss, OUT(real) tran
 // catalogues).
 FN ThinGlass thinGlass(real c, real n1, real n2, real internal) {
   RefractionTerms f = refractionTerms(c, n1, n2);
-  Reflectance r = dielectricReflectance(c, n1, n2);
-  Transmittance t = dielectricTransmittance(c, n1, n2);
+  Reflectance r = reflectanceFromTerms(c, f);
+  Transmittance t = transmittanceFromTerms(c, f);
   // Beer-Lambert: the path inside is longer than the thickness by 1 / cos of the refracted angle, which is eta / f.t.
-  real x = (R(0.0) - logR(maxR(internal, R(1e-30)))) * f.eta / maxR(f.t, R(1e-30));
+  real x = opticalDepth(maxR(internal, R(1e-30))) * f.eta / maxR(f.t, R(1e-30));
   x = minR(maxR(x, R(0.0)), R(80.0));
-  real a = expR(R(0.0) - x);
+  real a = attenuation(x);
   real loss = absorbedFraction(R(2.0) * x);
   ThinGlass pane;
   sumInternalReflections(r.rs, t.ts, a, loss, pane.transmitted.rs, pane.reflected.rs);
   sumInternalReflections(r.rp, t.tp, a, loss, pane.transmitted.rp, pane.reflected.rp);
   real denominator = loss + a * a * (t.ts + t.tp - t.ts * t.tp);
-  real ratio = t.tp / selectR(lessR(R(0.0), denominator), denominator, R(1.0));
+  real ratio = t.tp / divisor(denominator);
   pane.transmitted.xRe = a * t.ts * ratio;
   pane.transmitted.xIm = R(0.0);
   real gain = R(1.0) + a * a * t.ts * ratio;

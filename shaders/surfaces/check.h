@@ -13,7 +13,7 @@ FN bool isFinite(real x) {
 // |(s1, s2, s3)| - s0, without squares that overflow.
 FN real polarizationExcess(real s0, real s1, real s2, real s3) {
   real m = maxR(absR(s1), maxR(absR(s2), absR(s3)));
-  if (m <= R(0.0)) return R(0.0) - s0;
+  if (m < kNegligible) return R(0.0) - s0;
   real a = s1 / m;
   real b = s2 / m;
   real c = s3 / m;

@@ -23,7 +23,7 @@ FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 in
   real3 normal = cross3(p1 - p0, p2 - p0);
   real areaSq = dot3(normal, normal);
   // A triangle without area has no normal: it is shaded as if it faced the ray.
-  real3 face = select3(lessR(R(0.0), areaSq), normal * (R(1.0) / sqrtR(maxR(areaSq, R(1e-38)))), d * R(-1.0));
+  real3 face = select3(lessR(kNegligible, areaSq), normal * (R(1.0) / sqrtR(maxR(areaSq, kNegligible))), d * R(-1.0));
   Hit h;
   h.d = d;
   h.position = p0 * b0 + p1 * b1 + p2 * b2;

@@ -2,8 +2,8 @@
 
 // Transmittance over a distance in metres; absorption: coefficient in 1/m.
 FN real3 transmittanceOver(real3 absorption, real distance) {
-  return make3(expR(R(0.0) - absorption.x * distance), expR(R(0.0) - absorption.y * distance),
-               expR(R(0.0) - absorption.z * distance));
+  return make3(attenuation(absorption.x * distance), attenuation(absorption.y * distance),
+               attenuation(absorption.z * distance));
 }
 
 // Absorption coefficient of the medium on the side that is hit, in 1/m.

@@ -1,5 +1,5 @@
 // Backends of the optics: float and double, compiled as C++ and by glslang for the device. A typed test runs on all
-// four.
+// four. With MALUS_EMULATED_PRECISION: the precision that the Vulkan specification guarantees, emulated.
 #pragma once
 
 #include <cstring>
@@ -10,7 +10,6 @@
 #include "shaders/methods/methods.h"
 #include "tests/shaders/chains.h"
 
-// Method structs in double too, and the probes in both.
 #define GIVEN_PARAMETER(T) const T& given
 #define GIVEN given
 #include "shaders/optics/language_begin.h"
@@ -20,13 +19,25 @@ namespace malus::f32 {
 #include "tests/hard_cases/probes.h"
 
 #include "tests/hard_cases/iterative_probe.h"
+
+#include "hard_case_methods.h"
 }  // namespace malus::f32
 namespace malus::f64 {
 #include "tests/hard_cases/probes.h"
 
 #include "tests/hard_cases/iterative_probe.h"
-}  // namespace malus::f64
+
 #include "hard_case_methods.h"
+}  // namespace malus::f64
+#ifdef MALUS_EMULATED_PRECISION
+namespace malus::emulated {
+#include "tests/hard_cases/probes.h"
+
+#include "tests/hard_cases/iterative_probe.h"
+
+#include "hard_case_methods.h"
+}  // namespace malus::emulated
+#endif
 #pragma GCC diagnostic pop
 #include "shaders/optics/language_end.h"
 #undef GIVEN_PARAMETER
@@ -70,10 +81,14 @@ inline std::vector<std::string> everyMethod() {
 }
 
 // kRoundings: how many times the roundings of IEEE arithmetic are allowed; a device's division and root may be
-// 2.5 ulp off (Vulkan specification, precision of SPIR-V instructions).
+// 2.5 ulp off (Vulkan specification, precision of SPIR-V instructions). kPackingRoundings: the same for 16 bits;
+// kFlushesHalves: denormal halves may become 0; kInterfaces: number of random interfaces.
 #define MALUS_BACKEND(Name, Optics, space, isDouble)                                                       \
   struct Cpp##Name : Optics {                                                                              \
     static constexpr const char* kBackend = "Cpp" #Name;                                                   \
+    static constexpr double kPackingRoundings = 1;                                                         \
+    static constexpr bool kFlushesHalves = false;                                                          \
+    static constexpr std::size_t kInterfaces = 1000000;                                                    \
     static constexpr double kRoundings = 1;                                                                \
     using SurfaceIn = space::SurfaceIn;                                                                    \
     using SurfaceOut = space::SurfaceOut;                                                                  \
@@ -124,7 +139,50 @@ inline std::vector<std::string> everyMethod() {
 MALUS_BACKEND(Float, F32, f32, false)
 MALUS_BACKEND(Double, F64, f64, true)
 
+#ifdef MALUS_EMULATED_PRECISION
+// Inputs and outputs are those of the float build.
+template <class Optics>
+struct Emulated : CppFloat {
+  static constexpr const char* kBackend = Optics::kName;
+  static constexpr double kRoundings = Optics::kRoundings;
+  static constexpr double kPackingRoundings = 2;
+  static constexpr bool kFlushesHalves = true;
+  static constexpr std::size_t kInterfaces = 40000;
+  template <class Out, class In, class F>
+  static std::vector<Out> emulate(const std::vector<In>& given, F f) {
+    using EmulatedIn = std::remove_cvref_t<typename FirstArgument<F>::Type>;
+    Optics::enter();
+    return mapped<Out>(given, [&](const In& g) { return emulatedCast<Out>(f(emulatedCast<EmulatedIn>(g))); });
+  }
+  static std::vector<SurfaceOut> surfaces(const std::vector<SurfaceIn>& g) {
+    return emulate<SurfaceOut>(g, emulated::surfaceProbe);
+  }
+  static std::vector<FrameOut> frames(const std::vector<FrameIn>& g) {
+    return emulate<FrameOut>(g, emulated::frameProbe);
+  }
+  static std::vector<IterativeOut> loops(const std::vector<IterativeIn>& g) {
+    return emulate<IterativeOut>(g, emulated::iterativeProbe);
+  }
+  static std::vector<ChainOut> chains(std::string_view method, const std::vector<ChainIn>& g) {
+    return emulate<ChainOut>(g, emulated::methodProbes(method).chain);
+  }
+  static std::vector<HandOverOut> handOvers(std::string_view method, const std::vector<HandOverIn>& g) {
+    return emulate<HandOverOut>(g, emulated::methodProbes(method).handOver);
+  }
+
+ private:
+  template <class F>
+  struct FirstArgument;
+  template <class R, class A>
+  struct FirstArgument<R (*)(A)> {
+    using Type = A;
+  };
+};
+using Backends = ::testing::Types<Emulated<EmulatedRandom>, Emulated<EmulatedOther>, Emulated<EmulatedLargest>,
+                                  Emulated<EmulatedSmallest>>;
+#else
 using Backends = ::testing::Types<CppFloat, CppDouble, GlslFloat, GlslDouble>;
+#endif
 struct BackendNames {
   template <class T>
   static std::string GetName(int) {

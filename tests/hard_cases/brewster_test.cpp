@@ -54,12 +54,18 @@ TYPED_TEST(Brewster, MalussLaw) {
     const auto out = B::chains(method, chains);
     for (std::size_t i = 0; i < chains.size(); ++i) {
       const Real cosine = std::cos(static_cast<Real>(i / 20) * 5 * kPi / 180), got = out[i].s0;
-      // Malus's law; the rounding of a mirror's normal rotates its plane by eps. Packing changes S1/S0 by 1/32767.
+      // Malus's law; the rounding of a mirror's normal rotates its plane by eps. Packing changes S1/S0 by 1/32767 and
+      // S0 by 1/1024 behind each mirror; with less than IEEE's precision, the source's root 1 by half of that too.
       if (carriesStokes(method) || method == "sp-malus") {
-        EXPECT_CLOSE(got / parallel, cosine * cosine, 24 * kUnit + (method == "stokes-half" ? 2e-3 : 0)) << method;
+        EXPECT_CLOSE(
+            got / parallel, cosine * cosine,
+            24 * kUnit +
+                (method == "stokes-half" ? 2e-3 * B::kPackingRoundings + 1e-3 * (B::kPackingRoundings - 1) : 0))
+            << method;
         // Extinct, to 1e-6 of the parallel case; in 16 bits to the rounding of S1 close to S0.
         if (i >= 18 * 20) {
-          EXPECT_LT(std::abs(got), (method == "stokes-half" ? 6e-5L : 1e-6L) * parallel) << method;
+          EXPECT_LT(std::abs(got), (method == "stokes-half" ? 6e-5L * B::kPackingRoundings : 1e-6L) * parallel)
+              << method;
         }
       } else if (method == "fresnel") {
         EXPECT_CLOSE(got / parallel, 0.5, 12 * kUnit) << "the same at every angle";
@@ -98,7 +104,7 @@ TYPED_TEST(Brewster, BouncesAfterExtinction) {
       const Real radiance = chains[i].radiance;
       EXPECT_GT(out[i].s0, -8 * kUnit * radiance) << method;
       if (carriesStokes(method)) {
-        const Real allowed = (30 * kUnit + (method == "stokes-half" ? 1e-4 : 0)) * radiance;
+        const Real allowed = (30 * kUnit + (method == "stokes-half" ? 1e-4 * B::kPackingRoundings : 0)) * radiance;
         EXPECT_LT(largestDifference(stokesVector(out[i]), oracleStokes(chains[i])), allowed) << method << ' ' << i;
       }
     }

@@ -99,11 +99,14 @@ TYPED_TEST(Frames, CanonicalFrameJumpDoesNotShow) {
     extend(path, metalMirror(kMetals[2]), oracle::unit({0.1L, 0.9L, -0.2L}));
     chains.push_back(chainFromPath<B>(path));
   }
+  // With less than IEEE's precision, source and bounces of both chains are packed with different roundings.
+  const Real packings = B::kPackingRoundings == 1 ? 1 : 2 * 4;
   for (const std::string& method : everyMethod()) {
     const auto out = B::chains(method, chains);
     for (std::size_t i = 1; i < out.size(); ++i)
       EXPECT_LT(largestDifference(stokesVector(out[i]), stokesVector(out[0])) / out[0].s0,
-                60 * kUnit + 1e-7L + packingLoss(method) + (method == "sp-cosine" || method == "sp-ratio" ? 2e-3L : 0))
+                60 * kUnit + 1e-7L + packings * packingLoss<B>(method) +
+                    (method == "sp-cosine" || method == "sp-ratio" ? 2e-3L : 0))
           << method << ' ' << i;
   }
 }

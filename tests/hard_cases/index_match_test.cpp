@@ -111,7 +111,8 @@ TYPED_TEST(IndexMatch, VacuumInsideGlassInsideWater) {
   for (const std::string method : {"stokes", "stokes-linear", "stokes-half"}) {
     const auto out = B::chains(method, chains);
     for (std::size_t i = 0; i < chains.size(); ++i)
-      EXPECT_LT(largestDifference(stokesVector(out[i]), oracleStokes(chains[i])), 100 * kUnit + 4 * packingLoss(method))
+      EXPECT_LT(largestDifference(stokesVector(out[i]), oracleStokes(chains[i])),
+                100 * kUnit + 4 * packingLoss<B>(method))
           << method;  // four windows, each magnifies the directions' roundings by up to 1/.3
   }
 }

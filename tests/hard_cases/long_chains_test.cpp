@@ -56,15 +56,15 @@ TYPED_TEST(LongChains, SixtyFourMirrors) {
         const Real off = largestDifference(stokesVector(out[i]), want) / size;
         // Half floats lose their bits below 1e-8 of the source and are 0 below 1e-15; floats end at 1e-38.
         const Real flushed = (method == "stokes-half" ? 1e-8L : 1e-36L) / size;
-        const Real allowed = 64 * 64 * kUnit * steep + 64 * packingLoss(method) + flushed;
+        const Real allowed = 64 * 64 * kUnit * steep + 64 * packingLoss<B>(method) + flushed;
         EXPECT_LT(off, allowed) << method << ' ' << i << " cosine " << static_cast<double>(path.cosine(0));
         if (method == "stokes") error.add(off / steep);
       }
       if (carriesStokes(method) || method == "fresnel" || method == "schlick" || method == "sp-malus") {
-        EXPECT_LT(out[i].grown, 8 * kUnit + 2 * packingLoss(method)) << method << ": a mirror makes light";
+        EXPECT_LT(out[i].grown, 8 * kUnit + 2 * packingLoss<B>(method)) << method << ": a mirror makes light";
       }
       if (carriesStokes(method) || method == "sp-malus") {
-        EXPECT_LT(out[i].gained, 6 * kUnit + packingLoss(method)) << method << i << ": more than fully polarized";
+        EXPECT_LT(out[i].gained, 6 * kUnit + packingLoss<B>(method)) << method << i << ": more than fully polarized";
       }
     }
     // The directions themselves stay unit.
@@ -112,7 +112,7 @@ TYPED_TEST(LongChains, RandomPathsStayPhysicalInEveryMethod) {
       for (const Real v : stokesVector(out[i])) ASSERT_TRUE(std::isfinite(v)) << method;
       EXPECT_GT(out[i].s0, -4 * kUnit * radiance) << method;
       if (carriesStokes(method)) {
-        EXPECT_LT(out[i].gained, 6 * kUnit + packingLoss(method)) << method;
+        EXPECT_LT(out[i].gained, 6 * kUnit + packingLoss<B>(method)) << method;
       }
     }
   }

@@ -85,7 +85,7 @@ TYPED_TEST(NormalIncidence, TheChoiceOfSDoesNotMatter) {
     if (carriesStokes(method)) {
       // Two interfaces and four rotations, some forty roundings in a row; 16 bits per number cost more.
       // A metal tilted by 1e-4 delays p by about 1e-8, which stokes-linear drops.
-      EXPECT_LT(worst, 20 * kUnit + 2 * packingLoss(method) + (method == "stokes-linear" ? 1e-8L : 0)) << method;
+      EXPECT_LT(worst, 20 * kUnit + 2 * packingLoss<B>(method) + (method == "stokes-linear" ? 1e-8L : 0)) << method;
     } else if (method == "sp" || method == "sp-cosine" || method == "sp-ratio") {
       // |cos| makes between 1 and 1.41 times the light, by the angle between an arbitrary s and the glass's.
       EXPECT_GT(high, 1.3) << method;

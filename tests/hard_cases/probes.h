@@ -32,11 +32,11 @@ FN void parts(Stokes s, OUT(real3) a, OUT(real3) b) {
 FN SurfaceOut surfaceProbe(SurfaceIn g) {
   SurfaceOut r;
   real c = clampUnit(g.c);
-  r.dielectric = dielectricReflectance(c, g.n1, g.n2);
-  r.transmittance = dielectricTransmittance(c, g.n1, g.n2);
+  RefractionTerms f = refractionTerms(c, g.n1, g.n2);
+  r.dielectric = reflectanceFromTerms(c, f);
+  r.transmittance = transmittanceFromTerms(c, f);
   r.conductor = conductorReflectance(c, g.n1, g.n2, g.k2);
   r.schlick = schlickReflectance(c, g.n1, g.n2, g.k2);
-  RefractionTerms f = refractionTerms(c, g.n1, g.n2);
   r.t = f.t;
   r.tau = f.tau;
   r.total = selectR(f.total, R(1.0), R(0.0));

@@ -11,7 +11,7 @@ MALUS_HARD_CASES(RandomDraws);
 
 TYPED_TEST(RandomDraws, AMillionInterfaces) {
   MALUS_BACKEND_TYPES;
-  constexpr std::size_t kBatch = 125000;
+  constexpr std::size_t kBatch = B::kInterfaces / 8;
   Draw draw(114);
   Worst sum("sum", kUnit), back("reciprocity", kUnit), excess("excess", kUnit), negative("negative", kUnit);
   for (int batch = 0; batch < 8; ++batch) {
@@ -92,7 +92,7 @@ TYPED_TEST(RandomDraws, RotationInvariance) {
       const Real size = std::max(unpolarizedShare(pathFromChain(plain[i]), 1), Real(1e-3L));
       // A cosine rotates s by up to 7e-4 per ray in float; 16 bits per number cost 1.5e-3.
       const Real coarse =
-          method == "sp-cosine" || method == "sp-ratio" ? 12 * std::sqrt(kUnit) : 6 * packingLoss(method);
+          method == "sp-cosine" || method == "sp-ratio" ? 12 * std::sqrt(kUnit) : 6 * packingLoss<B>(method);
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_LT(std::abs(x[k] - y[k]), (300 * kUnit + coarse) * size + 4 * std::abs(ox[k] - oy[k]))
             << method << ' ' << i << ' ' << k;

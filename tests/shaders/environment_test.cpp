@@ -29,21 +29,26 @@ TYPED_TEST(EnvironmentTest, OctahedralAxesAndSeams) {
   MALUS_TYPES;
   real u, v;
   O::octahedralFromDirection(O::make3(0, 0, 1), u, v);
-  EXPECT_TRUE(u == R(0.5L) && v == R(0.5L)) << "up is the middle";
+  EXPECT_CLOSE(u, R(0.5L), kExact) << "up is the middle";
+  EXPECT_CLOSE(v, R(0.5L), kExact) << "up is the middle";
   O::octahedralFromDirection(O::make3(1, 0, 0), u, v);
-  EXPECT_TRUE(u == 1 && v == R(0.5L)) << "+x is the right edge's middle";
+  EXPECT_CLOSE(u, 1, kExact) << "+x is the right edge's middle";
+  EXPECT_CLOSE(v, R(0.5L), kExact) << "+x is the right edge's middle";
   O::octahedralFromDirection(O::make3(0, -1, 0), u, v);
-  EXPECT_TRUE(u == R(0.5L) && v == 0) << "-y is v = 0";
+  EXPECT_CLOSE(u, R(0.5L), kExact) << "-y is v = 0";
+  EXPECT_CLOSE(v, 0, kExact) << "-y is v = 0";
   O::octahedralFromDirection(O::make3(0, 0, -1), u, v);
-  EXPECT_TRUE(u == 1 && v == 1) << "down is the corners";
+  EXPECT_CLOSE(u, 1, kExact) << "down is the corners";
+  EXPECT_CLOSE(v, 1, kExact) << "down is the corners";
   // All four corners are the direction down.
   for (const real a : {real(0), real(1)})
-    for (const real b : {real(0), real(1)}) EXPECT_EQ(O::directionFromOctahedral(a, b), O::make3(0, 0, -1));
+    for (const real b : {real(0), real(1)}) expectClose3(O::directionFromOctahedral(a, b), O::make3(0, 0, -1), kExact);
   // +0 and -0 of z map to the same seam.
   real u0, v0, u1, v1;
   O::octahedralFromDirection(O::make3(R(0.6L), R(0.8L), R(0.0L)), u0, v0);
   O::octahedralFromDirection(O::make3(R(0.6L), R(0.8L), R(-0.0L)), u1, v1);
-  EXPECT_TRUE(u0 == u1 && v0 == v1);
+  EXPECT_CLOSE(u0, u1, kExact);
+  EXPECT_CLOSE(v0, v1, kExact);
 }
 
 TYPED_TEST(EnvironmentTest, OctahedralMapIsContinuousAcrossTheEquator) {

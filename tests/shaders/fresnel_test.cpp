@@ -56,9 +56,12 @@ TYPED_TEST(FresnelTest, TransmittanceEqualsJones) {
       const auto got = O::dielectricTransmittance(c, n1, n2);
       const auto want = conditioned(c, n1, n2, 3 * Real(kEps));
       const Real tiny = std::numeric_limits<real>::min();  // a cosine that small flushes
-      ts.add(beyond(got.ts, want.value.ts, want.spread.ts, want.value.ts + tiny));
-      tp.add(beyond(got.tp, want.value.tp, want.spread.tp, want.value.tp + tiny));
-      tx.add(beyond(got.x, want.value.txGeo, want.spread.txGeo, want.value.txGeo + tiny));
+      // T is 4 c t/(c + t)^2, where t^2 is |eta^2 - 1| at least and c t may be flushed.
+      const Real eta = Real(n2) / n1;
+      const Real flushed = O::kRoundings == 1 ? Real(0) : 4 * tiny / std::min(Real(1), std::abs(eta * eta - 1));
+      ts.add(beyond(got.ts, want.value.ts, want.spread.ts + flushed, want.value.ts + tiny));
+      tp.add(beyond(got.tp, want.value.tp, want.spread.tp + flushed, want.value.tp + tiny));
+      tx.add(beyond(got.x, want.value.txGeo, want.spread.txGeo + flushed, want.value.txGeo + tiny));
     }
   // Relative, grazing included: every factor is formed without a difference.
   EXPECT_LT(ts.value(), 6);
@@ -104,8 +107,8 @@ TYPED_TEST(FresnelTest, NormalIncidence) {
     const Real n1 = R(pair[0]), n2 = R(pair[1]), f0 = (n2 - n1) / (n2 + n1) * ((n2 - n1) / (n2 + n1));
     const auto r = O::dielectricReflectance(1, R(n1), R(n2));
     EXPECT_CLOSE(r.rs / f0, 1, 5 * kEps);
-    EXPECT_EQ(r.rs, r.rp);
-    EXPECT_EQ(r.xRe, -r.rs);
+    EXPECT_CLOSE(r.rs, r.rp, kExact * r.rs);
+    EXPECT_CLOSE(r.xRe, -r.rs, kExact * r.rs);
     EXPECT_EQ(r.xIm, 0);
     const auto t = O::dielectricTransmittance(1, R(n1), R(n2));
     EXPECT_CLOSE(t.ts, 1 - f0, 4 * kEps);
@@ -239,8 +242,9 @@ TYPED_TEST(FresnelTest, EnergyConservation) {
   Worst sum("sum", double(kEps));
   for (const auto& pair : kPairs)
     for (const real c : cosines<real>()) {
-      const auto r = O::dielectricReflectance(c, R(pair[0]), R(pair[1]));
-      const auto t = O::dielectricTransmittance(c, R(pair[0]), R(pair[1]));
+      const auto terms = O::refractionTerms(c, R(pair[0]), R(pair[1]));
+      const auto r = O::reflectanceFromTerms(c, terms);
+      const auto t = O::transmittanceFromTerms(c, terms);
       sum.add(Real(r.rs) + t.ts - 1);
       sum.add(Real(r.rp) + t.tp - 1);
       EXPECT_CLOSE(t.x * t.x, t.ts * t.tp, 6 * kEps);

@@ -6,25 +6,6 @@ namespace {
 
 using oracle::Real;
 
-template <class O>
-struct Rows;
-template <>
-struct Rows<F32> {
-  using ImportanceVector = f32::ImportanceVector;
-  static ImportanceVector turn(ImportanceVector r, float c, float s) { return f32::rotateImportance(r, c, s); }
-  static ImportanceVector interface(ImportanceVector r, float rs, float rp, float xRe, float xIm) {
-    return f32::applyInterfaceTransposed(r, rs, rp, xRe, xIm);
-  }
-};
-template <>
-struct Rows<F64> {
-  using ImportanceVector = f64::ImportanceVector;
-  static ImportanceVector turn(ImportanceVector r, double c, double s) { return f64::rotateImportance(r, c, s); }
-  static ImportanceVector interface(ImportanceVector r, double rs, double rp, double xRe, double xIm) {
-    return f64::applyInterfaceTransposed(r, rs, rp, xRe, xIm);
-  }
-};
-
 MALUS_OPTICS_SUITE(ImportanceTest);
 
 template <class O, class ImportanceVector>
@@ -34,12 +15,11 @@ Real weighed(const ImportanceVector& r, const typename O::Stokes& s) {
 
 TYPED_TEST(ImportanceTest, EveryStepPreservesTheProductWithStokes) {
   MALUS_TYPES;
-  using A = Rows<O>;
   Draw draw(130);
   Worst turned("turned", double(kEps)), met("met", double(kEps));
   for (int i = 0; i < 5000; ++i) {
     const oracle::Vec p = draw.direction(), q = draw.direction();
-    const typename A::ImportanceVector row{1, R(p[0]), R(p[1]), R(p[2])};
+    const typename O::ImportanceVector row{1, R(p[0]), R(p[1]), R(p[2])};
     typename O::Stokes light = O::stokesUnpolarized(O::splat3(1));
     light.s1 = O::splat3(R(q[0]));
     light.s2 = O::splat3(R(q[1]));
@@ -47,14 +27,14 @@ TYPED_TEST(ImportanceTest, EveryStepPreservesTheProductWithStokes) {
     // In a rotated frame both rotate and the product stays.
     const Real angle = draw.between(0, 6.3);
     const real c = R(std::cos(angle)), s = R(std::sin(angle));
-    turned.add(weighed<O>(A::turn(row, c, s), O::rotateStokes(light, c, s)) - weighed<O>(row, light));
+    turned.add(weighed<O>(O::rotateImportance(row, c, s), O::rotateStokes(light, c, s)) - weighed<O>(row, light));
     // At an interface: (row M) S = row (M S).
     const Metal& m = kMetals[draw.below(5)];
     const auto f = draw.below(2) == 0 ? O::conductorReflectance(R(draw.unit()), 1, R(m.n[0]), R(m.k[0]))
                                       : O::dielectricReflectance(R(draw.unit()), R(1.5L), 1);
     const auto reflected =
         O::stokesInterface(light, O::splat3(f.rs), O::splat3(f.rp), O::splat3(f.xRe), O::splat3(f.xIm));
-    met.add(weighed<O>(A::interface(row, f.rs, f.rp, f.xRe, f.xIm), light) - weighed<O>(row, reflected));
+    met.add(weighed<O>(O::applyInterfaceTransposed(row, f.rs, f.rp, f.xRe, f.xIm), light) - weighed<O>(row, reflected));
   }
   EXPECT_LT(turned.value(), 8);
   EXPECT_LT(met.value(), 8);
@@ -62,18 +42,17 @@ TYPED_TEST(ImportanceTest, EveryStepPreservesTheProductWithStokes) {
 
 TYPED_TEST(ImportanceTest, CrossedBrewsterMirrorsExtinguish) {
   MALUS_TYPES;
-  using A = Rows<O>;
   // Brewster mirror, rotation by 90 degrees, Brewster mirror: w vanishes. All that follows stays that small.
   const auto f = O::dielectricReflectance(R(1 / std::sqrt(3.25L)), 1, R(1.5L));
-  typename A::ImportanceVector row{1, 0, 0, 0};
-  row = A::interface(row, f.rs, f.rp, f.xRe, f.xIm);
-  row = A::turn(row, -1, 0);
-  row = A::interface(row, f.rs, f.rp, f.xRe, f.xIm);
+  typename O::ImportanceVector row{1, 0, 0, 0};
+  row = O::applyInterfaceTransposed(row, f.rs, f.rp, f.xRe, f.xIm);
+  row = O::rotateImportance(row, -1, 0);
+  row = O::applyInterfaceTransposed(row, f.rs, f.rp, f.xRe, f.xIm);
   EXPECT_CLOSE(row.w, 0, kEps);
   for (int i = 0; i < 5; ++i) {
-    row = A::turn(row, R(0.6L), R(0.8L));
+    row = O::rotateImportance(row, R(0.6L), R(0.8L));
     const auto gold = O::conductorReflectance(R(0.7L), 1, R(0.1884L), R(3.4034L));
-    row = A::interface(row, gold.rs, gold.rp, gold.xRe, gold.xIm);
+    row = O::applyInterfaceTransposed(row, gold.rs, gold.rp, gold.xRe, gold.xIm);
     for (const real v : {row.w, row.q, row.u, row.v}) EXPECT_CLOSE(v, 0, kEps);
   }
 }

@@ -13,74 +13,116 @@
 #include <vector>
 
 #include "shaders/optics/optics.h"
+#ifdef MALUS_EMULATED_PRECISION
+#include "tests/shaders/emulated.h"
+#endif
 #include "tests/shaders/jones.h"
 
 namespace malus::test {
 
+// Every function of the optics that the tests call: X(space, name).
+#define MALUS_OPTICS_FUNCTIONS(X, space) \
+  X(space, make3)                        \
+  X(space, splat3)                       \
+  X(space, dot3)                         \
+  X(space, cross3)                       \
+  X(space, select3)                      \
+  X(space, max3)                         \
+  X(space, normalize3)                   \
+  X(space, signNotZero)                  \
+  X(space, square)                       \
+  X(space, clampUnit)                    \
+  X(space, powInteger)                   \
+  X(space, refractionTerms)              \
+  X(space, reflectanceFromTerms)         \
+  X(space, transmittanceFromTerms)       \
+  X(space, dielectricReflectance)        \
+  X(space, dielectricTransmittance)      \
+  X(space, conductorReflectance)         \
+  X(space, schlickReflectance)           \
+  X(space, cisTwoPi)                     \
+  X(space, complexSqrtLower)             \
+  X(space, thinFilm)                     \
+  X(space, thinGlass)                    \
+  X(space, rayleighDegree)               \
+  X(space, rayleighPhase)                \
+  X(space, facetNormal)                  \
+  X(space, facetWeight)                  \
+  X(space, mirrorDirection)              \
+  X(space, refractedDirection)           \
+  X(space, canonicalFrame)               \
+  X(space, sDirection)                   \
+  X(space, frameRotation)                \
+  X(space, stokesUnpolarized)            \
+  X(space, stokesAdd)                    \
+  X(space, rotateStokes)                 \
+  X(space, stokesInterface)              \
+  X(space, lambertRadiance)              \
+  X(space, phongLobe)                    \
+  X(space, octahedralFromDirection)      \
+  X(space, directionFromOctahedral)      \
+  X(space, irradiancePolynomial)         \
+  X(space, shadingNormal)                \
+  X(space, hitPointError)                \
+  X(space, intersectionError)            \
+  X(space, insideTriangle)               \
+  X(space, rayOrigin)                    \
+  X(space, cameraDirection)              \
+  X(space, cameraFrameRotation)          \
+  X(space, analysed)                     \
+  X(space, rotateImportance)             \
+  X(space, applyInterfaceTransposed)
+
+// Types of a build whose structs are those of `space`.
+#define MALUS_OPTICS_TYPES(space, label)                   \
+  using real3 = malus::space::real3;                       \
+  using Stokes = malus::space::Stokes;                     \
+  using Reflectance = malus::space::Reflectance;           \
+  using Transmittance = malus::space::Transmittance;       \
+  using RefractionTerms = malus::space::RefractionTerms;   \
+  using Film = malus::space::Film;                         \
+  using ThinGlass = malus::space::ThinGlass;               \
+  using Complex = malus::space::Complex;                   \
+  using ImportanceVector = malus::space::ImportanceVector; \
+  static constexpr const char* kName = label;
+
 #define MALUS_FORWARD(space, name) static constexpr auto& name = malus::space::name;
-#define MALUS_OPTICS(Name, space, scalar, label)           \
-  struct Name {                                            \
-    using real = scalar;                                   \
-    using real3 = malus::space::real3;                     \
-    using Stokes = malus::space::Stokes;                   \
-    using Reflectance = malus::space::Reflectance;         \
-    using Transmittance = malus::space::Transmittance;     \
-    using RefractionTerms = malus::space::RefractionTerms; \
-    using Film = malus::space::Film;                       \
-    using Complex = malus::space::Complex;                 \
-    static constexpr real kPi = malus::space::kPi;         \
-    static constexpr const char* kName = label;            \
-    MALUS_FORWARD(space, make3)                            \
-    MALUS_FORWARD(space, splat3)                           \
-    MALUS_FORWARD(space, dot3)                             \
-    MALUS_FORWARD(space, cross3)                           \
-    MALUS_FORWARD(space, select3)                          \
-    MALUS_FORWARD(space, max3)                             \
-    MALUS_FORWARD(space, normalize3)                       \
-    MALUS_FORWARD(space, signNotZero)                      \
-    MALUS_FORWARD(space, square)                           \
-    MALUS_FORWARD(space, clampUnit)                        \
-    MALUS_FORWARD(space, powInteger)                       \
-    MALUS_FORWARD(space, refractionTerms)                  \
-    MALUS_FORWARD(space, dielectricReflectance)            \
-    MALUS_FORWARD(space, dielectricTransmittance)          \
-    MALUS_FORWARD(space, conductorReflectance)             \
-    MALUS_FORWARD(space, schlickReflectance)               \
-    MALUS_FORWARD(space, cisTwoPi)                         \
-    MALUS_FORWARD(space, complexSqrtLower)                 \
-    MALUS_FORWARD(space, thinFilm)                         \
-    MALUS_FORWARD(space, thinGlass)                        \
-    MALUS_FORWARD(space, rayleighDegree)                   \
-    MALUS_FORWARD(space, rayleighPhase)                    \
-    MALUS_FORWARD(space, facetNormal)                      \
-    MALUS_FORWARD(space, facetWeight)                      \
-    MALUS_FORWARD(space, mirrorDirection)                  \
-    MALUS_FORWARD(space, refractedDirection)               \
-    MALUS_FORWARD(space, canonicalFrame)                   \
-    MALUS_FORWARD(space, sDirection)                       \
-    MALUS_FORWARD(space, frameRotation)                    \
-    MALUS_FORWARD(space, stokesUnpolarized)                \
-    MALUS_FORWARD(space, stokesAdd)                        \
-    MALUS_FORWARD(space, rotateStokes)                     \
-    MALUS_FORWARD(space, stokesInterface)                  \
-    MALUS_FORWARD(space, lambertRadiance)                  \
-    MALUS_FORWARD(space, phongLobe)                        \
-    MALUS_FORWARD(space, octahedralFromDirection)          \
-    MALUS_FORWARD(space, directionFromOctahedral)          \
-    MALUS_FORWARD(space, irradiancePolynomial)             \
-    MALUS_FORWARD(space, shadingNormal)                    \
-    MALUS_FORWARD(space, hitPointError)                    \
-    MALUS_FORWARD(space, intersectionError)                \
-    MALUS_FORWARD(space, insideTriangle)                   \
-    MALUS_FORWARD(space, rayOrigin)                        \
-    MALUS_FORWARD(space, cameraDirection)                  \
-    MALUS_FORWARD(space, cameraFrameRotation)              \
-    MALUS_FORWARD(space, analysed)                         \
+// kRoundings: how many times the roundings of IEEE arithmetic are allowed.
+#define MALUS_OPTICS(Name, space, scalar, label)   \
+  struct Name {                                    \
+    using real = scalar;                           \
+    static constexpr real kPi = malus::space::kPi; \
+    static constexpr int kRoundings = 1;           \
+    MALUS_OPTICS_TYPES(space, label)               \
+    MALUS_OPTICS_FUNCTIONS(MALUS_FORWARD, space)   \
   };
 MALUS_OPTICS(F32, f32, float, "float")
 MALUS_OPTICS(F64, f64, double, "double")
 
+#ifdef MALUS_EMULATED_PRECISION
+#define MALUS_EMULATED_CALL(space, name)                                                                               \
+  static constexpr EmulatedCall<D, decltype(malus::f32::name), decltype(malus::emulated::name), malus::emulated::name> \
+      name{};
+// The optics with the precision that the Vulkan specification guarantees, called with floats.
+template <class D, const char* kLabel>
+struct EmulatedOptics {
+  using real = float;
+  static constexpr real kPi = f32::kPi;
+  static constexpr int kRoundings = kEmulatedRoundings;
+  static void enter() { D::enter(); }
+  MALUS_OPTICS_TYPES(f32, kLabel)
+  MALUS_OPTICS_FUNCTIONS(MALUS_EMULATED_CALL, emulated)
+};
+inline constexpr char kRandomLabel[] = "random", kOtherLabel[] = "other_random", kLargestLabel[] = "largest",
+                      kSmallestLabel[] = "smallest";
+using EmulatedRandom = EmulatedOptics<EmulatedDevice<emulation::Choice::random, 1>, kRandomLabel>;
+using EmulatedOther = EmulatedOptics<EmulatedDevice<emulation::Choice::random, 2>, kOtherLabel>;
+using EmulatedLargest = EmulatedOptics<EmulatedDevice<emulation::Choice::largest, 3>, kLargestLabel>;
+using EmulatedSmallest = EmulatedOptics<EmulatedDevice<emulation::Choice::smallest, 4>, kSmallestLabel>;
+using OpticsTypes = ::testing::Types<EmulatedRandom, EmulatedOther, EmulatedLargest, EmulatedSmallest>;
+#else
 using OpticsTypes = ::testing::Types<F32, F64>;
+#endif
 struct OpticsNames {
   template <class T>
   static std::string GetName(int) {
@@ -93,15 +135,25 @@ struct OpticsNames {
   template <class T>                      \
   class Name : public ::testing::Test {}; \
   TYPED_TEST_SUITE(Name, OpticsTypes, OpticsNames)
-// Abbreviations of a typed test: O the build, kEps its spacing at 1, R(x) its rounding of x.
-#define MALUS_TYPES                                                            \
-  using O = TypeParam;                                                         \
-  using real [[maybe_unused]] = typename O::real;                              \
-  using real3 [[maybe_unused]] = typename O::real3;                            \
-  [[maybe_unused]] constexpr real kEps = std::numeric_limits<real>::epsilon(); \
+// Abbreviations of a typed test: O the build, kEps the unit of its errors (its spacing at 1, times the factor by which
+// its operations may be less exact than IEEE's), kExact the unit where IEEE arithmetic is exact, R(x) its rounding of
+// x.
+#define MALUS_TYPES                                                                            \
+  using O = TypeParam;                                                                         \
+  using real [[maybe_unused]] = typename O::real;                                              \
+  using real3 [[maybe_unused]] = typename O::real3;                                            \
+  [[maybe_unused]] constexpr real kEps = O::kRoundings * std::numeric_limits<real>::epsilon(); \
+  [[maybe_unused]] constexpr real kExact = O::kRoundings == 1 ? real(0) : kEps;                \
   [[maybe_unused]] const auto R = [](oracle::Real x) { return static_cast<real>(x); }
 #define EXPECT_CLOSE(a, b, allowed) \
   EXPECT_NEAR(static_cast<double>(a), static_cast<double>(b), static_cast<double>(allowed))
+
+template <class V>
+void expectClose3(const V& got, const V& want, double allowed) {
+  EXPECT_CLOSE(got.x, want.x, allowed);
+  EXPECT_CLOSE(got.y, want.y, allowed);
+  EXPECT_CLOSE(got.z, want.z, allowed);
+}
 
 // Largest of the errors given to it; recorded as a property of the test, for reports.
 class Worst {

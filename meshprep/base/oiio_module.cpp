@@ -20,7 +20,9 @@ std::string messageOr(const std::string& message, const char* otherwise) {
 
 std::string readImage(const std::string& path, Image& image) {
   try {
-    const auto input = ImageInput::open(path);
+    ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);  // colours as they are in the file, not multiplied by alpha
+    const auto input = ImageInput::open(path, &config);
     if (!input) return messageOr(OIIO::geterror(), "unknown format");
     const ImageSpec spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 ||

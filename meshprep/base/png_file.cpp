@@ -45,7 +45,6 @@ void flushNothing(png_structp) {}
 // Pixels as in the file, after the expansion of palettes and small depths.
 struct Decoded {
   int width = 0, height = 0, channels = 0, bits = 0;
-  double alphaExponent = 1;  // of the factor that replaces alpha, because colours are encoded
   std::vector<unsigned char> samples;
   std::vector<png_bytep> rows;
 };
@@ -63,9 +62,6 @@ bool readHeader(png_structp png, png_infop info, Decoded& out) {
   out.height = static_cast<int>(png_get_image_height(png, info));
   out.channels = png_get_channels(png, info);
   out.bits = png_get_bit_depth(png, info);
-  double gamma = 0;
-  if (png_get_valid(png, info, PNG_INFO_sRGB) == 0 && png_get_gAMA(png, info, &gamma) != 0 && gamma > 0)
-    out.alphaExponent = std::round(100 / gamma) / 100;
   return true;
 }
 
@@ -76,27 +72,10 @@ bool readRows(png_structp png, Decoded& out) {
   return true;
 }
 
-// Multiplies colours by alpha, in integers, as OpenImageIO does: with the alpha of an encoded colour if the file names
-// an exponent. data: interleaved pixels whose last channel is alpha.
-template <typename Sample>
-void multiplyByAlpha(Sample* data, std::size_t pixels, int channels, double exponent) {
-  constexpr unsigned kMax = std::numeric_limits<Sample>::max();
-  for (std::size_t i = 0; i < pixels; ++i, data += channels) {
-    const unsigned alpha = data[channels - 1];
-    const float factor =
-        std::pow(static_cast<float>(alpha) * (1.0f / static_cast<float>(kMax)), static_cast<float>(exponent));
-    for (int c = 0; c + 1 < channels; ++c)
-      data[c] = exponent == 1 ? static_cast<Sample>(data[c] * alpha / kMax)
-                              : static_cast<Sample>(static_cast<float>(data[c]) * factor);
-  }
-}
-
 template <typename Sample>
 void convert(Decoded& decoded, Image& image) {
-  auto* data = reinterpret_cast<Sample*>(decoded.samples.data());
+  const auto* data = reinterpret_cast<const Sample*>(decoded.samples.data());
   const std::size_t pixels = static_cast<std::size_t>(decoded.width) * static_cast<std::size_t>(decoded.height);
-  if (decoded.channels == 2 || decoded.channels == 4)
-    multiplyByAlpha(data, pixels, decoded.channels, decoded.alphaExponent);
   constexpr float kScale = 1.0f / static_cast<float>(std::numeric_limits<Sample>::max());
   image.pixels.resize(pixels * static_cast<std::size_t>(decoded.channels));
   std::transform(data, data + image.pixels.size(), image.pixels.begin(),

@@ -166,6 +166,15 @@ TEST_F(ImageModules, FilesOfOtherProgramsHaveTheSameValues) {
   EXPECT_GE(found, 22u);
 }
 
+TEST_F(ImageModules, ColoursAreNotMultipliedByAlpha) {
+  for (const auto& [name, red] : {std::pair("/rgba8.png", 130), std::pair("/rgba8-gamma.png", 195)}) {
+    const Image image = readBoth(std::string(MALUS_IMAGE_FILES) + name);
+    ASSERT_EQ(image.channels.size(), 4u) << name;
+    EXPECT_LT(image.pixels[3], 0.5f) << name;  // alpha
+    EXPECT_NEAR(image.pixels[0], static_cast<float>(red) / 255, 1e-6f) << name;
+  }
+}
+
 TEST_F(ImageModules, OtherFormatsAreErrorsThatNameTheSupportedOnes) {
   Image image;
   write("sky.hdr", {'#', '?', 'R', 'A', 'D', 'I', 'A', 'N', 'C', 'E', '\n'});

@@ -43,9 +43,12 @@ Function load(VkInstance instance, const char* name) {
 VKAPI_ATTR VkBool32 VKAPI_CALL Instance::keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                                      VkDebugUtilsMessageTypeFlagsEXT,
                                                      const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  const char* const id = data->pMessageIdName ? data->pMessageIdName : "no identifier";
+  // Layers since 1.4 list the features that they enable for their own shaders.
+  if (id == std::string_view("WARNING-GPU-Assisted-Validation")) return VK_FALSE;
   auto& messages = *static_cast<Messages*>(user);
   const std::lock_guard lock(messages.mutex);
-  messages.texts.emplace_back(data->pMessage ? data->pMessage : "message without text");
+  messages.texts.push_back(fmt::format("{}: {}", id, data->pMessage ? data->pMessage : "no text"));
   return VK_FALSE;
 }
 
@@ -64,12 +67,17 @@ Instance::Instance(unsigned threads) {
   messenger.pUserData = &messages_;
   std::vector<VkValidationFeatureEnableEXT> enabled = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   const char* const variable = std::getenv("MALUS_VALIDATION");
-  if (variable && variable == std::string_view("gpu"))
+  const bool byGpu = variable && variable == std::string_view("gpu");
+  if (byGpu)
     enabled.insert(enabled.end(), {VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT,
                                    VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT});
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
   features.enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size());
   features.pEnabledValidationFeatures = enabled.data();
+  // The core checks are those of the other mode. Layers since 1.4 warn of both at once.
+  const VkValidationFeatureDisableEXT disabled = VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT;
+  features.disabledValidationFeatureCount = byGpu ? 1 : 0;
+  features.pDisabledValidationFeatures = &disabled;
   const char* const layers[] = {kValidationLayer};
   const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   if (variable) {

@@ -42,7 +42,9 @@ std::map<std::string, std::string> options(const std::string& command) {
                  .substr(0, kColumn)
                  .substr(std::min<std::size_t>(kColumn, static_cast<std::size_t>(match.position(2))));
     }
-    head = std::regex_replace(head, std::regex(",\\.\\.\\.| (\\.\\.\\.|REQUIRED)|=\\S+| (Needs|Excludes):.*| +$"), "");
+    // Some versions of CLI11 print the default, which may differ, beside the values.
+    head = std::regex_replace(
+        head, std::regex(" \\[[^\\]]*\\]|,\\.\\.\\.| (\\.\\.\\.|REQUIRED)|=\\S+| (Needs|Excludes):.*| +$"), "");
     found[match[1]] = head + " | " + description;
   }
   return found;

@@ -21,7 +21,7 @@ std::string messageOr(const std::string& message, const char* otherwise) {
 std::string readImage(const std::string& path, Image& image) {
   try {
     ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);  // colours as they are in the file, not multiplied by alpha
+    config.attribute("oiio:UnassociatedAlpha", 1);  // as stored, not multiplied by alpha
     const auto input = ImageInput::open(path, &config);
     if (!input) return messageOr(OIIO::geterror(), "unknown format");
     const ImageSpec spec = input->spec();

@@ -31,8 +31,9 @@ int main(int argc, char** argv) {
       if (effects.starts_with("DEPTH=")) parameters.depth = static_cast<std::uint32_t>(std::stoul(effects.substr(6)));
       embree::Renderer renderer(scene, 1);
       renderer.render(method, parameters);  // starts the scheduler
-      CALLGRIND_ZERO_STATS;
+      CALLGRIND_TOGGLE_COLLECT;
       renderer.render(method, parameters);
+      CALLGRIND_TOGGLE_COLLECT;
       CALLGRIND_DUMP_STATS_AT("image");
     }
   } catch (const Error& error) {

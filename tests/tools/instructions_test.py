@@ -67,7 +67,7 @@ class Instructions(unittest.TestCase):
         for old in self.folder.glob("callgrind*"):
             old.unlink()
         run("valgrind", "--tool=callgrind", f"--callgrind-out-file={out}",
-            "--toggle-collect=malus::embree::Renderer::render*", kProbe, *(a for p in images for a in p))
+            "--collect-atstart=no", kProbe, *(a for p in images for a in p))
         found = []
         for i in range(1, len(images) + 1):
             text = (self.folder / f"callgrind.{i}").read_text(errors="replace")

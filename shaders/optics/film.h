@@ -25,6 +25,13 @@ FN FilmInterface filmInterface(real kSq, Complex qj, Complex qk, Complex differe
   return f;
 }
 
+// Scales an amplitude whose components exceed 1, as rounding makes them where 1 + r12 r23 e nearly vanishes, so that no
+// product of two amplitudes overflows.
+FN Complex limitComponents(Complex a) {
+  real scale = R(1.0) / maxR(R(1.0), maxR(absR(a.re), absR(a.im)));
+  return makeComplex(a.re * scale, a.im * scale);
+}
+
 // Reflection and transmission of a film of index nf between a medium of index n1 and one of index n3 - i k3.
 // c: cosine of the angle of incidence in the first medium; roundTripPhase: twice the film's thickness over the
 // wavelength in vacuum, the phase of a round trip at normal incidence in units of 2 pi / nf.
@@ -55,6 +62,8 @@ FN Film thinFilm(real c, real n1, real nf, real roundTripPhase, real n3, real k3
   Complex pSum = complexAdd(one, complexMul(a.rp, pBelow));
   Complex rs = complexDiv(complexAdd(a.rs, sBelow), sSum);
   Complex rp = complexDiv(complexAdd(a.rp, pBelow), pSum);
+  rs = limitComponents(rs);
+  rp = limitComponents(rp);
   mask total = andM(equalR(k3, R(0.0)), lessR(e3Re + c * c, R(0.0)));
   Film f;
   f.reflected.rs = selectR(total, R(1.0), minR(complexNormSq(rs), R(1.0)));

@@ -38,7 +38,6 @@ struct CompiledEffect {
 inline constexpr auto kCompiledEffects = std::to_array<CompiledEffect>({
 #define MALUS_SURFACE_ROW(id, macro, build, name, alias, description) {"MALUS_EFFECT_" #macro, #id, true, #build},
 #define MALUS_SHADER_ROW(id, macro, build, name, alias, description) {"MALUS_EFFECT_" #macro, #id, false, #build},
-#define MALUS_RULE_ROW(id, name, alias, description)
 #include "shaders/effects.def"
 });
 

@@ -39,8 +39,6 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
     const Material& material = materials[hit.material];
 #endif
     switch (material.kind) {
-#define MALUS_SHADER_ROW(...)
-#define MALUS_RULE_ROW(...)
 #define MALUS_SURFACE_ROW(id, macro, ...) MALUS_SURFACE_CASE(MALUS_EFFECT_##macro, id)
 #include "shaders/effects.def"
       default:  // no other kind is in a scene that this build renders

@@ -12,7 +12,6 @@ namespace malus::embree {
 static constexpr std::uint32_t kTileEffects = 0
 #define MALUS_SHADER_ROW(id, macro, build, name, alias, description) \
   | (MALUS_EFFECT_##macro * shaders::effectBit(shaders::Effect::k##id))
-#define MALUS_RULE_ROW(id, name, alias, description)
 #include "shaders/effects.def"
     ;
 

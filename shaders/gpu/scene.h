@@ -29,8 +29,6 @@ using word = uint;
 #ifdef __cplusplus
 enum SurfaceKind : uint {
 #define MALUS_SURFACE_ROW(id, macro, build, name, alias, description) k##id,
-#define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
-#define MALUS_RULE_ROW(id, name, alias, description)
 #include "shaders/effects.def"
   kSurfaceKinds
 };

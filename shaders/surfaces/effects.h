@@ -1,5 +1,4 @@
 // Effects compiled into this build, as constants kEffect<id>: the compiler removes a branch on one that is false. The
 // macros come from the build (C++) or from the variant's preamble (GLSL). #if remains where a buffer does not exist.
 #define MALUS_SHADER_ROW(id, macro, build, name, alias, description) CONST bool kEffect##id = MALUS_EFFECT_##macro != 0;
-#define MALUS_RULE_ROW(id, name, alias, description)
 #include "shaders/effects.def"

@@ -75,8 +75,6 @@ FN Payload shadeTransmitting(IN(Hit) h, IN(Scattering) s) {
 
 // Light that each kind of surface sends toward the camera. Surfaces that transmit are black where no specular
 // interaction is left.
-#define MALUS_RULE_ROW(id, name, alias, description)
-#define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
 #define MALUS_SOURCE_ROW(id, macro, build, name, alias, description)
 #define MALUS_SURFACE_ROW(id, macro, build, name, alias, description)      \
   FN Payload shade##id(INOUT(Hit) h, IN(Material) m) {                     \

@@ -26,8 +26,6 @@ FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
 
 // The light of a surface that ends the path.
 FN Payload shadeSource(IN(Hit) h, IN(Material) m) {
-#define MALUS_RULE_ROW(id, name, alias, description)
-#define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
 #define MALUS_SURFACE_ROW(id, macro, build, name, alias, description)
 #define MALUS_SOURCE_ROW(id, macro, build, name, alias, description) \
   if (kEffect##id) {                                                 \

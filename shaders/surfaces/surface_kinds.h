@@ -2,8 +2,6 @@
 
 // Whether a surface ends the path: it emits, or is diffuse without an interface.
 FN bool isSource(word kind) {
-#define MALUS_RULE_ROW(id, name, alias, description)
-#define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
 #define MALUS_SURFACE_ROW(id, macro, build, name, alias, description)
 #define MALUS_SOURCE_ROW(id, macro, build, name, alias, description) \
   if (kEffect##id) {                                                 \
@@ -18,8 +16,6 @@ FN bool hasBase(word kind) { return kind == kPaint || kind == kMetal; }
 
 // Scattering of a surface that is not a source.
 FN Scattering surfaceScattering(INOUT(Hit) h, IN(Material) m) {
-#define MALUS_RULE_ROW(id, name, alias, description)
-#define MALUS_SHADER_ROW(id, macro, build, name, alias, description)
 #define MALUS_SOURCE_ROW(id, macro, build, name, alias, description)
 #define MALUS_SURFACE_ROW(id, macro, build, name, alias, description) \
   if (kEffect##id) {                                                  \

@@ -7,23 +7,11 @@
 
 #include "meshprep/base/error.h"
 #include "render/vulkan/renderer.h"
-#include "tests/render/test_scene.h"
+#include "tests/render/vulkan/scenes.h"
 #include "tests/render/vulkan/vulkan_calls.h"
 
 namespace malus::vulkan {
 namespace {
-
-// A metal square with a point light: a trace with a shadow ray, and few shaders to compile.
-pack::Scene makeScene() {
-  pack::Scene scene = test::emptyScene(1);
-  scene.width = scene.height = 4;
-  scene.environment.radiance = {0.2, 0.3, 0.5};
-  const auto gold = test::addMaterial(scene, test::metal({0.18, 0.54, 1.33}, {3.4, 2.2, 1.9}));
-  test::addSquare(scene, gold, {0, 0, 0}, {0, 0, 1}, 1);
-  scene.lights.push_back({{1, 1.5, 2}, {6, 6, 6}});
-  test::look(scene, {0, 0, 4}, {0, 0, 0});
-  return scene;
-}
 
 struct Attempt {
   std::vector<float> pixels;                    // of the last render; empty if there is none
@@ -52,7 +40,7 @@ Attempt attempt(const pack::Scene& scene) {
 }
 
 TEST(VulkanFailures, EachIsReportedAndLeaksNothing) {
-  const pack::Scene scene = makeScene();
+  const pack::Scene scene = test::goldAndPaintScene();
   test::watchVulkanCalls(0);
   const Attempt expected = attempt(scene);
   ASSERT_FALSE(expected.pixels.empty());
@@ -92,7 +80,7 @@ TEST(VulkanFailures, EachIsReportedAndLeaksNothing) {
 }
 
 TEST(VulkanAcceleration, BottomLevelIsCompacted) {
-  const pack::Scene scene = makeScene();
+  const pack::Scene scene = test::goldAndPaintScene();
   const std::vector<float> expected = attempt(scene).pixels;
   test::watchVulkanCalls(0);
   test::padStructures(4096);

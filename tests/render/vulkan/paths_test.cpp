@@ -12,7 +12,7 @@
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
 #include "tests/render/vulkan/limits.h"
-#include "tests/render/vulkan/mixed_scene.h"
+#include "tests/render/vulkan/scenes.h"
 
 namespace malus::vulkan {
 namespace {

@@ -16,28 +16,19 @@
 #include "meshprep/base/atomic_file.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
-#include "tests/render/test_scene.h"
+#include "tests/render/vulkan/scenes.h"
 #include "tests/render/vulkan/vulkan_calls.h"
 
 namespace malus::vulkan {
 namespace {
 namespace fs = std::filesystem;
 
-pack::Scene makeScene() {
-  pack::Scene scene = test::emptyScene(1);
-  scene.width = scene.height = 4;
-  scene.environment.radiance = {0.2, 0.3, 0.5};
-  const auto gold = test::addMaterial(scene, test::metal({0.18, 0.54, 1.33}, {3.4, 2.2, 1.9}));
-  test::addSquare(scene, gold, {0, 0, 0}, {0, 0, 1}, 1);
-  test::look(scene, {0, 0, 4}, {0, 0, 0});
-  return scene;
-}
-
 // A cache folder for each test.
 class VulkanPipelineCache : public testing::Test {
  protected:
   VulkanPipelineCache()
-      : folder_(fs::temp_directory_path() / ("malus-pipelines-" + std::to_string(::getpid()))), scene_(makeScene()) {
+      : folder_(fs::temp_directory_path() / ("malus-pipelines-" + std::to_string(::getpid()))),
+        scene_(test::goldScene()) {
     fs::create_directories(folder_);
     ::setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
     test::watchVulkanCalls(0);

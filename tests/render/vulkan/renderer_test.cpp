@@ -12,7 +12,7 @@
 #include "meshprep/base/error.h"
 #include "render/embree/renderer.h"
 #include "render/scene/methods.h"
-#include "tests/render/vulkan/mixed_scene.h"
+#include "tests/render/vulkan/scenes.h"
 
 namespace malus::vulkan {
 namespace {

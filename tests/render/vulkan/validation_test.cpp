@@ -13,8 +13,8 @@
 
 #include "meshprep/base/error.h"
 #include "render/vulkan/renderer.h"
-#include "tests/render/test_scene.h"
 #include "tests/render/vulkan/compute_program.h"
+#include "tests/render/vulkan/scenes.h"
 
 namespace malus::vulkan {
 namespace {
@@ -64,15 +64,8 @@ TEST(VulkanValidation, FindsWritesOutsideABuffer) {
 }
 
 TEST(VulkanValidation, FindsNothingInRenders) {
-  pack::Scene scene = test::emptyScene(2);
+  pack::Scene scene = test::goldAndPaintScene();
   scene.width = scene.height = 8;
-  scene.environment.radiance = {0.2, 0.3, 0.5};
-  const auto gold = test::addMaterial(scene, test::metal({0.18, 0.54, 1.33}, {3.4, 2.2, 1.9}));
-  const auto paint = test::addMaterial(scene, test::dielectric(pack::MaterialKind::paint, 1.5, 0.6));
-  test::addSquare(scene, gold, {0, 0, 0}, {0, 0, 1}, 1);
-  test::addSquare(scene, paint, {0, -1, 0}, {0, 1, 0.2}, 2);
-  scene.lights.push_back({{1, 1.5, 2}, {6, 6, 6}});
-  test::look(scene, {0.3, 0.2, 4}, {0, 0, 0});
   Renderer renderer(scene, {});
   for (const char* method : {"stokes", "importance"})
     EXPECT_NO_THROW(renderer.render(method, render::defaultParameters(scene))) << method;

@@ -1,4 +1,4 @@
-// Scenes of several kinds of surface, for tests that compare images of the Vulkan renderer.
+// Scenes for the tests of the Vulkan renderer.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -6,6 +6,29 @@
 #include "tests/render/test_scene.h"
 
 namespace malus::test {
+
+// A gold square in front of an environment: few shaders to compile.
+inline pack::Scene goldScene() {
+  pack::Scene scene = emptyScene(1);
+  scene.width = scene.height = 4;
+  scene.camera.verticalFovDegrees = 50;
+  scene.environment.radiance = {0.2, 0.3, 0.5};
+  const auto gold = addMaterial(scene, metal({0.18, 0.54, 1.33}, {3.4, 2.2, 1.9}));
+  addSquare(scene, gold, {0, 0, 0}, {0, 0, 1}, 1);
+  look(scene, {0, 0, 4}, {0, 0, 0});
+  return scene;
+}
+
+// The same above a paint floor, with a point light: reflections, shadow rays and diffuse light.
+inline pack::Scene goldAndPaintScene() {
+  pack::Scene scene = goldScene();
+  scene.depth = 2;
+  const auto paint = addMaterial(scene, dielectric(pack::MaterialKind::paint, 1.5, 0.6));
+  addSquare(scene, paint, {0, -1, 0}, {0, 1, 0.2}, 2);
+  scene.lights.push_back({{1, 1.5, 2}, {6, 6, 6}});
+  look(scene, {0.3, 0.2, 4}, {0, 0, 0});
+  return scene;
+}
 
 // A paint floor, a glass pane, a metal wall, a lambert wall, an emitter and a point light.
 inline pack::Scene mixedScene() {

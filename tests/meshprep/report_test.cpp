@@ -49,7 +49,7 @@ TEST(Report, WritesAllFieldsAsJson) {
   EXPECT_TRUE(test::contains(toText(report), "component 2", "3 open edges", "first at a", "close it"));
 
   report.compression.method = "sequential";
-  report.compression.sequentialReason = "edgebreaker is no smaller";
+  report.compression.sequentialReason = "edgebreaker is not smaller";
   report.compression.bytes = 330;
   report.compression.positionBits = 21;
   report.compression.normalBits = 13;
@@ -66,7 +66,7 @@ TEST(Report, WritesAllFieldsAsJson) {
   EXPECT_EQ(json["compression"]["positionBits"], 21);
   const std::string text = toText(report);
   EXPECT_TRUE(test::contains(text, "30.00 per triangle")) << text;
-  EXPECT_TRUE(test::contains(text, "sequential", "edgebreaker is no smaller")) << text;
+  EXPECT_TRUE(test::contains(text, "sequential", "edgebreaker is not smaller")) << text;
   EXPECT_TRUE(test::contains(text, "21 positions, 13 normals")) << text;
   EXPECT_TRUE(test::contains(text, "tilt of a face", "0.25 degrees")) << text;
   EXPECT_TRUE(test::contains(text, "warning: faces are tilted")) << text;

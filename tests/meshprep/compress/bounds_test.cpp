@@ -310,7 +310,7 @@ TEST(SourceMap, GivesTheReasonAgainstEdgebreaker) {
   const TriangleMesh mesh = makeMesh(degenerate, false);
   EXPECT_TRUE(contains(encode(mesh, {gridFor(mesh.positions, 20), 12}).sequentialReason, "degenerate"));
   const TriangleMesh one = sliver(1);
-  EXPECT_EQ(encode(one, {gridFor(one.positions, 20), 12}).sequentialReason, "edgebreaker is no smaller");
+  EXPECT_EQ(encode(one, {gridFor(one.positions, 20), 12}).sequentialReason, "edgebreaker is not smaller");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/console.h"
@@ -77,8 +78,8 @@ void showDevices(const Arguments& a) {
   std::error_code failed;
   fs::create_directories(a.output, failed);
   if (failed) throw Error(a.output, "cannot create the folder", "a writable place", failed.message());
-  std::vector<std::string> arguments = a.shown;
-  arguments.insert(arguments.begin(), a.output);
+  std::vector<std::string> arguments = {a.output, fmt::format("{}", fmt::join(methodNames(), ","))};
+  arguments.insert(arguments.end(), a.shown.begin(), a.shown.end());
   runReportScript("devices_report.py", arguments, "", "cannot write the report");
   fmt::print("report: {}\n", (fs::path(a.output) / "index.html").string());
 }

@@ -7,7 +7,6 @@ The page is self-contained: plots are SVG, images are data URIs, style and scrip
 1 failed (one line on stderr), 2 usage. Debian packages: python3-matplotlib, python3-jinja2, python3-numpy,
 python3-openimageio.
 """
-import os
 import pathlib
 import sys
 
@@ -20,7 +19,7 @@ def main() -> int:
         return 2
     folder = pathlib.Path(sys.argv[1])
     try:
-        from report_data import ReportError, read_results
+        from report_data import ReportError, read_results, write_page
     except ImportError as error:
         print(f"compare_report: {error}", file=sys.stderr)
         return 1
@@ -31,15 +30,7 @@ def main() -> int:
         except ImportError as error:
             raise ReportError(f"{error.name}: cannot be imported by {sys.executable}; install python3-matplotlib, "
                               "python3-jinja2, python3-numpy and python3-openimageio") from None
-        # Write to a temporary file and rename it, so that an interruption leaves no partial page.
-        unfinished = folder / "index.html.part"
-        try:
-            unfinished.write_text(page(folder, results), encoding="utf-8")
-            os.replace(unfinished, folder / "index.html")
-        except OSError as error:
-            raise ReportError(f"{error.filename or unfinished}: {error.strerror}") from None
-        finally:
-            unfinished.unlink(missing_ok=True)
+        write_page(folder, page(folder, results))
     except ReportError as error:
         print(f"compare_report: {error}", file=sys.stderr)
         return 1

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Writes the page of `malus compare --show`: FOLDER/index.html, results of several devices side by side.
 
-    devices_report.py FOLDER RESULTS...
+    devices_report.py FOLDER METHOD,... RESULTS...
 
-One column per device and renderer, one table per scene; of several views the largest is taken. Exit codes: 0 done,
+METHOD,...: the order of the rows. One column per device and renderer, one table per scene; of several views the largest is taken. Exit codes: 0 done,
 1 failed (one line on stderr), 2 usage. Debian package: python3-jinja2.
 """
 import pathlib
@@ -11,7 +11,7 @@ import sys
 
 sys.dont_write_bytecode = True  # the folder of the script may be read-only
 
-from report_data import ReportError, number, read_results_file  # noqa: E402
+from report_data import ReportError, number, read_results_file, write_page  # noqa: E402
 
 kHere = pathlib.Path(__file__).resolve().parent
 
@@ -48,21 +48,23 @@ class Column:
         return f"{ratio:.3f} ({low:.3f}–{high:.3f}), {ms:.2f} ms"
 
 
-def scene_tables(files: list) -> list:
-    """Returns (scene, columns, names of the rows) of each scene."""
+def scene_tables(files: list, methods: list) -> list:
+    """Returns (scene, columns, names of the rows) of each scene: methods in their order, then second paths."""
+    def place(name):
+        method = name.split(", ")[0]
+        return ", " in name, methods.index(method) if method in methods else len(methods), name
     tables = []
     for scene in dict.fromkeys(name for results in files for name in results["scenes"]):
         columns = [Column(results, scene, renderer) for results in files
                    for renderer in dict.fromkeys(r["renderer"] for r in results["rows"] if r["scene"] == scene)]
-        names = list(dict.fromkeys(name for column in columns for name in column.rows))
         if columns:
-            tables.append((scene, columns, sorted(names, key=lambda n: ", " in n)))
+            tables.append((scene, columns, sorted({name for column in columns for name in column.rows}, key=place)))
     return tables
 
 
 def main() -> int:
-    if len(sys.argv) < 3 or sys.argv[1].startswith("-"):
-        print("usage: devices_report.py FOLDER RESULTS...", file=sys.stderr)
+    if len(sys.argv) < 4 or sys.argv[1].startswith("-"):
+        print("usage: devices_report.py FOLDER METHOD,... RESULTS...", file=sys.stderr)
         return 2
     try:
         import jinja2
@@ -72,17 +74,14 @@ def main() -> int:
               file=sys.stderr)
         return 1
     try:
-        files = [read_results_file(pathlib.Path(path)) for path in sys.argv[2:]]
+        files = [read_results_file(pathlib.Path(path)) for path in sys.argv[3:]]
         environment = jinja2.Environment(loader=jinja2.FileSystemLoader(kHere / "templates"), autoescape=True,
                                          trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
         text = environment.get_template("devices.html.j2").render(
-            tables=scene_tables(files), style=Markup((kHere / "report.css").read_text(encoding="utf-8")))
-        (pathlib.Path(sys.argv[1]) / "index.html").write_text(text, encoding="utf-8")
+            tables=scene_tables(files, sys.argv[2].split(",")), style=Markup((kHere / "report.css").read_text(encoding="utf-8")))
+        write_page(pathlib.Path(sys.argv[1]), text)
     except ReportError as error:
         print(f"devices_report: {error}", file=sys.stderr)
-        return 1
-    except OSError as error:
-        print(f"devices_report: {error.filename}: {error.strerror}", file=sys.stderr)
         return 1
     return 0
 

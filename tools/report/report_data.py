@@ -1,6 +1,7 @@
 """Reads and validates results.json, and groups the rows that may be compared with each other."""
 import json
 import math
+import os
 import pathlib
 from dataclasses import dataclass, field
 
@@ -72,6 +73,18 @@ def read_results_file(path: pathlib.Path) -> dict:
             if not isinstance(reference, dict) or name not in reference:
                 raise ReportError(f"{path}: reference {at} has no '{name}'")
     return results
+
+
+def write_page(folder: pathlib.Path, text: str) -> None:
+    """Writes FOLDER/index.html under another name and renames it, so that an interruption leaves no partial page."""
+    unfinished = folder / "index.html.part"
+    try:
+        unfinished.write_text(text, encoding="utf-8")
+        os.replace(unfinished, folder / "index.html")
+    except OSError as error:
+        raise ReportError(f"{error.filename or unfinished}: {error.strerror}") from None
+    finally:
+        unfinished.unlink(missing_ok=True)
 
 
 def group_rows(results: dict) -> list:

@@ -12,7 +12,8 @@
 namespace malus::pack {
 
 inline constexpr std::array<char, 8> kMagic = {'M', 'A', 'L', 'U', 'S', 'P', 'A', 'K'};
-inline constexpr std::uint32_t kFormatVersion = 1;
+inline constexpr std::uint32_t kFormatVersion = 2;        // written
+inline constexpr std::uint32_t kOldestFormatVersion = 1;  // read
 inline constexpr std::size_t kHeaderBytes = 40;
 inline constexpr std::size_t kEntryBytes = 40;
 inline constexpr std::size_t kAlignment = 16;

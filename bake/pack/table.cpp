@@ -75,11 +75,12 @@ void readTable(std::span<const std::byte> bytes, std::string_view where, Pack& p
   ByteReader header(bytes, 0, where);
   header.raw(kMagic.size());
   pack.formatVersion = header.u32();
-  if (pack.formatVersion != kFormatVersion)
+  if (pack.formatVersion < kOldestFormatVersion || pack.formatVersion > kFormatVersion)
     throw Error(where,
                 pack.formatVersion > kFormatVersion ? "scene pack is newer than this malus"
                                                     : "scene pack is older than this malus reads",
-                fmt::format("format version {}", kFormatVersion), fmt::format("{}", pack.formatVersion));
+                fmt::format("format version {} to {}", kOldestFormatVersion, kFormatVersion),
+                fmt::format("{}", pack.formatVersion));
   const std::uint32_t count = header.u32AtMost(kMaxSections, "number of sections");
   const std::uint64_t fileBytes = header.u64();
   const std::uint64_t tableHash = header.u64();

@@ -24,7 +24,7 @@ pack::Scene sceneWithUnknownEffect() {
 TEST(Info, JsonHasTheDocumentedKeys) {
   const pack::Pack pack = writeAndParse(sceneWithUnknownEffect());
   const json info = infoJson(pack);
-  EXPECT_EQ(info.at("formatVersion"), 1);
+  EXPECT_EQ(info.at("formatVersion"), pack::kFormatVersion);
   EXPECT_EQ(info.at("name"), "small");
   EXPECT_EQ(info.at("title"), "A title with \xc3\xa4");
   EXPECT_EQ(info.at("resolution"), json({64, 48}));

@@ -56,7 +56,7 @@ inline void fixHashes(Bytes& pack) {
   setNumber(pack, 32, hashBytes(std::span<const std::byte>(pack).first(32)));
 }
 
-inline Bytes putTogether(const std::vector<RawSection>& sections, std::uint32_t formatVersion = 1) {
+inline Bytes putTogether(const std::vector<RawSection>& sections, std::uint32_t formatVersion = kFormatVersion) {
   Bytes pack(40 + 40 * sections.size());
   std::memcpy(pack.data(), "MALUSPAK", 8);
   setNumber(pack, 8, formatVersion);

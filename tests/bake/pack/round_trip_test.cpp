@@ -122,6 +122,17 @@ TEST(PackRoundTrip, OldPackStillOpens) {
   EXPECT_EQ(canonicalGeometryHash(pack.scene), 0x486e021ecfc24adfu);  // as printed by the version that wrote it
 }
 
+// A pack of format version 1: one grid for all meshes, in Draco's quantization.
+TEST(PackRoundTrip, Version1StillOpens) {
+  const Pack pack = read(std::filesystem::path(MALUS_TEST_PACKS) / "version-1.pack");
+  EXPECT_EQ(pack.formatVersion, 1u);
+  EXPECT_EQ(pack.scene.name, "cornell-box");
+  ASSERT_EQ(pack.scene.meshes.size(), 8u);
+  EXPECT_EQ(pack.scene.triangleCount(), 38u);
+  EXPECT_EQ(pack.scene.vertexCount(), 74u);
+  EXPECT_EQ(canonicalGeometryHash(pack.scene), 0x57971f2885af534fu);  // as printed by the version that wrote it
+}
+
 // Optional sections are only written if they are needed.
 TEST(PackRoundTrip, UnusedOptionalSectionsAreNotWritten) {
   const Pack pack = parse(serialize(smallScene(), {}).bytes, "test");

@@ -158,7 +158,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   } else {
     progress("baking the environment");
     bakeEnvironment(image::read(d.environmentImage), d.environmentImage.string(), d.environmentScale,
-                    d.environmentRotationDegrees, scene.environment);
+                    d.environmentRotationDegrees, scene.environment, baked.notes);
   }
   scene.environment.sun = d.sun;
   scene.environment.skyDegree = d.skyDegree;
@@ -167,7 +167,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   for (const TextureDescription& texture : d.textures) {
     const std::string name = texture.file.lexically_relative(d.file.parent_path()).string();
     progress(fmt::format("baking {}", name));
-    scene.textures.push_back(bakeTexture(image::read(texture.file), texture, name));
+    scene.textures.push_back(bakeTexture(image::read(texture.file), texture, name, baked.notes));
   }
   for (pack::Material& m : scene.materials) m.maps.origin -= m.maps.any() ? scene.origin : glm::dvec3(0.0);
   scene.effects = findEffects(scene);

@@ -32,7 +32,7 @@ Baked bake(const SceneDescription& description, const pack::WriteSettings& setti
            const std::function<void(std::string_view)>& progress, const BakeOptions& options = {});
 
 // Raise this number when the pack of the same sources changes (tests/bake/golden.json).
-inline constexpr int kBakerRevision = 4;
+inline constexpr int kBakerRevision = 5;
 
 // JSON with the versions, the settings and the hashes of all sources and of the files that they refer to. Throws Error
 // for a source that cannot be read.

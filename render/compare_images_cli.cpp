@@ -1,5 +1,6 @@
 #include "render/compare_images_cli.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -9,8 +10,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/image.h"
+#include "meshprep/base/image_colour.h"
 #include "render/compare/image_difference.h"
 #include "render/image/output.h"
 #include "render/options.h"
@@ -44,8 +47,15 @@ void printDifference(const CompareImagesArguments& arguments, const ImageDiffere
   fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
+image::Image readLinear(const std::string& file, const std::vector<std::string>& channels) {
+  image::Image image = image::read(file);
+  const bool comparesAlpha = std::find(channels.begin(), channels.end(), "A") != channels.end();
+  for (const std::string& note : image::makeLinear(image, file, comparesAlpha)) console::warn(note);
+  return image;
+}
+
 void runCompareImages(const CompareImagesArguments& arguments) {
-  const image::Image a = image::read(arguments.a), b = image::read(arguments.b);
+  const image::Image a = readLinear(arguments.a, arguments.channels), b = readLinear(arguments.b, arguments.channels);
   ImageDifference d;
   try {
     d = difference(a, b, arguments.channels, arguments.threshold);
@@ -62,7 +72,7 @@ void runCompareImages(const CompareImagesArguments& arguments) {
 
 void addCompareImagesCommand(CLI::App& app) {
   auto a = std::make_shared<CompareImagesArguments>();
-  CLI::App* command = app.add_subcommand("compare-images", "Measure the difference of two images");
+  CLI::App* command = app.add_subcommand("compare-images", "Measure the difference of two images, in linear light");
   command->add_option("a", a->a, "First image")->required()->type_name("FILE");
   command->add_option("b", a->b, "Second image")->required()->type_name("FILE");
   command->add_option("--channels", a->channels, "Channels to compare")->capture_default_str();

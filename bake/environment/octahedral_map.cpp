@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "bake/pack/half.h"
+#include "bake/pack/format.h"
+#include "bake/pack/texel_storage.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/image_colour.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::bake {
@@ -19,31 +21,34 @@ constexpr double kPi = std::numbers::pi;
 // The image as a function of direction.
 class LatLong {
  public:
-  LatLong(const image::Image& image, std::string_view where, double scale)
+  LatLong(const image::Image& image, std::string_view where, double scale, std::vector<std::string>& notes)
       : width_(image.width), height_(image.height) {
-    const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
-    if (r < 0 || g < 0 || b < 0)
-      throw Error(where, "environment image has no colour", "channels R, G and B",
-                  fmt::format("{}", fmt::join(image.channels, ", ")));
-    const auto channels = image.channels.size();
+    const image::LinearColours colours(image, where);
+    notes.insert(notes.end(), colours.notes().begin(), colours.notes().end());
     texels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     for (std::size_t i = 0; i < texels_.size(); ++i) {
-      const float* p = image.pixels.data() + i * channels;
-      const glm::dvec3 value(p[r], p[g], p[b]);
-      for (int c = 0; c < 3; ++c)
-        if (!std::isfinite(value[c]) || value[c] < 0)
+      const std::array<double, 3> linear = colours.at(i);
+      for (int c = 0; c < 3; ++c) {
+        const double value = linear[static_cast<std::size_t>(c)], radiance = value * scale;
+        // Written so that a NaN fails.
+        if (!(value >= 0 && radiance <= pack::kMaxLight))
           throw Error(where,
                       fmt::format("environment texel {}, {}", i % static_cast<std::size_t>(width_),
                                   i / static_cast<std::size_t>(width_)),
-                      "a finite radiance of 0 or more", fmt::format("{}", value[c]));
-      texels_[i] = value * scale;
+                      fmt::format("a radiance of 0 to {:g} after 'scale'", pack::kMaxLight),
+                      fmt::format("{:g}", radiance));
+        texels_[i][c] = radiance;
+      }
     }
   }
 
-  // Bilinear; columns wrap around, rows end at the poles.
   glm::dvec3 at(const glm::dvec3& d) const {
     const double u = 0.5 + std::atan2(d.x, -d.z) / (2 * kPi), v = std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi;
-    const double x = u * width_ - 0.5, y = v * height_ - 0.5;
+    return interpolate(u * width_, v * height_);
+  }
+  // Bilinear, at a position in texels; columns wrap around, rows end at the poles.
+  glm::dvec3 interpolate(double column, double row) const {
+    const double x = column - 0.5, y = row - 0.5;
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const double fx = x - x0, fy = y - y0;
     return (texel(x0, y0) * (1 - fx) + texel(x0 + 1, y0) * fx) * (1 - fy) +
@@ -87,21 +92,50 @@ struct Moments {
   }
 };
 
+// Sides of the octahedral map, in texels.
+constexpr int kLeastSide = 64, kMostSide = 1024;
+// The irradiance is summed over at least so many rows.
+constexpr int kLeastRows = 512;
+
+// Sums over the texels of the image, or of smaller parts of a small image, each weighted by its solid angle.
+std::array<glm::dvec3, 9> irradiance(const LatLong& source, double rotationDegrees) {
+  const auto parts = [](int count, int least) { return (least + count - 1) / count; };
+  const int across = parts(source.width(), 2 * kLeastRows), down = parts(source.height(), kLeastRows);
+  const int columns = source.width() * across, rows = source.height() * down;
+  Moments moments;
+  for (int y = 0; y < rows; ++y) {
+    const double top = kPi * y / rows, bottom = kPi * (y + 1) / rows, middle = (top + bottom) / 2;
+    const double solidAngle = (std::cos(top) - std::cos(bottom)) * 2 * kPi / columns;
+    for (int x = 0; x < columns; ++x) {
+      const double azimuth = ((x + 0.5) / columns - 0.5) * 2 * kPi;
+      const glm::dvec3 d(std::sin(middle) * std::sin(azimuth), std::cos(middle), -std::sin(middle) * std::cos(azimuth));
+      const glm::dvec3 radiance =
+          across == 1 && down == 1 ? source.texel(x, y) : source.interpolate((x + 0.5) / across, (y + 0.5) / down);
+      moments.add(rotateAboutY(d, rotationDegrees), radiance * solidAngle);
+    }
+  }
+  return moments.coefficients();
+}
+
 }  // namespace
 
 void bakeEnvironment(const image::Image& image, std::string_view where, double scale, double rotationDegrees,
-                     pack::Environment& environment) {
-  const LatLong source(image, where, scale);
-  const int size = std::min(source.height(), 1024);
+                     pack::Environment& environment, std::vector<std::string>& notes) {
+  const LatLong source(image, where, scale, notes);
+  // A texel of the octahedral map is as wide as 1.13 rows of an image of the same height. A small map would blur the
+  // image's own interpolation.
+  const int rows = std::max(source.height(), (source.width() + 1) / 2), size = std::clamp(rows, kLeastSide, kMostSide);
+  const int samples = std::max(2, static_cast<int>(std::ceil(1.13 * rows / size)));
 
-  // Each texel is the mean of a 2 x 2 grid over its area.
+  // Each texel is the mean of a grid of samples over its area, so that none of the image's texels is missed.
   const auto texelAt = [&](int i, int j) {
     glm::dvec3 sum(0.0);
-    for (const double dv : {0.25, 0.75})
-      for (const double du : {0.25, 0.75})
-        sum +=
-            source.at(rotateAboutY(f64::directionFromOctahedral((i + du) / size, (j + dv) / size), -rotationDegrees));
-    return sum * 0.25;
+    for (int b = 0; b < samples; ++b)
+      for (int a = 0; a < samples; ++a)
+        sum += source.at(rotateAboutY(
+            f64::directionFromOctahedral((i + (a + 0.5) / samples) / size, (j + (b + 0.5) / samples) / size),
+            -rotationDegrees));
+    return sum * (1.0 / (samples * samples));
   };
   environment.size = static_cast<std::uint32_t>(size);
   const int row = size + 2;
@@ -111,11 +145,7 @@ void bakeEnvironment(const image::Image& image, std::string_view where, double s
         .texels[static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(row) + static_cast<std::size_t>(i + 1)];
   };
   for (int j = 0; j < size; ++j)
-    for (int i = 0; i < size; ++i) {
-      const glm::dvec3 value = texelAt(i, j);
-      for (int c = 0; c < 3; ++c)
-        slot(i, j)[c] = pack::floatFromHalf(pack::halfFromFloat(static_cast<float>(value[c])));
-    }
+    for (int i = 0; i < size; ++i) slot(i, j) = glm::vec3(texelAt(i, j));
 
   // The border repeats the texels across the edges: each edge of the square is folded about its middle.
   for (int j = -1; j <= size; ++j)
@@ -126,18 +156,9 @@ void bakeEnvironment(const image::Image& image, std::string_view where, double s
       if (x != i || y != j) slot(i, j) = slot(x, y);
     }
 
-  // Sum the irradiance over the texels of the image, each weighted by its solid angle.
-  Moments moments;
-  for (int y = 0; y < source.height(); ++y) {
-    const double top = kPi * y / source.height(), bottom = kPi * (y + 1) / source.height(), middle = (top + bottom) / 2;
-    const double solidAngle = (std::cos(top) - std::cos(bottom)) * 2 * kPi / source.width();
-    for (int x = 0; x < source.width(); ++x) {
-      const double azimuth = ((x + 0.5) / source.width() - 0.5) * 2 * kPi;
-      const glm::dvec3 d(std::sin(middle) * std::sin(azimuth), std::cos(middle), -std::sin(middle) * std::cos(azimuth));
-      moments.add(rotateAboutY(d, rotationDegrees), source.texel(x, y) * solidAngle);
-    }
-  }
-  environment.irradiance = moments.coefficients();
+  environment.storage = pack::chooseTexelStorage(environment.texels);
+  pack::roundTexels(environment.storage, environment.texels);
+  environment.irradiance = irradiance(source, rotationDegrees);
 }
 
 void bakeConstantEnvironment(const glm::dvec3& radiance, pack::Environment& environment) {

@@ -62,4 +62,13 @@ struct Field {
   constexpr double highInScene() const { return keyLow == keyHigh ? high : keyHigh; }
 };
 
+// A visitor that finds the newest version of a section from the fields of its record.
+struct NewestVersion {
+  std::uint32_t version = 1;
+  template <class T>
+  void operator()(const Field& field, const T&) {
+    if (field.since > version) version = field.since;
+  }
+};
+
 }  // namespace malus::pack

@@ -15,12 +15,12 @@
 
 namespace malus::pack {
 
-// The fields of a material that are in one section of one version; all fields of any other record.
+// The fields of a record that are in one version of a section. section: of a material, which several sections describe.
 struct FieldFilter {
   const char* section = nullptr;
   std::uint32_t version = 1;
   bool takes(const Field& field) const {
-    return section == nullptr || (field.section == section && field.since <= version);
+    return (section == nullptr || field.section == section) && field.since <= version;
   }
 };
 

@@ -39,18 +39,23 @@ void readCamera(ByteReader r, Camera& camera) {
   r.end();
 }
 
-void readEnvironment(ByteReader r, Environment& environment) {
-  visitEnvironment(FieldReader(r), environment);
+void readEnvironment(ByteReader r, std::uint32_t version, Environment& environment) {
+  visitEnvironment(FieldReader(r, {nullptr, version}), environment);
+  const TexelStorage& storage = environment.storage;
+  int exponent = 0;
+  if (std::frexp(storage.scale, &exponent) != 0.5 || (storage.isFloat && storage.scale != 1))
+    r.fail("texelScale", "a power of two; 1 with floats", fmt::format("{:g}", storage.scale));
   if (environment.size > 0) {
-    const std::uint64_t side = environment.size + 2;
-    if (r.left() != side * side * 6)
-      r.fail("environment texels", fmt::format("{} bytes", side * side * 6), fmt::format("{}", r.left()));
+    const std::uint64_t side = environment.size + 2, expected = side * side * (storage.isFloat ? 12 : 6);
+    if (r.left() != expected)
+      r.fail("environment texels", fmt::format("{} bytes", expected), fmt::format("{}", r.left()));
     environment.texels.resize(static_cast<std::size_t>(side * side));
     for (glm::vec3& t : environment.texels)
       for (int i = 0; i < 3; ++i) {
-        t[i] = floatFromHalf(r.u16());
-        if (!std::isfinite(t[i]) || t[i] < 0)
-          r.fail("environment texel is out of range", "a finite radiance of 0 or more", fmt::format("{}", t[i]));
+        t[i] = storage.isFloat ? r.f32() : static_cast<float>(floatFromHalf(r.u16()) * storage.scale);
+        if (!(t[i] >= 0 && t[i] <= static_cast<float>(kMaxLight)))
+          r.fail("environment texel is out of range", fmt::format("a radiance of 0 to {:g}", kMaxLight),
+                 fmt::format("{}", t[i]));
       }
   }
   r.end();
@@ -127,7 +132,8 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
   };
   readMeta(reader(*find(kMeta)), scene);
   readCamera(reader(*find(kCamera)), scene.camera);
-  readEnvironment(reader(*find(kEnvironment)), scene.environment);
+  const Section& environment = *find(kEnvironment);
+  readEnvironment(reader(environment), environment.version, scene.environment);
   readLights(reader(*find(kLights)), scene.lights);
   readMaterials(reader(*find(kMaterials)), scene.materials);
   // Textures come before the surfaces, which bound their values.

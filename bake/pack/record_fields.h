@@ -83,6 +83,14 @@ void visitEnvironment(Visitor&& visit, Environments&... e) {
               .unit = "texels",
               .text = "side of the octahedral map without its border; 0: none"},
         e.size...);
+  visit(Field{.name = "texelFormat", .high = 1, .text = "of a component of a texel: 0 half, 1 float", .since = 2},
+        e.storage.isFloat...);
+  visit(Field{.name = "texelScale",
+              .low = 1e-50,
+              .high = 1e35,
+              .text = "factor of halves, a power of two; 1 with floats",
+              .since = 2},
+        e.storage.scale...);
 }
 
 // SKYP

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "bake/pack/material_kinds.h"
+#include "bake/pack/texel_storage.h"
 
 namespace malus::pack {
 
@@ -87,9 +88,10 @@ struct Camera {
 // Light from infinity: a constant radiance, or an octahedral map with a border of one texel all around that repeats the
 // texels across the map's edges (size + 2 texels per side, row by row).
 struct Environment {
-  glm::dvec3 radiance{0.0};        // if size is 0
-  std::uint32_t size = 0;          // texels per side without the border
-  std::vector<glm::vec3> texels;   // (size + 2)^2, each exactly a half float
+  glm::dvec3 radiance{0.0};       // if size is 0
+  std::uint32_t size = 0;         // texels per side without the border
+  std::vector<glm::vec3> texels;  // (size + 2)^2, each exactly what storage can represent
+  TexelStorage storage;
   double ambientIrradiance = 0.0;  // share of its irradiance that reaches diffuse surfaces
   glm::dvec3 sun{0.0};             // unit vector toward the sun of a Rayleigh sky; 0: none
   double skyDegree = 0;            // its largest degree of polarization

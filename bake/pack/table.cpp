@@ -7,6 +7,7 @@
 
 #include "bake/pack/bytes.h"
 #include "bake/pack/material_fields.h"
+#include "bake/pack/record_fields.h"
 #include "meshprep/base/error.h"
 
 namespace malus::pack {
@@ -21,7 +22,13 @@ std::string idText(std::span<const std::byte> bytes) {
 }
 
 // Newest version of a known section that this malus reads.
-std::uint32_t newestVersion(std::string_view id) { return id == kSurfaces ? newestSurfaceVersion() : 1; }
+std::uint32_t newestVersion(std::string_view id) {
+  if (id == kSurfaces) return newestSurfaceVersion();
+  NewestVersion newest;
+  const Environment environment;
+  if (id == kEnvironment) visitEnvironment(newest, environment);
+  return newest.version;
+}
 
 void requireKnown(std::span<const Section> sections, std::string_view where) {
   for (const Section& section : sections) {

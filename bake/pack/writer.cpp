@@ -39,11 +39,20 @@ std::vector<std::byte> cameraBytes(const Camera& camera) {
   return w.take();
 }
 
+// Version 1 has halves without a scale only.
+std::uint32_t environmentVersion(const Environment& environment) { return environment.storage.isPlain() ? 1 : 2; }
+
 std::vector<std::byte> environmentBytes(const Environment& environment) {
   ByteWriter w;
-  visitEnvironment(FieldWriter(w), environment);
+  visitEnvironment(FieldWriter(w, {nullptr, environmentVersion(environment)}), environment);
+  const TexelStorage& storage = environment.storage;
   for (const glm::vec3& t : environment.texels)
-    for (int i = 0; i < 3; ++i) w.u16(halfFromFloat(t[i]));
+    for (int i = 0; i < 3; ++i) {
+      if (storage.isFloat)
+        w.f32(t[i]);
+      else
+        w.u16(halfFromFloat(static_cast<float>(t[i] / storage.scale)));
+    }
   return w.take();
 }
 
@@ -137,7 +146,7 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
   std::vector<Body> bodies;
   bodies.push_back({kMeta, metaBytes(scene)});
   bodies.push_back({kCamera, cameraBytes(scene.camera)});
-  bodies.push_back({kEnvironment, environmentBytes(scene.environment)});
+  bodies.push_back({kEnvironment, environmentBytes(scene.environment), environmentVersion(scene.environment)});
   bodies.push_back({kLights, lightBytes(scene.lights)});
   bodies.push_back({kMaterials, materialBytes(scene.materials, {kMaterials})});
   // Written only if needed, in the lowest version that suffices: a pack that needs none of it keeps the bytes that it

@@ -44,8 +44,9 @@ struct ImportDescription {
 struct TextureDescription {
   std::filesystem::path file;
   double scale = 1, offset = 0;
-  double low = 0, high = 1;  // bounds of the numbers
-  bool grey = false;         // the green channel is used for every colour
+  double low = 0, high = 1;                    // bounds of the numbers
+  bool grey = false;                           // the green channel is used for every colour
+  bool isColour() const { return high <= 1; }  // an albedo; others are numbers
   friend bool operator==(const TextureDescription&, const TextureDescription&) = default;
 };
 

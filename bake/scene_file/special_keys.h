@@ -32,7 +32,7 @@ inline constexpr SpecialKey kSceneSpecialKeys[] = {
 };
 
 inline constexpr SpecialKey kImageSpecialKeys[] = {
-    {"image", "file", "required", "latitude-longitude image, in any format that OpenImageIO reads"},
+    {"image", "file", "required", "latitude-longitude image, in any format that OpenImageIO reads (below, Images)"},
 };
 
 inline constexpr SpecialKey kLightSpecialKeys[] = {

@@ -16,6 +16,7 @@
 #include <ImfInputFile.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
@@ -86,25 +87,63 @@ void readAttributes(const Imf::Header& header, Image& image) {
   }
 }
 
-// Reads halves and floats as floats, and integers scaled to [0, 1].
-void readPixels(Imf::InputFile& file, const std::vector<Channel>& channels, Image& image) {
+struct Size {
+  std::int64_t width, height;
+  bool isSupported(std::size_t channels) const {
+    return std::max(width, height) <= kMaxSide && static_cast<std::uint64_t>(width * height) * channels <= kMaxValues;
+  }
+};
+Size windowSize(const Imath::Box2i& window) {
+  const auto side = [](int low, int high) { return std::max<std::int64_t>(std::int64_t{high} - low + 1, 0); };
+  return {side(window.min.x, window.max.x), side(window.min.y, window.max.y)};
+}
+
+// Reads the pixels of the data window: halves and floats as floats, integers scaled to [0, 1].
+std::vector<float> readPixels(Imf::InputFile& file, const std::vector<Channel>& channels) {
   const Imath::Box2i window = file.header().dataWindow();
+  const Size size = windowSize(window);
+  std::vector<float> pixels(static_cast<std::size_t>(size.width * size.height) * channels.size());
   const std::size_t pixelBytes = channels.size() * sizeof(float),
-                    rowBytes = pixelBytes * static_cast<std::size_t>(image.width);
+                    rowBytes = pixelBytes * static_cast<std::size_t>(size.width);
   Imf::FrameBuffer buffer;
   for (std::size_t c = 0; c < channels.size(); ++c)
     buffer.insert(channels[c].name, Imf::Slice::Make(channels[c].type == Imf::UINT ? Imf::UINT : Imf::FLOAT,
-                                                     image.pixels.data() + c, window, pixelBytes, rowBytes));
+                                                     pixels.data() + c, window, pixelBytes, rowBytes));
   file.setFrameBuffer(buffer);
   file.readPixels(window.min.y, window.max.y);
   constexpr float kScale = 1.0f / static_cast<float>(std::numeric_limits<std::uint32_t>::max());
   for (std::size_t c = 0; c < channels.size(); ++c)
     if (channels[c].type == Imf::UINT)
-      for (std::size_t i = c; i < image.pixels.size(); i += channels.size()) {
+      for (std::size_t i = c; i < pixels.size(); i += channels.size()) {
         std::uint32_t value = 0;
-        std::memcpy(&value, &image.pixels[i], sizeof value);
-        image.pixels[i] = static_cast<float>(value) * kScale;
+        std::memcpy(&value, &pixels[i], sizeof value);
+        pixels[i] = static_cast<float>(value) * kScale;
       }
+  return pixels;
+}
+
+// Places the pixels of the data window in the display window, which is the image.
+std::vector<float> placeInDisplay(const std::vector<float>& pixels, const Imath::Box2i& data,
+                                  const Imath::Box2i& display, std::size_t channels) {
+  const Size from = windowSize(data), to = windowSize(display);
+  std::vector<float> placed(static_cast<std::size_t>(to.width * to.height) * channels);
+  const std::int64_t left = std::max(data.min.x, display.min.x),
+                     right = std::min<std::int64_t>(data.max.x, display.max.x) + 1;
+  for (std::int64_t y = std::max(data.min.y, display.min.y); y <= std::min(data.max.y, display.max.y) && left < right;
+       ++y) {
+    const auto source =
+        pixels.begin() + ((y - data.min.y) * from.width + left - data.min.x) * static_cast<std::int64_t>(channels);
+    std::copy_n(
+        source, (right - left) * static_cast<std::int64_t>(channels),
+        placed.begin() + ((y - display.min.y) * to.width + left - display.min.x) * static_cast<std::int64_t>(channels));
+  }
+  return placed;
+}
+
+void readChromaticities(const Imf::Header& header, Encoding& encoding) {
+  if (!Imf::hasChromaticities(header)) return;
+  const Imf::Chromaticities& c = Imf::chromaticities(header);
+  encoding.chromaticities = {c.red.x, c.red.y, c.green.x, c.green.y, c.blue.x, c.blue.y, c.white.x, c.white.y};
 }
 
 void insertAttribute(Imf::Header& header, const std::string& name, const Image::Value& value) {
@@ -135,19 +174,20 @@ std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image) {
   try {
     MemoryInput stream(bytes);
     Imf::InputFile file(stream);
-    const Imath::Box2i window = file.header().dataWindow();
-    const auto side = [](int low, int high) { return std::int64_t{high} - low + 1; };
-    const std::int64_t width = side(window.min.x, window.max.x), height = side(window.min.y, window.max.y);
+    const Imath::Box2i data = file.header().dataWindow(), display = file.header().displayWindow();
     const std::vector<Channel> channels = listChannels(file.header());
-    if (std::max(width, height) > kMaxSide || channels.empty() || channels.size() > kMaxChannels ||
-        static_cast<std::uint64_t>(width * height) * channels.size() > kMaxValues)
-      return fmt::format("unsupported size {} x {} with {} channels", width, height, channels.size());
-    image.width = static_cast<int>(width);
-    image.height = static_cast<int>(height);
+    const Size stored = windowSize(data), shown = windowSize(display);
+    for (const Size& size : {stored, shown})
+      if (size.width < 1 || size.height < 1 || !size.isSupported(channels.size()) || channels.empty() ||
+          channels.size() > kMaxChannels)
+        return fmt::format("unsupported size {} x {} with {} channels", size.width, size.height, channels.size());
+    image.width = static_cast<int>(shown.width);
+    image.height = static_cast<int>(shown.height);
     for (const Channel& c : channels) image.channels.push_back(c.name);
-    image.pixels.resize(static_cast<std::size_t>(width * height) * channels.size());
     readAttributes(file.header(), image);
-    readPixels(file, channels, image);
+    readChromaticities(file.header(), image.encoding);
+    image.pixels = readPixels(file, channels);
+    if (data != display) image.pixels = placeInDisplay(image.pixels, data, display, channels.size());
     return {};
   } catch (const std::exception& error) {
     return error.what();

@@ -11,7 +11,8 @@ namespace malus::image {
 // First bytes of every EXR file.
 bool isExr(const std::vector<unsigned char>& bytes);
 
-// Decodes the first part of a file. Channels are ordered by layer, and within a layer R, G, B, A, Z before others.
+// Decodes the first part of a file, its display window. Channels are ordered by layer, and within a layer R, G, B, A, Z
+// before others.
 std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image);
 
 // Encodes as image::writeExr describes.

@@ -5,8 +5,10 @@
 // All functions throw Error if the module or the file cannot be read or written.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +16,18 @@
 #include <vector>
 
 namespace malus::image {
+
+// Encoding of the stored colours of an image, from the format and the metadata of its file. Floats are linear.
+// Integers are sRGB (IEC 61966-2-1) unless the file states another transfer function. image_colour.h decodes them.
+struct Encoding {
+  enum class Transfer { linear, sRgb, power };
+  Transfer transfer = Transfer::linear;
+  double exponent = 1;  // of Transfer::power: linear = stored ^ exponent
+  // CIE x and y of red, green, blue and white; nothing: those of Rec. 709, which sRGB has.
+  std::optional<std::array<double, 8>> chromaticities;
+  // Metadata that is not applied, each as the predicate of a sentence: "has an ICC profile other than sRGB, ...".
+  std::vector<std::string> notes;
+};
 
 // Image of 32-bit floats.
 struct Image {
@@ -27,14 +41,18 @@ struct Image {
   // single numbers only.
   using Value = std::variant<std::string, double, std::vector<float>>;
   std::vector<std::pair<std::string, Value>> attributes;
+  Encoding encoding;
 
   // Returns the index of a channel, or -1.
   int channel(std::string_view name) const;
 };
 
 // Reads an image of any format that OpenImageIO supports (EXR, HDR, PNG, ...); in the bundle EXR and PNG. Integers are
-// scaled to [0, 1], without conversion of the transfer function. Limits: 65536 pixels per side, 64 channels, 2^30
-// values.
+// scaled to [0, 1], and values stay encoded. The image is the display window of an EXR file: pixels that its data
+// window does not store are 0, those outside the display window are left out. HDR values are divided by EXPOSURE and
+// COLORCORR. The orientation that HDR, TIFF and JPEG files state is applied. Colours are not multiplied by alpha:
+// integers that the file stores multiplied are divided by it; the floats of EXR stay as stored. Limits: 65536 pixels
+// per side, 64 channels, 2^30 values.
 Image read(const std::filesystem::path& path);
 
 // Writes a ZIP-compressed EXR of 32-bit floats with all attributes. Equal images give identical files. The file is

@@ -2,7 +2,7 @@
 // empty string, or the reason of its failure. Parameters as in image.h.
 //
 // There are two modules: oiio_module.cpp reads every format of OpenImageIO; exr_png_module.cpp, for the bundle, EXR and
-// PNG only. Both give the same values. The loader uses the file malus-image.so.
+// PNG only. Both read EXR and PNG by the same functions. The loader uses the file malus-image.so.
 #pragma once
 
 #include <cstdint>

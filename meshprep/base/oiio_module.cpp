@@ -1,10 +1,25 @@
-// The image module with every format of OpenImageIO: the only file that includes it.
+// The image module with every format of OpenImageIO: the only file that includes it. EXR and PNG files are read by the
+// functions of the bundle's module, so that both modules agree on windows and colours.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
 #include <fmt/format.h>
 
+#include "meshprep/base/exr_file.h"
+#include "meshprep/base/icc_profile.h"
 #include "meshprep/base/image_module.h"
+#include "meshprep/base/orientation.h"
+#include "meshprep/base/png_file.h"
+#include "meshprep/base/radiance_header.h"
 
 namespace malus::image {
 
@@ -18,34 +33,110 @@ std::string messageOr(const std::string& message, const char* otherwise) {
   return message.empty() ? otherwise : message;
 }
 
+// Encoding of integers by the attribute oiio:ColorSpace, whose names differ between versions, and oiio:Gamma.
+Encoding integerEncoding(const ImageSpec& spec) {
+  Encoding encoding;
+  encoding.transfer = Encoding::Transfer::sRgb;
+  if (const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile")) {
+    const auto* bytes = static_cast<const unsigned char*>(profile->data());
+    if (!isSrgbProfile({bytes, static_cast<std::size_t>(profile->datasize())}))
+      encoding.notes.emplace_back(kForeignProfile);
+    return encoding;
+  }
+  std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  std::transform(space.begin(), space.end(), space.begin(), [](unsigned char c) { return std::tolower(c); });
+  double gamma = static_cast<double>(spec.get_float_attribute("oiio:Gamma", 0));
+  for (const auto& [prefix, value] : {std::pair("g18_", 1.8), std::pair("g22_", 2.2), std::pair("g24_", 2.4)})
+    if (space.starts_with(prefix)) gamma = value;
+  if (gamma == 1 || space.starts_with("lin") || space == "scene_linear") {
+    encoding.transfer = Encoding::Transfer::linear;
+  } else if (gamma > 0) {
+    encoding.transfer = Encoding::Transfer::power;
+    encoding.exponent = gamma;
+  } else if (!space.empty() && space.find("srgb") == std::string::npos && space.find("rec709") == std::string::npos) {
+    encoding.notes.push_back(fmt::format("has the colour space '{}', which is not applied; it is read as sRGB", space));
+  }
+  return encoding;
+}
+
+// Divides colours that the file stores multiplied by alpha (TIFF and TGA can) by it.
+void divideByAlpha(const ImageSpec& spec, std::string_view format, Image& image) {
+  const bool isMultiplied = (format == "tiff" && spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0) ||
+                            (format == "targa" && spec.get_int_attribute("targa:alpha_type", 0) == 4);
+  if (!isMultiplied || spec.alpha_channel < 0) return;
+  const auto channels = static_cast<std::size_t>(spec.nchannels), alpha = static_cast<std::size_t>(spec.alpha_channel);
+  for (std::size_t i = 0; i < image.pixels.size(); i += channels)
+    for (std::size_t c = 0; c < channels; ++c)
+      if (c != alpha && image.pixels[i + alpha] > 0)
+        image.pixels[i + c] = std::min(image.pixels[i + c] / image.pixels[i + alpha], 1.0f);
+}
+
+// Applies what OpenImageIO leaves to the caller: EXPOSURE and COLORCORR.
+void applyRadianceHeader(const RadianceHeader& header, Image& image) {
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = static_cast<float>(image.pixels[i] / (header.exposure * header.colourCorrection[i % 3]));
+  image.encoding.chromaticities = header.primaries;
+}
+
+void readAttributes(const ImageSpec& spec, Image& image) {
+  for (const auto& attribute : spec.extra_attribs) {
+    const std::string name = attribute.name().string();
+    if (attribute.type() == TypeDesc::STRING) {
+      image.attributes.emplace_back(name, attribute.get_string());
+    } else if (attribute.type().basetype == TypeDesc::FLOAT && attribute.type().numelements() == 1 &&
+               attribute.type().aggregate == TypeDesc::SCALAR) {
+      image.attributes.emplace_back(name, static_cast<double>(attribute.get_float()));
+    }
+  }
+}
+
+// start: the first bytes of the file.
+std::string readByOpenImageIo(const std::string& path, std::string_view start, Image& image) {
+  ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // as stored, not multiplied by alpha
+  const auto input = ImageInput::open(path, &config);
+  if (!input) return messageOr(OIIO::geterror(), "unknown format");
+  const ImageSpec spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 ||
+      spec.nchannels < 1 || spec.nchannels > kMaxChannels ||
+      spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMaxValues)
+    return fmt::format("unsupported size {} x {} with {} channels", spec.width, spec.height, spec.nchannels);
+  const std::string_view format = input->format_name();
+  std::optional<RadianceHeader> header;
+  if (format == "hdr") {
+    header = readRadianceHeader(start);
+    if (!header || header->rows != spec.height || header->columns != spec.width || spec.nchannels != 3)
+      return "unsupported header; expected a positive EXPOSURE and COLORCORR, and a line as -Y HEIGHT +X WIDTH";
+  }
+  image.width = spec.width;
+  image.height = spec.height;
+  image.channels.assign(spec.channelnames.begin(), spec.channelnames.end());
+  image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                      static_cast<std::size_t>(spec.nchannels));
+  if (!input->read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, image.pixels.data()))
+    return messageOr(input->geterror(), "damaged file");
+  readAttributes(spec, image);
+  if (header) applyRadianceHeader(*header, image);
+  if (!spec.format.is_floating_point()) {
+    image.encoding = integerEncoding(spec);
+    divideByAlpha(spec, format, image);
+  }
+  applyOrientation(image, header ? header->orientation : spec.get_int_attribute("Orientation", 1));
+  return {};
+}
+
 std::string readImage(const std::string& path, Image& image) {
   try {
-    ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);  // as stored, not multiplied by alpha
-    const auto input = ImageInput::open(path, &config);
-    if (!input) return messageOr(OIIO::geterror(), "unknown format");
-    const ImageSpec spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 ||
-        spec.nchannels < 1 || spec.nchannels > kMaxChannels ||
-        spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMaxValues)
-      return fmt::format("unsupported size {} x {} with {} channels", spec.width, spec.height, spec.nchannels);
-    image.width = spec.width;
-    image.height = spec.height;
-    image.channels.assign(spec.channelnames.begin(), spec.channelnames.end());
-    image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                        static_cast<std::size_t>(spec.nchannels));
-    if (!input->read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, image.pixels.data()))
-      return messageOr(input->geterror(), "damaged file");
-    for (const auto& attribute : spec.extra_attribs) {
-      const std::string name = attribute.name().string();
-      if (attribute.type() == TypeDesc::STRING) {
-        image.attributes.emplace_back(name, attribute.get_string());
-      } else if (attribute.type().basetype == TypeDesc::FLOAT && attribute.type().numelements() == 1 &&
-                 attribute.type().aggregate == TypeDesc::SCALAR) {
-        image.attributes.emplace_back(name, static_cast<double>(attribute.get_float()));
-      }
-    }
-    return {};
+    constexpr std::size_t kStart = 65536;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return std::strerror(errno);
+    std::vector<unsigned char> bytes(kStart);
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(kStart));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    if (!isExr(bytes) && !isPng(bytes))
+      return readByOpenImageIo(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, image);
+    if (file) bytes.insert(bytes.end(), std::istreambuf_iterator<char>(file), {});
+    return isExr(bytes) ? decodeExr(bytes, image) : decodePng(bytes, image);
   } catch (const std::exception& error) {
     return messageOr(error.what(), "damaged file");
   }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include "meshprep/base/icc_profile.h"
 #include "meshprep/base/image_module.h"
 
 namespace malus::image {
@@ -72,6 +73,30 @@ bool readRows(png_structp png, Decoded& out) {
   return true;
 }
 
+// libpng checks the chunks: values that are 0 or negative are not valid.
+Encoding readEncoding(png_structp png, png_infop info) {
+  Encoding encoding;
+  encoding.transfer = Encoding::Transfer::sRgb;
+  int intent = 0;
+  if (png_get_sRGB(png, info, &intent) != 0) return encoding;
+  png_charp name = nullptr;
+  png_bytep profile = nullptr;
+  png_uint_32 size = 0;
+  int compression = 0;
+  if (png_get_iCCP(png, info, &name, &compression, &profile, &size) != 0) {
+    if (!isSrgbProfile({profile, size})) encoding.notes.emplace_back(kForeignProfile);
+    return encoding;
+  }
+  double gamma = 0;
+  if (png_get_gAMA(png, info, &gamma) != 0 && gamma > 0) {
+    encoding.transfer = gamma == 1 ? Encoding::Transfer::linear : Encoding::Transfer::power;
+    encoding.exponent = 1 / gamma;
+  }
+  std::array<double, 8> c{};
+  if (png_get_cHRM(png, info, &c[6], &c[7], &c[0], &c[1], &c[2], &c[3], &c[4], &c[5]) != 0) encoding.chromaticities = c;
+  return encoding;
+}
+
 template <typename Sample>
 void convert(Decoded& decoded, Image& image) {
   const auto* data = reinterpret_cast<const Sample*>(decoded.samples.data());
@@ -95,6 +120,7 @@ std::string decode(png_structp png, png_infop info, const std::string& error, Im
   for (std::size_t y = 0; y < height; ++y) decoded.rows.push_back(decoded.samples.data() + y * rowBytes);
   if (!readRows(png, decoded)) return error;
   constexpr const char* kNames[] = {"Y", "A", "R", "G", "B"};
+  image.encoding = readEncoding(png, info);
   image.width = decoded.width;
   image.height = decoded.height;
   if (decoded.channels < 3)

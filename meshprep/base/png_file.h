@@ -12,7 +12,8 @@ namespace malus::image {
 // First bytes of every PNG file.
 bool isPng(const std::vector<unsigned char>& bytes);
 
-// Decodes a file. Palettes are expanded, integers scaled to [0, 1], colours multiplied by alpha.
+// Decodes a file. Palettes are expanded, integers scaled to [0, 1]. The encoding is that of the first of the chunks
+// sRGB, iCCP, and gAMA with cHRM that the file has; without them it is sRGB.
 std::string decodePng(const std::vector<unsigned char>& bytes, Image& image);
 
 enum class PngTransfer { sRgb, linear };

@@ -18,8 +18,10 @@ void requireSameSize(const image::Image& a, const image::Image& b) {
                 fmt::format("{} x {}", b.width, b.height));
 }
 
+// Y of a grey image is its red, green and blue.
 std::size_t channelIndex(const image::Image& image, const std::string& name) {
-  const int index = image.channel(name);
+  int index = image.channel(name);
+  if (index < 0 && (name == "R" || name == "G" || name == "B")) index = image.channel("Y");
   if (index < 0) throw Error("", fmt::format("an image has no channel {}", name), "the channel in both images");
   return static_cast<std::size_t>(index);
 }

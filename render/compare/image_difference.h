@@ -19,7 +19,8 @@ struct ImageDifference {
   std::uint64_t nonFinite = 0;  // pixels with NaN or infinity in either image; also outliers
 };
 
-// Compares the named channels. Throws Error: the sizes differ, or an image lacks a channel.
+// Compares the named channels; Y of a grey image is its R, G and B. Throws Error: the sizes differ, or an image lacks a
+// channel.
 ImageDifference difference(const image::Image& a, const image::Image& b, const std::vector<std::string>& channels,
                            double threshold);
 

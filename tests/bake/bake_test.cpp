@@ -321,7 +321,7 @@ TEST_F(Bake, EnvironmentImage) {
   image::writeExr(folder_.path() / "sky.exr", sky);
   scene_["environment"] = {{"image", "sky.exr"}, {"scale", 3}, {"ambientIrradiance", 0.5}};
   const pack::Scene scene = baked();
-  EXPECT_EQ(scene.environment.size, 4u);
+  EXPECT_EQ(scene.environment.size, 64u);
   EXPECT_EQ(scene.environment.texels.at(0), glm::vec3(1.5f));
   EXPECT_EQ(scene.environment.ambientIrradiance, 0.5);
   scene_["environment"]["image"] = "missing.exr";

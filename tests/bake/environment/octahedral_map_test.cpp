@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 
@@ -41,8 +42,13 @@ image::Image makeImage(int width, int height, Radiance radiance) {
 
 pack::Environment baked(const image::Image& source, double scale = 1, double rotationDegrees = 0) {
   pack::Environment environment;
-  bakeEnvironment(source, "sky.hdr", scale, rotationDegrees, environment);
+  std::vector<std::string> notes;
+  bakeEnvironment(source, "sky.hdr", scale, rotationDegrees, environment, notes);
   return environment;
+}
+
+image::Image uniform(int width, int height, double value) {
+  return makeImage(width, height, [=](const glm::dvec3&) { return glm::dvec3(value); });
 }
 
 glm::dvec3 texel(const pack::Environment& e, int i, int j) {
@@ -92,9 +98,9 @@ image::Image noise() {
 }
 
 TEST(OctahedralMap, ConstantStaysConstant) {
-  const pack::Environment e = baked(makeImage(32, 16, [](const glm::dvec3&) { return glm::dvec3(0.5, 2, 8); }), 0.25);
-  EXPECT_EQ(e.size, 16u);
-  ASSERT_EQ(e.texels.size(), 18u * 18u);
+  const pack::Environment e = baked(makeImage(192, 96, [](const glm::dvec3&) { return glm::dvec3(0.5, 2, 8); }), 0.25);
+  EXPECT_EQ(e.size, 96u);
+  ASSERT_EQ(e.texels.size(), 98u * 98u);
   for (const glm::vec3& t : e.texels) EXPECT_EQ(t, glm::vec3(0.125f, 0.5f, 2));
 }
 
@@ -174,16 +180,73 @@ TEST(OctahedralMap, TexelsAreHalves) {
     }
 }
 
-TEST(OctahedralMap, BrightestRadianceSaturates) {
-  const pack::Environment e = baked(makeImage(64, 32, [](const glm::dvec3&) { return glm::dvec3(1e6); }));
-  EXPECT_EQ(lookUp(e, {0, 1, 0}).x, 65504);
-  EXPECT_NEAR(irradiance(e, {0, 1, 0}), kPi * 1e6, 1e4);  // the irradiance is that of the image
+// The map and the irradiance keep every radiance within the error that texel_storage.h states.
+TEST(OctahedralMap, RadianceOutsideTheRangeOfHalvesIsKept) {
+  for (const double value : {1e-12, 1e-8, 1e-7, 1e-6, 1.0, 7e4, 3e5, 1e9}) {
+    const pack::Environment e = baked(uniform(64, 32, value));
+    EXPECT_NEAR(lookUp(e, {0, 1, 0}).x / value, 1, 5e-4) << value;
+    EXPECT_NEAR(irradiance(e, {0, 1, 0}) / value, kPi, 1e-4) << value;
+    EXPECT_FALSE(e.storage.isFloat) << value;
+    EXPECT_EQ(e.storage.isPlain(), value == 1) << value;
+  }
+  EXPECT_NEAR(lookUp(baked(uniform(4, 2, 1), 1e-9), {0, 1, 0}).x, 1e-9, 1e-12);
 }
 
-TEST(OctahedralMap, SmallestImage) {
-  const pack::Environment e = baked(makeImage(1, 1, [](const glm::dvec3&) { return glm::dvec3(3); }));
-  EXPECT_EQ(e.size, 1u);
-  EXPECT_EQ(lookUp(e, {0.6, 0, 0.8}), glm::dvec3(3));
+// A sun of 3e5 beside a night sky of 1e-6: no scale brings both into the range of halves.
+TEST(OctahedralMap, RangesWiderThanThatOfHalvesAreFloats) {
+  const pack::Environment e =
+      baked(makeImage(128, 64, [](const glm::dvec3& d) { return glm::dvec3(d.x > 0 ? 3e5 : 1e-6); }));
+  EXPECT_TRUE(e.storage.isFloat);
+  EXPECT_FLOAT_EQ(static_cast<float>(lookUp(e, {0.9, 0.1, 0.1}).x), 3e5f);
+  EXPECT_FLOAT_EQ(static_cast<float>(lookUp(e, {-0.9, 0.1, 0.1}).x), 1e-6f);
+}
+
+TEST(OctahedralMap, SmallImagesAreNotBlurred) {
+  const pack::Environment one = baked(uniform(1, 1, 3));
+  EXPECT_EQ(one.size, 64u);
+  EXPECT_EQ(lookUp(one, {0.6, 0, 0.8}), glm::dvec3(3));
+  // Columns 4 to 7 of 8 are toward +x.
+  const pack::Environment half =
+      baked(makeImage(8, 4, [](const glm::dvec3& d) { return glm::dvec3(d.x > 0 ? 1 : 0); }));
+  EXPECT_NEAR(lookUp(half, {1, 0, 0}).x, 1, 1e-6);
+  EXPECT_NEAR(lookUp(half, {-1, 0, 0}).x, 0, 1e-6);
+  // A row of pixels is as wide as an image of half its width is high.
+  EXPECT_EQ(baked(uniform(512, 1, 1)).size, 256u);
+}
+
+// A sun of one texel is not missed by a map with fewer texels than the image.
+TEST(OctahedralMap, LargeImagesKeepTheirLight) {
+  constexpr int kWidth = 4096, kHeight = 2048;
+  image::Image source = uniform(kWidth, kHeight, 0);
+  for (const int x : {100, 1234, 2777}) {
+    for (int c = 0; c < 3; ++c)
+      source.pixels[3 * (600 * kWidth + static_cast<std::size_t>(x)) + static_cast<std::size_t>(c)] = 1e6f;
+  }
+  const pack::Environment e = baked(source);
+  ASSERT_EQ(e.size, 1024u);
+  double sum = 0;  // over the solid angles of the map's texels
+  for (int j = 0; j < 1024; ++j)
+    for (int i = 0; i < 1024; ++i) {
+      double u = (i + 0.5) / 512 - 1, v = (j + 0.5) / 512 - 1;
+      const double z = 1 - std::abs(u) - std::abs(v);
+      if (z < 0) std::tie(u, v) = std::pair(1 - std::abs(v), 1 - std::abs(u));
+      sum += texel(e, i, j).x * 4 / (1024.0 * 1024.0) / std::pow(u * u + v * v + z * z, 1.5);
+    }
+  const double rows = kPi / kHeight, expected = 3 * 1e6 * std::sin(600.5 * rows) * rows * 2 * kPi / kWidth;
+  EXPECT_NEAR(sum / expected, 1, 0.05);
+}
+
+// The irradiance does not depend on the number of texels.
+TEST(Irradiance, IsThatOfTheSameSkyAtEverySize) {
+  const pack::Environment large = baked(uniform(1024, 512, 2));
+  for (const auto& [width, height] :
+       {std::pair(1, 1), std::pair(2, 1), std::pair(4, 2), std::pair(7, 3), std::pair(1024, 1)}) {
+    const pack::Environment small = baked(uniform(width, height, 2));
+    for (const glm::dvec3& n : directions()) {
+      EXPECT_NEAR(irradiance(small, n), irradiance(large, n), 1e-6) << width << " x " << height;
+      EXPECT_NEAR(irradiance(small, n), 2 * kPi, 1e-3);
+    }
+  }
 }
 
 TEST(Irradiance, ConstantRadianceGivesPiTimesIt) {
@@ -193,7 +256,7 @@ TEST(Irradiance, ConstantRadianceGivesPiTimesIt) {
   EXPECT_EQ(constant.size, 0u);
   EXPECT_EQ(constant.radiance, glm::dvec3(2.5));
   for (const glm::dvec3& n : directions()) {
-    EXPECT_NEAR(irradiance(e, n), kPi * 2.5, 0.02);
+    EXPECT_NEAR(irradiance(e, n), kPi * 2.5, 1e-4);
     EXPECT_NEAR(irradiance(constant, n), kPi * 2.5, 1e-12);
   }
 }
@@ -213,14 +276,21 @@ TEST(Irradiance, ClampedCosineLobe) {
 
 TEST(OctahedralMap, InvalidImages) {
   image::Image grey = makeImage(4, 2, gradient);
-  grey.channels = {"Y", "Z", "A"};
+  grey.channels = {"U", "V", "W"};
   EXPECT_TRUE(contains(errorMessage([&] { baked(grey); }), "no colour"));
-  for (const float bad : {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+  for (const float bad :
+       {-1.0f, 2e15f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     image::Image source = makeImage(4, 2, gradient);
     source.pixels[3 * 5 + 1] = bad;
     const std::string error = errorMessage([&] { baked(source); });
     EXPECT_TRUE(contains(error, "sky.hdr", "texel 1, 1")) << error;
   }
+}
+
+TEST(OctahedralMap, ColoursAreLinear) {
+  image::Image png = uniform(4, 2, 188.0 / 255);
+  png.encoding.transfer = image::Encoding::Transfer::sRgb;
+  EXPECT_NEAR(lookUp(baked(png), {0, 1, 0}).x, 0.502886, 5e-4);
 }
 
 TEST(OctahedralMap, ChannelsByName) {

@@ -368,6 +368,24 @@ TEST(CorruptPack, LightOutOfBounds) {
     EXPECT_TRUE(contains(errorWith("ENVR", 252 + 6, half), "environment texel")) << half;
 }
 
+TEST(CorruptPack, StorageOfTexelsOutOfBounds) {
+  Scene scene = bake::test::smallScene();
+  scene.environment.storage = {false, 0.25};
+  const auto refused = [&](std::size_t at, auto number) {
+    std::vector<RawSection> sections = test::takenApart(serialize(scene, {}).bytes);
+    test::setNumber(test::section(sections, "ENVR").bytes, at, number);
+    return errorMessage([&] { parse(test::putTogether(sections), "file.pack"); });
+  };
+  EXPECT_CONTAINS(refused(252, 2u), "texelFormat");
+  EXPECT_CONTAINS(refused(252, 1u), "texelScale");  // floats have no scale
+  for (const double scale : {0.0, -1.0, 0.3, 1e60, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_CONTAINS(refused(256, scale), "texelScale");
+  scene.environment.storage = {true, 1};
+  for (const float texel : {-1.0f, 2e15f, std::numeric_limits<float>::quiet_NaN()})
+    EXPECT_CONTAINS(refused(264 + 12, texel), "environment texel");
+  EXPECT_CONTAINS(refused(248, 1u), "environment texels");
+}
+
 TEST(CorruptPack, MaterialOutOfBounds) {
   constexpr std::size_t kGlass = 4 + 4 + 5;                // after the first name
   constexpr std::size_t kGold = kGlass + 120 + 4 + 4;      // after the second

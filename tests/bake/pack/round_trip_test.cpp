@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "bake/pack/reader.h"
+#include "bake/pack/texel_storage.h"
 #include "bake/pack/writer.h"
 #include "tests/bake/fixtures.h"
 #include "tests/bake/pack/raw_pack.h"
@@ -108,6 +109,26 @@ TEST(PackRoundTrip, OptionalSections) {
     EXPECT_EQ(m.maps.origin, truth.maps.origin);
     EXPECT_EQ(m.maps.u, truth.maps.u);
     EXPECT_EQ(m.maps.v, truth.maps.v);
+  }
+}
+
+TEST(PackRoundTrip, TexelsOfEveryStorage) {
+  const std::vector<glm::vec3> bright(16, glm::vec3(3e5f, 2e5f, 0)), wide(16, glm::vec3(3e5f, 1e-6f, 1.0f / 3));
+  for (const auto& [texels, version, isFloat] : {std::tuple(smallScene().environment.texels, 1u, false),
+                                                 std::tuple(bright, 2u, false), std::tuple(wide, 2u, true)}) {
+    Scene scene = smallScene();
+    scene.environment.texels = texels;
+    scene.environment.storage = chooseTexelStorage(texels);
+    EXPECT_EQ(scene.environment.storage.isFloat, isFloat);
+    roundTexels(scene.environment.storage, scene.environment.texels);
+    const Pack pack = parse(serialize(scene, {}).bytes, "test");
+    EXPECT_EQ(pack.scene.environment.texels, scene.environment.texels);
+    EXPECT_EQ(pack.scene.environment.storage, scene.environment.storage);
+    for (const Section& section : pack.sections)
+      if (section.id == kEnvironment) EXPECT_EQ(section.version, version);
+    for (std::size_t i = 0; i < texels.size(); ++i)
+      for (int c = 0; c < 3; ++c)
+        EXPECT_LE(std::abs(scene.environment.texels[i][c] - texels[i][c]), 5e-4f * texels[i][c]);
   }
 }
 

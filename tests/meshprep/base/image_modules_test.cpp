@@ -1,4 +1,5 @@
-// The image module of the bundle against the one with OpenImageIO: each reads the files of both with the same bits.
+// The image module of the bundle and the one with OpenImageIO: each reads the files of both with the same bits.
+// Windows, orientation and encodings of the files of other programs.
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meshprep/base/image_colour.h"
 #include "meshprep/base/image_module.h"
 
 namespace malus::image {
@@ -163,7 +165,7 @@ TEST_F(ImageModules, FilesOfOtherProgramsHaveTheSameValues) {
     ++found;
     readBoth(entry.path().string());
   }
-  EXPECT_GE(found, 22u);
+  EXPECT_GE(found, 28u);
 }
 
 TEST_F(ImageModules, ColoursAreNotMultipliedByAlpha) {
@@ -172,6 +174,98 @@ TEST_F(ImageModules, ColoursAreNotMultipliedByAlpha) {
     ASSERT_EQ(image.channels.size(), 4u) << name;
     EXPECT_LT(image.pixels[3], 0.5f) << name;  // alpha
     EXPECT_NEAR(image.pixels[0], static_cast<float>(red) / 255, 1e-6f) << name;
+  }
+}
+
+// Pixels that the data window does not store are 0; window.exr stores 13 x 7 of 20 x 20 from column -3, row 2 on.
+TEST_F(ImageModules, DataWindowsArePlacedInTheDisplayWindow) {
+  const Image image = readBoth(std::string(MALUS_IMAGE_FILES) + "/window.exr");
+  ASSERT_EQ(image.width, 20);
+  ASSERT_EQ(image.height, 20);
+  const auto alpha = [&](int x, int y) { return image.pixels[4 * static_cast<std::size_t>(20 * y + x) + 3]; };
+  EXPECT_EQ(alpha(0, 1), 0);
+  EXPECT_GT(alpha(0, 2), 0);
+  EXPECT_GT(alpha(9, 8), 0);
+  EXPECT_EQ(alpha(10, 8), 0);
+  EXPECT_EQ(alpha(9, 9), 0);
+}
+
+using Transfer = Encoding::Transfer;
+
+TEST_F(ImageModules, EncodingOfPngFilesIsThatOfTheirChunks) {
+  const auto encoding = [](const char* name) { return readBoth(std::string(MALUS_IMAGE_FILES) + name).encoding; };
+  for (const char* name : {"/rgb8.png", "/grey16.png", "/grey8-srgb.png", "/icc-srgb.png", "/srgb-and-gamma.png"}) {
+    EXPECT_EQ(encoding(name).transfer, Transfer::sRgb) << name;
+    EXPECT_TRUE(encoding(name).notes.empty()) << name;
+  }
+  EXPECT_EQ(encoding("/icc-wide.png").notes.size(), 1u);
+  EXPECT_EQ(encoding("/rgba8-linear.png").transfer, Transfer::linear);
+  EXPECT_EQ(encoding("/grey8-linear.png").transfer, Transfer::linear);
+  EXPECT_EQ(encoding("/rgb16-gamma.png").transfer, Transfer::power);
+  EXPECT_NEAR(encoding("/rgb16-gamma.png").exponent, 2.2, 1e-4);
+  const Encoding wide = encoding("/rec2020-linear.png");
+  EXPECT_EQ(wide.transfer, Transfer::linear);
+  ASSERT_TRUE(wide.chromaticities);
+  EXPECT_NEAR((*wide.chromaticities)[0], 0.708, 1e-6);
+  EXPECT_EQ(encoding("/layers.exr").transfer, Transfer::linear);
+}
+
+TEST_F(ImageModules, InterlacedPalettesAreExpanded) {
+  const Image image = readBoth(std::string(MALUS_IMAGE_FILES) + "/palette-interlaced.png");
+  ASSERT_EQ(image.channels.size(), 4u);
+  EXPECT_NEAR(LinearColours(image, "").at(3)[1], 0.502886, 1e-5);
+  EXPECT_EQ(LinearColours(image, "").at(4)[1], 0);
+  EXPECT_EQ(LinearColours(image, "").notes().size(), 1u);
+}
+
+// The same grey in every format, in integers of 8 and 16 bits and with both kinds of alpha.
+TEST_F(ImageModules, IntegersOfEveryFormatAreSrgb) {
+  std::size_t found = 0;
+  for (const auto& entry : fs::directory_iterator(MALUS_OTHER_IMAGES)) {
+    ++found;
+    Image image;
+    ASSERT_EQ(oiio().read(entry.path().string(), image), "") << entry.path();
+    const LinearColours colours(image, "");
+    EXPECT_NEAR(colours.at(5)[1], 0.502886, 1e-4) << entry.path();
+    EXPECT_EQ(colours.notes().size(), entry.path().string().find("associated") == std::string::npos ? 0u : 1u);
+  }
+  EXPECT_EQ(found, 8u);
+}
+
+// An image of 3 x 2 distinct pixels, stored along each pair of axes.
+TEST_F(ImageModules, AxesAndExposureOfRadianceFiles) {
+  constexpr int kWidth = 3, kHeight = 2;
+  const auto value = [](int x, int y) { return 10 + 40 * x + 100 * y; };
+  for (const std::string first : {"-Y", "+Y", "-X", "+X"})
+    for (const std::string sign : {"-", "+"}) {
+      const bool rowsAreY = first[1] == 'Y';
+      const std::string second = sign + (rowsAreY ? "X" : "Y");
+      const int rows = rowsAreY ? kHeight : kWidth, columns = rowsAreY ? kWidth : kHeight;
+      std::string text = "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\nEXPOSURE= 0.25\nCOLORCORR=1 2 4\n\n" + first +
+                         " " + std::to_string(rows) + " " + second + " " + std::to_string(columns) + "\n";
+      for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < columns; ++c) {
+          const int x = rowsAreY ? c : r, y = rowsAreY ? r : c;
+          const std::string &xAxis = rowsAreY ? second : first, &yAxis = rowsAreY ? first : second;
+          const int v = value(xAxis[0] == '+' ? x : kWidth - 1 - x, yAxis[0] == '-' ? y : kHeight - 1 - y);
+          text += {static_cast<char>(v), static_cast<char>(v), static_cast<char>(v), static_cast<char>(136)};
+        }
+      write("sky.hdr", {text.begin(), text.end()});
+      Image image;
+      ASSERT_EQ(oiio().read(file("sky.hdr"), image), "") << first << second;
+      ASSERT_EQ(image.width, kWidth) << first << second;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          for (int c = 0; c < 3; ++c)  // exposure 0.5
+            EXPECT_FLOAT_EQ(image.pixels[3 * static_cast<std::size_t>(kWidth * y + x) + static_cast<std::size_t>(c)],
+                            static_cast<float>(value(x, y)) * 2 / static_cast<float>(1 << c))
+                << first << second << " " << x << " " << y;
+    }
+  for (const char* line : {"EXPOSURE=0", "EXPOSURE=-1", "COLORCORR=1 0 1", "EXPOSURE=nan"}) {
+    const std::string text = std::string("#?RADIANCE\n") + line + "\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\1\1\1\200";
+    write("bad.hdr", {text.begin(), text.end()});
+    Image image;
+    EXPECT_NE(oiio().read(file("bad.hdr"), image).find("EXPOSURE"), std::string::npos) << line;
   }
 }
 

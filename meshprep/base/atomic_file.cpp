@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/base/output_files.h"
 #include "meshprep/base/unfinished_files.h"
 
 namespace malus {
@@ -84,12 +85,15 @@ std::string readTextFile(const fs::path& path, std::size_t maxBytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void writeBeside(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+void writeBeside(const fs::path& asked, const std::function<void(const fs::path&)>& write) {
+  const fs::path path = resolveLinks(asked);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
     throw Error(path.string(), "cannot write: the folder does not exist", "an existing folder", folder.string());
   if (fs::is_directory(path, ignored)) throw Error(path.string(), "cannot write: is a folder", "the name of a file");
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))  // renaming would replace the node
+    throw Error(path.string(), "cannot write: is a device, a pipe or a socket", "the name of a file");
   removeAbandoned(path);
   const UnfinishedFile unfinished(path);
   const fs::path& temporary = unfinished.path();

@@ -1,5 +1,6 @@
 // Reading and writing of whole files. A file is written beside its final name, flushed to disk and renamed: a reader
-// sees the old file or the new one, never a part of one.
+// sees the old file or the new one, never a part of one. A symbolic link is followed: its target is replaced, and the
+// link stays. Another hard link of the old file keeps the old contents.
 //
 // Files that a killed writer left behind are removed by the next writer of the same name (unfinished_files.h).
 #pragma once

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "meshprep/base/text.h"
+
 namespace malus {
 
 namespace {
@@ -10,10 +12,7 @@ std::string compose(std::string_view location, std::string_view problem, std::st
   std::string text = location.empty() ? std::string(problem) : fmt::format("{}: {}", location, problem);
   if (!expected.empty()) text += fmt::format("; expected {}", expected);
   if (!found.empty()) text += fmt::format("{} found {}", expected.empty() ? ';' : ',', found);
-  // File names and messages of libraries may contain newlines.
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return text;
+  return printable(text);  // file names and messages of libraries may contain newlines and escape sequences
 }
 }  // namespace
 

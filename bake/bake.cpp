@@ -18,6 +18,8 @@
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/image.h"
+#include "meshprep/base/text.h"
+#include "meshprep/json_text.h"
 #include "meshprep/read/source_scene.h"
 
 namespace malus::bake {
@@ -69,35 +71,34 @@ nlohmann::json orNull(const std::optional<T>& value) {
 
 }  // namespace
 
-std::string makeProvenance(const SceneDescription& d, const pack::WriteSettings& settings, const BakeOptions& options) {
-  nlohmann::json sources = nlohmann::json::array();
-  const auto add = [&](const std::filesystem::path& file, const std::string& name) {
-    sources.push_back({{"file", name}, {"xxh3", hashText(file)}});
-  };
-  const auto addRelative = [&](const std::filesystem::path& file) {
-    add(file, file.lexically_relative(d.file.parent_path()).string());
-  };
-  add(d.file, d.file.filename().string());
-  // A file that an imported file refers to may be missing, which is reported when it is read.
+std::vector<SourceFile> sourceFiles(const SceneDescription& d) {
+  std::vector<SourceFile> files = {{d.file}};
   const auto addReferenced = [&](const std::filesystem::path& file) {
-    std::error_code ignored;
-    for (const std::filesystem::path& other : prep::referencedFiles(file))
-      if (std::filesystem::exists(other, ignored))
-        addRelative(other);
-      else
-        sources.push_back({{"file", other.lexically_relative(d.file.parent_path()).string()}, {"xxh3", "missing"}});
+    for (const std::filesystem::path& other : prep::referencedFiles(file)) files.push_back({other, true});
   };
   for (const MeshDescription& mesh : d.meshes) {
-    addRelative(mesh.file);
+    files.push_back({mesh.file});
     if (prep::isGltf(mesh.file)) addReferenced(mesh.file);
   }
   for (const ImportDescription& import : d.imports) {
-    addRelative(import.file);
+    files.push_back({import.file});
     addReferenced(import.file);
   }
-  if (!d.environmentImage.empty()) addRelative(d.environmentImage);
-  for (const TextureDescription& texture : d.textures) addRelative(texture.file);
-  return nlohmann::json{
+  if (!d.environmentImage.empty()) files.push_back({d.environmentImage});
+  for (const TextureDescription& texture : d.textures) files.push_back({texture.file});
+  return files;
+}
+
+std::string makeProvenance(const SceneDescription& d, const pack::WriteSettings& settings, const BakeOptions& options) {
+  nlohmann::json sources = nlohmann::json::array();
+  for (const SourceFile& source : sourceFiles(d)) {
+    std::error_code ignored;
+    const bool isMissing = source.mayBeMissing && !std::filesystem::exists(source.file, ignored);
+    sources.push_back({{"file", source.file == d.file ? d.file.filename().string()
+                                                      : source.file.lexically_relative(d.file.parent_path()).string()},
+                       {"xxh3", isMissing ? "missing" : hashText(source.file)}});
+  }
+  const nlohmann::json provenance = {
       {"malus", MALUS_VERSION},
       {"baker", kBakerRevision},
       {"draco", std::string(draco::kDracoVersion)},
@@ -109,8 +110,22 @@ std::string makeProvenance(const SceneDescription& d, const pack::WriteSettings&
         {"normalBits", orNull(settings.bounds.normalBits)},
         {"keepMap", settings.keepMap},
         {"allowOpenGlass", options.allowOpenGlass}}},
+      {"warnings", nlohmann::json::array()},
+  };
+  return jsonText(provenance, -1);
+}
+
+std::string withWarnings(const std::string& provenance, std::vector<std::string> warnings) {
+  constexpr std::size_t kMost = 1000;  // so that the section stays below its largest size
+  for (std::string& warning : warnings) warning = printable(warning).substr(0, 1000);
+  if (warnings.size() > kMost) {
+    const std::size_t left = warnings.size() - kMost;
+    warnings.resize(kMost);
+    warnings.push_back(fmt::format("and {} more; 'malus bake --force' prints them", left));
   }
-      .dump();
+  nlohmann::json document = nlohmann::json::parse(provenance);
+  document["warnings"] = warnings;
+  return jsonText(document, -1);
 }
 
 Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,

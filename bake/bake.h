@@ -34,9 +34,21 @@ Baked bake(const SceneDescription& description, const pack::WriteSettings& setti
 // Raise this number when the pack of the same sources changes (tests/bake/golden.json).
 inline constexpr int kBakerRevision = 5;
 
-// JSON with the versions, the settings and the hashes of all sources and of the files that they refer to. Throws Error
-// for a source that cannot be read.
+// A file that a scene reads, or that a file which it reads refers to.
+struct SourceFile {
+  std::filesystem::path file;
+  bool mayBeMissing = false;  // referred to by an imported file; reported when it is read
+};
+
+// The scene description first. A file can occur twice. Throws Error for an imported file that cannot be read.
+std::vector<SourceFile> sourceFiles(const SceneDescription& description);
+
+// JSON with the versions, the settings, the hashes of all sources and of the files that they refer to, and an empty
+// list "warnings". Throws Error for a source that cannot be read.
 std::string makeProvenance(const SceneDescription& description, const pack::WriteSettings& settings,
                            const BakeOptions& options = {});
+
+// The provenance with the warnings of its bake, so that they are printed again by later commands.
+std::string withWarnings(const std::string& provenance, std::vector<std::string> warnings);
 
 }  // namespace malus::bake

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "meshprep/base/text.h"
+
 namespace malus::bake {
 using nlohmann::json;
 
@@ -85,9 +87,9 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
       "{}: {} meshes, {} vertices, {} triangles -> {} ({} bytes, geometry {:.1f} bytes per triangle,\n"
       "  positions of {} bits within {:.3g} m, normals within {:.3g} degrees, faces tilted by at most {:.3g} "
       "degrees)\n",
-      baked.scene.name, baked.scene.meshes.size(), baked.scene.vertexCount(), baked.scene.triangleCount(), output,
-      written.bytes.size(), perTriangle(totals.geometryBytes, baked.scene.triangleCount()), written.grid.positionBits,
-      totals.worst.positionMax, totals.worst.normalMaxDegrees, totals.worst.tiltMaxDegrees);
+      baked.scene.name, baked.scene.meshes.size(), baked.scene.vertexCount(), baked.scene.triangleCount(),
+      printable(output), written.bytes.size(), perTriangle(totals.geometryBytes, baked.scene.triangleCount()),
+      written.grid.positionBits, totals.worst.positionMax, totals.worst.normalMaxDegrees, totals.worst.tiltMaxDegrees);
   if (rebaked)
     text += fmt::format("  {} of {} meshes re-encoded{}{}\n", totals.reencoded, written.meshes.size(),
                         written.fullRebakeReason.empty() ? "" : ": ", written.fullRebakeReason);
@@ -99,9 +101,9 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
     const pack::MeshCompression& m = written.meshes[i];
     const pack::Mesh& mesh = baked.scene.meshes[i];
     text += fmt::format("  {:<24}{:>10}{:>12.2f}{:>6}{:>11.2g}{:>11.2g}{:>11.2g}{:>10.1f}{:>10.1f}  {}{}{}{}\n",
-                        mesh.name, mesh.triangles.size(), perTriangle(m.sizeBytes, mesh.triangles.size()), m.normalBits,
-                        m.deviation.positionMax + baked.moved, m.deviation.normalMaxDegrees, m.deviation.tiltMaxDegrees,
-                        m.encodeMs, m.decodeMs, m.method, m.reused ? ", reused" : "",
+                        printable(mesh.name), mesh.triangles.size(), perTriangle(m.sizeBytes, mesh.triangles.size()),
+                        m.normalBits, m.deviation.positionMax + baked.moved, m.deviation.normalMaxDegrees,
+                        m.deviation.tiltMaxDegrees, m.encodeMs, m.decodeMs, m.method, m.reused ? ", reused" : "",
                         m.sequentialReason.empty() ? "" : ": ", m.sequentialReason);
   }
 
@@ -109,8 +111,9 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
   for (const prep::Report& report : baked.reports) {
     const prep::Simplification& s = report.simplification;
     if (!s.applied) continue;
-    text += fmt::format("  simplified {}: {} -> {} triangles, within {:.3g} m and {:.3g} degrees\n", report.source,
-                        s.trianglesBefore, s.trianglesAfter, s.maxDeviation, s.maxNormalDegrees);
+    text +=
+        fmt::format("  simplified {}: {} -> {} triangles, within {:.3g} m and {:.3g} degrees\n",
+                    printable(report.source), s.trianglesBefore, s.trianglesAfter, s.maxDeviation, s.maxNormalDegrees);
   }
   return text;
 }

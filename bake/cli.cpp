@@ -1,6 +1,5 @@
 #include "bake/cli.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,10 +16,14 @@
 #include "bake/pack/writer.h"
 #include "bake/previous_pack.h"
 #include "bake/scene_file/scene_file.h"
+#include "bake/scene_json.h"
 #include "bake/unpack.h"
 #include "meshprep/base/console.h"
+#include "meshprep/base/output_files.h"
 #include "meshprep/base/unfinished_files.h"
 #include "meshprep/deprecated_option.h"
+#include "meshprep/json_text.h"
+#include "meshprep/number_option.h"
 #include "shaders/effects.h"
 
 namespace malus::bake {
@@ -34,21 +37,38 @@ struct BakeArguments {
   bool json = false, force = false;
 };
 
+// Refuses to write the pack over a file of the scene.
+void checkFiles(const BakeArguments& arguments, const std::vector<SourceFile>& sources) {
+  OutputFiles files;
+  files.addInput(arguments.input);
+  for (const SourceFile& source : sources) files.addInput(source.file);
+  files.addOutput(arguments.output, "--output");
+  files.check();
+}
+
+void reportUpToDate(const BakeArguments& arguments, const pack::Scene& scene) {
+  const std::vector<std::string> warnings = bakeWarnings(scene);
+  for (const std::string& warning : warnings) console::warn(warning);
+  if (arguments.json)
+    console::printText(
+        jsonText({{"name", scene.name}, {"output", arguments.output}, {"upToDate", true}, {"warnings", warnings}}) +
+        "\n");
+  else
+    console::printLine("{}: {} is up to date: sources and settings are unchanged", scene.name, arguments.output);
+}
+
 void runBake(const BakeArguments& arguments) {
   // Remove the unfinished files of killed bakers, and stop if the pack is up to date.
-  removeAbandoned(arguments.output);
+  checkFiles(arguments, {});
   const SceneDescription description = readSceneFile(arguments.input);
+  checkFiles(arguments, sourceFiles(description));
+  removeAbandoned(arguments.output);
   for (const std::string& deprecation : description.deprecations) console::note(deprecation);
   const std::string provenance = makeProvenance(description, arguments.settings, arguments.options);
   std::optional<PreviousBake> previous;
   if (!arguments.force) previous = readPrevious(arguments.output);
   if (previous && isUpToDate(*previous, provenance)) {
-    if (arguments.json)
-      fmt::print("{}\n",
-                 nlohmann::json{{"name", description.name}, {"output", arguments.output}, {"upToDate", true}}.dump(
-                     2, ' ', false, nlohmann::json::error_handler_t::replace));
-    else
-      fmt::print("{}: {} is up to date: sources and settings are unchanged\n", description.name, arguments.output);
+    reportUpToDate(arguments, previous->pack.scene);
     return;
   }
 
@@ -57,6 +77,10 @@ void runBake(const BakeArguments& arguments) {
   console::progress("compressing");
   pack::WriteSettings settings = arguments.settings;
   settings.conversionError = baked.moved;
+  settings.provenance = [&](std::vector<std::string> warnings) {
+    warnings.insert(warnings.begin(), baked.notes.begin(), baked.notes.end());
+    return withWarnings(baked.scene.provenance, std::move(warnings));
+  };
   const bool rebaked = previous && isOfSameVersions(*previous, provenance);
   const pack::PreviousPack source{rebaked ? &previous->pack : nullptr,
                                   rebaked ? previous->bytes : std::span<const std::byte>()};
@@ -67,11 +91,9 @@ void runBake(const BakeArguments& arguments) {
   // Report.
   for (const std::string& warning : written.warnings) console::warn(warning);
   if (arguments.json)
-    fmt::print(
-        "{}\n",
-        bakeJson(baked, written, arguments.output).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    console::printText(jsonText(bakeJson(baked, written, arguments.output)) + "\n");
   else
-    fmt::print("{}", bakeText(baked, written, arguments.output, rebaked));
+    console::printText(bakeText(baked, written, arguments.output, rebaked));
 }
 
 }  // namespace
@@ -84,20 +106,20 @@ void addBakeCommand(CLI::App& app) {
   command
       ->add_option("--position-error", arguments->settings.bounds.positionError,
                    "Largest distance of a vertex from its source [m]")
-      ->check(CLI::PositiveNumber)
+      ->transform(positiveNumber())
       ->type_name("METRES");
   command
       ->add_option("--normal-error", arguments->settings.bounds.normalErrorDegrees,
                    "Largest angle of a normal from its source [degrees]; without it 0.05 is a goal")
-      ->check(CLI::PositiveNumber)
+      ->transform(positiveNumber())
       ->type_name("DEGREES");
   command->add_option("--position-bits", arguments->settings.bounds.positionBits, "Exact number of bits per coordinate")
-      ->check(CLI::Range(1, compress::kMaxPositionBits))
+      ->transform(wholeNumberBetween(1, compress::kMaxPositionBits))
       ->type_name("N");
   command
       ->add_option("--normal-bits", arguments->settings.bounds.normalBits,
                    "Exact number of bits per coordinate of a normal")
-      ->check(CLI::Range(compress::kMinNormalBits, compress::kMaxNormalBits))
+      ->transform(wholeNumberBetween(compress::kMinNormalBits, compress::kMaxNormalBits))
       ->type_name("N");
   command->add_flag("--keep-map", arguments->settings.keepMap,
                     "Write the map from packed vertices and triangles to those of the source files");
@@ -122,7 +144,7 @@ void addInfoCommand(CLI::App& app) {
   command
       ->add_option("--bounce-tolerance", arguments->tolerance,
                    "Share of the light that deeper bounces than the reported one may change")
-      ->check(CLI::Range(0.0, 1.0))
+      ->transform(numberBetween(0, 1))
       ->capture_default_str();
   command->add_flag("--verify", arguments->verify, "Report that every hash, count and number was checked");
   command
@@ -135,21 +157,16 @@ void addInfoCommand(CLI::App& app) {
     const pack::Pack pack = pack::read(arguments->input);  // makes every check of the reader
     if (!arguments->other.empty()) {
       const nlohmann::json difference = diffJson(pack, pack::read(arguments->other));
-      fmt::print("{}{}",
-                 arguments->json ? difference.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-                                 : diffText(difference),
-                 arguments->json ? "\n" : "");
+      console::printText(arguments->json ? jsonText(difference) + "\n" : diffText(difference));
       if (!difference.at("equal")) throw PacksDiffer{};
       return;
     }
     if (arguments->json) {
-      // Texts of a pack may be invalid UTF-8.
-      fmt::print("{}\n",
-                 infoJson(pack, arguments->tolerance).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+      console::printText(jsonText(infoJson(pack, arguments->tolerance)) + "\n");
     } else {
-      std::fputs(infoText(pack, arguments->tolerance).c_str(), stdout);
+      console::printText(infoText(pack, arguments->tolerance));
       if (arguments->verify)
-        fmt::print("verified: {} sections, every hash, count, index and number\n", pack.sections.size());
+        console::printLine("verified: {} sections, every hash, count, index and number", pack.sections.size());
     }
   });
 }
@@ -168,24 +185,28 @@ void addUnpackCommand(CLI::App& app) {
   command->add_flag("--json", arguments->json, "Print scene.json as well");
   command->callback([arguments] {
     const pack::Pack pack = pack::read(arguments->input);
+    OutputFiles files;
+    files.addInput(arguments->input);
+    files.addOutputFolder(arguments->output, "--output");
+    for (const std::filesystem::path& file : unpackedFiles(pack, arguments->output)) files.addOutput(file, "--output");
+    files.check();
     const nlohmann::json document = unpack(pack, arguments->output);
-    if (arguments->json) {
-      fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    } else {
-      fmt::print("{}: {} meshes -> {}\n", pack.scene.name, pack.scene.meshes.size(), arguments->output);
-    }
+    if (arguments->json)
+      console::printText(jsonText(document) + "\n");
+    else
+      console::printLine("{}: {} meshes -> {}", pack.scene.name, pack.scene.meshes.size(), arguments->output);
   });
 }
 
 void listMaterials() {
   for (const OpticalConstants& m : materialLibrary())
-    fmt::print("{:<14} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}  {}\n", m.name, m.eta.x, m.eta.y, m.eta.z,
-               m.k.x, m.k.y, m.k.z, m.source);
+    console::printLine("{:<14} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}  {}", m.name, m.eta.x, m.eta.y, m.eta.z,
+                       m.k.x, m.k.y, m.k.z, m.source);
 }
 
 void listEffects() {
   for (const shaders::EffectInfo& e : shaders::kEffects)
-    if (!e.name.empty()) fmt::print("{:<22} {}\n", e.name, e.description);
+    if (!e.name.empty()) console::printLine("{:<22} {}", e.name, e.description);
 }
 
 }  // namespace malus::bake

@@ -9,6 +9,8 @@
 
 #include "bake/pack/format.h"
 #include "bake/scene_json.h"
+#include "meshprep/base/text.h"
+#include "meshprep/json_text.h"
 
 namespace malus::bake {
 using nlohmann::json;
@@ -151,16 +153,15 @@ json diffJson(const pack::Pack& a, const pack::Pack& b) {
 
 std::string diffText(const json& difference) {
   if (difference.at("equal")) return "the packs are equal\n";
-  const auto text = [](const json& value) {
-    return value.is_null() ? std::string("-") : value.dump(-1, ' ', false, json::error_handler_t::replace);
-  };
+  const auto text = [](const json& value) { return value.is_null() ? std::string("-") : jsonText(value, -1); };
   std::string result = "sections\n";
   for (const json& s : difference.at("sections"))
     result += fmt::format("  {}  {:<20} {} -> {} bytes\n", s.at("id").get<std::string>(),
                           s.at("change").get<std::string>(), text(s.at("sizeBytes")[0]), text(s.at("sizeBytes")[1]));
   result += "changes\n";
   for (const json& c : difference.at("changes"))
-    result += fmt::format("  {}: {} -> {}\n", c.at("where").get<std::string>(), text(c.at("a")), text(c.at("b")));
+    result +=
+        fmt::format("  {}: {} -> {}\n", printable(c.at("where").get<std::string>()), text(c.at("a")), text(c.at("b")));
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "bake/effects/effects.h"
 #include "bake/effects/polarization_bound.h"
 #include "bake/scene_json.h"
+#include "meshprep/base/text.h"
 
 namespace malus::bake {
 using nlohmann::json;
@@ -101,6 +102,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
           {"polarizationErrorBound", {bound.x, bound.y, bound.z}},
           {"deepestBounce", {{"tolerance", tolerance}, {"bounce", deepestBounce(scene, scene.depth, tolerance)}}},
           {"sections", sections},
+          {"warnings", bakeWarnings(scene)},
           {"provenance", provenance}};
 }
 
@@ -108,23 +110,27 @@ std::string infoText(const pack::Pack& pack, double tolerance) {
   const pack::Scene& scene = pack.scene;
   std::string text =
       fmt::format("{}  {}\n{} vertices, {} triangles, {} lights, {} x {} pixels, depth {}\npack {} (format {})\n",
-                  scene.name, scene.title, scene.vertexCount(), scene.triangleCount(), scene.lights.size(), scene.width,
-                  scene.height, scene.depth, hex(pack.hash), pack.formatVersion);
+                  printable(scene.name), printable(scene.title), scene.vertexCount(), scene.triangleCount(),
+                  scene.lights.size(), scene.width, scene.height, scene.depth, hex(pack.hash), pack.formatVersion);
+  if (const std::vector<std::string> warnings = bakeWarnings(scene); !warnings.empty()) {
+    text += "\nwarnings of the bake\n";
+    for (const std::string& warning : warnings) text += fmt::format("  {}\n", printable(warning));
+  }
   text += "\nmeshes\n";
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const pack::Mesh& m = scene.meshes[i];
-    text += fmt::format("  {:<24} {:>8} vertices {:>8} triangles  {}{}, {}\n", m.name, m.positions.size(),
-                        m.triangles.size(), scene.materials[m.material].name, m.openSurface ? " (open surface)" : "",
-                        pack.compression[i]);
+    text += fmt::format("  {:<24} {:>8} vertices {:>8} triangles  {}{}, {}\n", printable(m.name), m.positions.size(),
+                        m.triangles.size(), printable(scene.materials[m.material].name),
+                        m.openSurface ? " (open surface)" : "", pack.compression[i]);
   }
   text += encodingText(pack);
   text += "\nmaterials\n";
   for (const pack::Material& m : scene.materials)
-    text += fmt::format("  {:<24} {:<13} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}\n", m.name,
+    text += fmt::format("  {:<24} {:<13} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}\n", printable(m.name),
                         pack::materialKindName(m.kind), m.eta.x, m.eta.y, m.eta.z, m.k.x, m.k.y, m.k.z);
   text += "\neffects\n";
   for (const pack::Effect& e : currentEffects(scene))
-    text += fmt::format("  {:<3} {:<22} {}\n", e.on ? "on" : "off", e.name, e.reason);
+    text += fmt::format("  {:<3} {:<22} {}\n", e.on ? "on" : "off", printable(e.name), printable(e.reason));
   const glm::dvec3 bound = errorBound(scene);
   text += bound == glm::dvec3(0.0) ? "  the unpolarized intensity without a filter is exact\n"
                                    : fmt::format(

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bake/scene_json.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 
@@ -24,7 +25,12 @@ std::optional<PreviousBake> readPrevious(const std::filesystem::path& path) {
 }
 
 bool isUpToDate(const PreviousBake& previous, const std::string& provenance) {
-  return previous.pack.scene.provenance == provenance;
+  json before = provenanceJson(previous.pack.scene);
+  const json now = json::parse(provenance);
+  // Warnings are a result. A pack without them is of an earlier version, and is baked again.
+  if (!before.is_object() || !before.contains("warnings")) return false;
+  before["warnings"] = now.at("warnings");
+  return before == now;
 }
 
 bool isOfSameVersions(const PreviousBake& previous, const std::string& provenance) {

@@ -105,6 +105,15 @@ json provenanceJson(const pack::Scene& scene) {
   return provenance.is_discarded() ? json() : provenance;
 }
 
+std::vector<std::string> bakeWarnings(const pack::Scene& scene) {
+  const json provenance = provenanceJson(scene);
+  std::vector<std::string> warnings;
+  if (!provenance.is_object() || !provenance.contains("warnings")) return warnings;
+  for (const json& warning : provenance["warnings"])
+    if (warning.is_string()) warnings.push_back(warning.get<std::string>());
+  return warnings;
+}
+
 std::string meshFile(std::size_t index) { return fmt::format("meshes/{:03}.ply", index); }
 std::string mapFile(std::size_t index) { return fmt::format("meshes/{:03}.map.json", index); }
 std::string textureFile(std::size_t index) { return fmt::format("textures/{:03}.exr", index); }

@@ -26,6 +26,8 @@ nlohmann::json effectsJson(const std::vector<pack::Effect>& effects);
 // The provenance of a pack; null if it is not JSON, because a pack may come from anywhere. Nesting deeper than 32
 // levels is left out, because printing it would overflow the stack.
 nlohmann::json provenanceJson(const pack::Scene& scene);
+// The warnings of the bake, from the provenance. Empty if the pack has none, or is of an earlier version.
+std::vector<std::string> bakeWarnings(const pack::Scene& scene);
 
 // Names of the files beside scene.json; index: that of the mesh or texture in the pack.
 std::string meshFile(std::size_t index);

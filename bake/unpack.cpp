@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstring>
+#include <regex>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/image.h"
+#include "meshprep/json_text.h"
 
 namespace malus::bake {
 using nlohmann::json;
@@ -62,21 +64,47 @@ void writeTexture(const pack::Texture& texture, const fs::path& file) {
   image::writeExr(file, image);
 }
 
+// Removes the files that an earlier unpack() wrote; a source scene.json has no packHash. Throws Error if files of
+// another origin would be overwritten.
+void removeEarlier(const pack::Pack& pack, const fs::path& folder) {
+  std::error_code failed;
+  const fs::path list = folder / "scene.json";
+  const json old = fs::exists(list, failed) ? json::parse(readTextFile(list), nullptr, false) : json();
+  if (!old.is_object() || !old.contains("packHash")) {
+    for (const fs::path& file : unpackedFiles(pack, folder))
+      if (fs::exists(file, failed))
+        throw Error(file.string(), "exists and was not written by 'malus unpack'",
+                    "an empty folder, or one that 'malus unpack' wrote; choose it with --output");
+    return;
+  }
+  // The names are tested against its own pattern: the document may have been edited.
+  const std::regex own("(meshes|textures)/[0-9]{3,9}\\.(ply|map\\.json|exr)");
+  for (const char* kind : {"meshes", "textures"})
+    for (const json& entry : old.value(kind, json::array()))
+      for (const char* key : {"file", "map"})
+        if (entry.is_object() && entry.contains(key) && entry[key].is_string() &&
+            std::regex_match(entry[key].get<std::string>(), own))
+          fs::remove(folder / entry[key].get<std::string>(), failed);
+  fs::remove(folder / kEnvironmentFile, failed);
+}
+
 }  // namespace
+
+std::vector<fs::path> unpackedFiles(const pack::Pack& pack, const fs::path& folder) {
+  std::vector<fs::path> files = {folder / "scene.json"};
+  for (std::size_t i = 0; i < pack.scene.meshes.size(); ++i) {
+    files.push_back(folder / meshFile(i));
+    if (pack.hasSourceMap()) files.push_back(folder / mapFile(i));
+  }
+  for (std::size_t i = 0; i < pack.scene.textures.size(); ++i) files.push_back(folder / textureFile(i));
+  if (pack.scene.environment.size > 0) files.push_back(folder / kEnvironmentFile);
+  return files;
+}
 
 json unpack(const pack::Pack& pack, const fs::path& folder) {
   const pack::Scene& scene = pack.scene;
   std::error_code failed;
-  // Overwrite only what unpack wrote: a source scene.json has no packHash.
-  if (fs::exists(folder / "scene.json", failed)) {
-    const json old = json::parse(readTextFile(folder / "scene.json"), nullptr, false);
-    if (!old.is_object() || !old.contains("packHash"))
-      throw Error((folder / "scene.json").string(), "exists and was not written by 'malus unpack'",
-                  "an empty folder, or one that 'malus unpack' wrote; choose it with --output");
-    fs::remove_all(folder / "meshes", failed);
-    fs::remove_all(folder / "textures", failed);
-    fs::remove(folder / "environment.exr", failed);
-  }
+  removeEarlier(pack, folder);
   fs::create_directories(folder / "meshes", failed);
   if (failed)
     throw Error(folder.string(), "cannot create the folder", "a writable folder; choose it with --output",
@@ -93,7 +121,7 @@ json unpack(const pack::Pack& pack, const fs::path& folder) {
   for (std::size_t i = 0; i < scene.textures.size(); ++i) writeTexture(scene.textures[i], folder / textureFile(i));
   if (scene.environment.size > 0) writeEnvironment(scene.environment, folder / kEnvironmentFile);
   json document = sceneJson(pack);
-  writeFile(folder / "scene.json", document.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  writeFile(folder / "scene.json", jsonText(document, 1) + "\n");
   return document;
 }
 

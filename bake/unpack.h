@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,7 +18,11 @@
 
 namespace malus::bake {
 
-// Writes into folder, which is created if it is missing. Returns the document of scene.json. Throws Error.
+// The files that unpack() writes into folder.
+std::vector<std::filesystem::path> unpackedFiles(const pack::Pack& pack, const std::filesystem::path& folder);
+
+// Writes into folder, which is created if it is missing. Returns the document of scene.json. Replaces the files of an
+// earlier unpack() there, and no others. Throws Error: a file that is there is of another origin, or cannot be written.
 nlohmann::json unpack(const pack::Pack& pack, const std::filesystem::path& folder);
 
 }  // namespace malus::bake

@@ -160,7 +160,8 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
   bodies.push_back({kEncodings, encodingBytes(encoded.encodings)});
   if (settings.keepMap) bodies.push_back({kSourceMap, std::move(encoded.map)});
   bodies.push_back({kEffects, effectBytes(scene.effects)});
-  bodies.push_back({kProvenance, textBytes(scene.provenance)});
+  bodies.push_back(
+      {kProvenance, textBytes(settings.provenance ? settings.provenance(written.warnings) : scene.provenance)});
   written.bytes = assemble(bodies);
   return written;
 }

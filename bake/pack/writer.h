@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct WriteSettings {
   compress::Bounds bounds;
   double conversionError = 0;  // metres; error that the positions have already, by rounding to float
   bool keepMap = false;        // write the map from packed vertices and triangles to those of the source files
+  // Makes the provenance from Written::warnings; empty: the scene's is written.
+  std::function<std::string(const std::vector<std::string>& warnings)> provenance;
 };
 
 // A pack from which unchanged meshes are reused. It must be of the same versions of baker and codec.

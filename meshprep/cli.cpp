@@ -14,11 +14,16 @@
 #include <nlohmann/json.hpp>
 
 #include "meshprep/base/atomic_file.h"
+#include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/output_files.h"
 #include "meshprep/compress/bounds.h"
 #include "meshprep/compress/draco_mesh.h"
 #include "meshprep/deprecated_option.h"
+#include "meshprep/json_text.h"
+#include "meshprep/number_option.h"
 #include "meshprep/prepare.h"
+#include "meshprep/read/source_scene.h"
 
 namespace malus::prep {
 
@@ -56,9 +61,9 @@ double convertToFloat(const Mesh& mesh, compress::TriangleMesh& result) {
 }
 
 void printReport(const Arguments& arguments, const Report& report) {
-  const std::string json = toJson(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const std::string json = jsonText(toJson(report)) + "\n";
   if (!arguments.reportFile.empty()) writeFile(arguments.reportFile, std::string_view(json));
-  fmt::print("{}", arguments.json ? json : toText(report));
+  console::printText(arguments.json ? json : toText(report));
 }
 
 // Prints the report and throws Error if a requested certificate is refused.
@@ -89,7 +94,19 @@ bool skips(const Arguments& arguments, std::string_view step) {
   return std::find(arguments.skipped.begin(), arguments.skipped.end(), step) != arguments.skipped.end();
 }
 
+// Refuses to write over the mesh, over a file that it refers to, or two results to one file.
+void checkFiles(const Arguments& arguments) {
+  OutputFiles files;
+  files.addInput(arguments.input);
+  for (const std::filesystem::path& file : referencedFiles(arguments.input)) files.addInput(file);
+  files.addOutput(arguments.output, "--output");
+  files.addOutput(arguments.reportFile, "--report");
+  files.addOutput(arguments.mapFile, "--source-map");
+  files.check();
+}
+
 void runPrep(const Arguments& arguments) {
+  checkFiles(arguments);
   // Clean.
   Report report;
   Options options = arguments.options;
@@ -135,17 +152,17 @@ void addCleaningOptions(CLI::App& prep, Arguments& arguments) {
   Options& options = arguments.options;
   prep.add_flag("--open-surface", options.openSurface, "Declare an open surface: its orientation is kept");
   prep.add_option("--weld", options.steps.weldTolerance, "Join vertices within this distance [m]")
-      ->check(CLI::NonNegativeNumber)
+      ->transform(nonNegativeNumber())
       ->type_name("METRES")
       ->capture_default_str();
   prep.add_option("--weld-relative", options.weldRelative,
                   "Join vertices within this fraction of the bounding box diagonal, if larger than --weld")
-      ->check(CLI::Range(0.0, 1.0))
+      ->transform(numberBetween(0, 1))
       ->type_name("FRACTION")
       ->capture_default_str();
   prep.add_flag("--drop-opposite", options.steps.dropOpposite, "Drop the later one of two faces back to back");
   prep.add_option("--fill-holes", options.steps.fillHoles, "Fill holes of at most this number of edges")
-      ->check(CLI::Range(3, 1000000))
+      ->transform(wholeNumberBetween(3, 1000000))
       ->type_name("EDGES");
   prep.add_option("--skip", arguments.skipped, "Skip these steps; fans requires degenerate")
       ->delimiter(',')
@@ -166,7 +183,7 @@ void addNormalOptions(CLI::App& prep, Options& options) {
       ->type_name("KIND")
       ->default_str("crease");
   prep.add_option("--crease", options.creaseDegrees, "Smallest angle of a sharp edge [degrees]")
-      ->check(CLI::Range(0.0, 180.0))
+      ->transform(numberBetween(0, 180))
       ->type_name("DEGREES")
       ->capture_default_str();
   prep.add_flag("--flat", options.flat, "Use the normals of the faces: none are stored, and no vertex is split");
@@ -174,17 +191,17 @@ void addNormalOptions(CLI::App& prep, Options& options) {
 
 void addCompressionOptions(CLI::App& prep, compress::Bounds& bounds) {
   prep.add_option("--position-error", bounds.positionError, "Largest distance of a vertex from its source [m]")
-      ->check(CLI::PositiveNumber)
+      ->transform(positiveNumber())
       ->type_name("METRES");
   prep.add_option("--normal-error", bounds.normalErrorDegrees,
                   "Largest angle of a normal from its source [degrees]; without it 0.05 is a goal")
-      ->check(CLI::PositiveNumber)
+      ->transform(positiveNumber())
       ->type_name("DEGREES");
   prep.add_option("--position-bits", bounds.positionBits, "Exact number of bits per coordinate")
-      ->check(CLI::Range(1, compress::kMaxPositionBits))
+      ->transform(wholeNumberBetween(1, compress::kMaxPositionBits))
       ->type_name("N");
   prep.add_option("--normal-bits", bounds.normalBits, "Exact number of bits per coordinate of a normal")
-      ->check(CLI::Range(compress::kMinNormalBits, compress::kMaxNormalBits))
+      ->transform(wholeNumberBetween(compress::kMinNormalBits, compress::kMaxNormalBits))
       ->type_name("N");
 }
 
@@ -207,15 +224,15 @@ void addPrepCommand(CLI::App& app) {
   addCleaningOptions(prep, *arguments);
   prep.add_option("--simplify-error", arguments->options.simplify.maxError,
                   "Collapse edges while the surface stays within this distance")
-      ->check(CLI::PositiveNumber)
+      ->transform(positiveNumber())
       ->type_name("METRES");
   prep.add_option("--simplify-triangles", arguments->options.simplify.triangles,
                   "Collapse edges until so many triangles are left")
-      ->check(CLI::PositiveNumber)
+      ->transform(wholeNumberBetween(1))
       ->type_name("N");
   prep.add_option("--simplify-normal", arguments->options.simplify.maxNormalErrorDegrees,
                   "Collapse edges only while the normals of the surface stay within this angle")
-      ->check(CLI::Range(0.0, 180.0))
+      ->transform(numberBetween(0, 180))
       ->type_name("DEGREES");
   addNormalOptions(prep, arguments->options);
   addCompressionOptions(prep, arguments->bounds);

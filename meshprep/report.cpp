@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "meshprep/base/text.h"
+
 namespace malus::prep {
 
 namespace {
@@ -92,7 +94,7 @@ nlohmann::json toJson(const Report& report) {
 
 std::string toText(const Report& report) {
   // Print the counts before and after.
-  std::string text = fmt::format("{}\n", report.source);
+  std::string text = fmt::format("{}\n", printable(report.source));
   text += fmt::format("  {:<34}{:>12}{:>12}\n", "", "before", "after");
   text += fmt::format("  {:<34}{:>12}{:>12}\n", "vertices", report.input.vertices, report.output.vertices);
   text += fmt::format("  {:<34}{:>12}{:>12}\n", "faces, triangles", report.input.faces, report.output.triangles);
@@ -104,7 +106,7 @@ std::string toText(const Report& report) {
                           step.findings.empty() ? ""
                                                 : fmt::format("  {}{}", step.count > 1 ? "first: " : "",
                                                               describe(step.findings.front())));
-  for (const std::string& note : report.notes) text += fmt::format("  ignored: {}\n", note);
+  for (const std::string& note : report.notes) text += fmt::format("  ignored: {}\n", printable(note));
 
   // Print the numbers of components.
   const auto count = [&](auto which) {

@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,8 @@
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/image.h"
+#include "meshprep/base/output_files.h"
+#include "meshprep/json_text.h"
 #include "render/effects_option.h"
 #include "render/filter_options.h"
 #include "render/image/mosaic.h"
@@ -58,14 +59,17 @@ bool hasExtension(const std::string& file, std::initializer_list<const char*> ex
   throw CLI::ValidationError(option, problem);
 }
 
-// Checks the output files: at least one, each once, each with a known extension.
+// Checks the output files: at least one, each once, none of them the pack, each with a known extension.
 void checkOutputs(const RenderArguments& a) {
-  std::vector<std::string> files = a.outputs;
-  for (const std::string& file : {a.dolp, a.aolp, a.mosaic})
-    if (!file.empty()) files.push_back(file);
-  if (files.empty()) refuse("--output", "no image asked for; use -o, --output-dolp, --output-aolp or --mosaic");
-  if (std::set<std::string>(files.begin(), files.end()).size() != files.size())
-    refuse("--output", "the same file for two images");
+  OutputFiles files;
+  files.addInput(a.pack);
+  for (const std::string& file : a.outputs) files.addOutput(file, "--output");
+  files.addOutput(a.dolp, "--output-dolp");
+  files.addOutput(a.aolp, "--output-aolp");
+  files.addOutput(a.mosaic, "--mosaic");
+  files.check();
+  if (a.outputs.empty() && a.dolp.empty() && a.aolp.empty() && a.mosaic.empty())
+    refuse("--output", "no image asked for; use -o, --output-dolp, --output-aolp or --mosaic");
   for (const std::string& file : {a.dolp, a.aolp})
     if (!file.empty() && !hasExtension(file, {".exr", ".png"}))
       refuse("--output-dolp, --output-aolp", "expected .exr or .png, found " + file);
@@ -120,8 +124,8 @@ void checkMosaicSize(const Region& region) {
 void reportJob(const RenderArguments& a, const Job& job) {
   if (const auto& best = job.estimate()) {
     console::progressDone();
-    fmt::print(stderr, "malus: {}: relative RMS error {:.3g} on a small image, {:.1f} ms; the fastest within {:g}\n",
-               best->method, best->relRms, best->medianMs, *a.job.maxError);
+    console::error(fmt::format("{}: relative RMS error {:.3g} on a small image, {:.1f} ms; the fastest within {:g}",
+                               best->method, best->relRms, best->medianMs, *a.job.maxError));
   }
   warnOfFilter(a.filter, makeAnalyser(a.filter),
                backendInfo(a.job.backend).hasMethods ? job.requestedMethod() : std::string());
@@ -162,12 +166,12 @@ void printResult(const RenderArguments& a, const Job& job, const std::string& sc
   const std::string backend = backendInfo(job.backend()).name, &substitutedFor = job.substitutedFor();
   const Cost& cost = result.cost;
   if (!a.json) {
-    fmt::print("{}: {} {}{}, {} x {}, depth {}, {}{:.1f} ms on {}{}{}\n", scene, backend, job.method(),
-               substitutedFor.empty() ? "" : fmt::format(" (substituted for {})", substitutedFor), result.width,
-               result.height, job.parameters().depth, cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "",
-               cost.traceMs, result.device,
-               result.withoutRecursion.empty() ? "" : fmt::format("; without recursion: {}", result.withoutRecursion),
-               a.job.checkNumerics ? "; every value is finite and physical" : "");
+    console::printLine(
+        "{}: {} {}{}, {} x {}, depth {}, {}{:.1f} ms on {}{}{}", scene, backend, job.method(),
+        substitutedFor.empty() ? "" : fmt::format(" (substituted for {})", substitutedFor), result.width, result.height,
+        job.parameters().depth, cost.rays > 0 ? fmt::format("{} rays, ", cost.rays) : "", cost.traceMs, result.device,
+        result.withoutRecursion.empty() ? "" : fmt::format("; without recursion: {}", result.withoutRecursion),
+        a.job.checkNumerics ? "; every value is finite and physical" : "");
     return;
   }
   const auto orNull = [](bool known, nlohmann::json value) { return known ? std::move(value) : nlohmann::json(); };
@@ -191,7 +195,7 @@ void printResult(const RenderArguments& a, const Job& job, const std::string& sc
       {"substitutedFor", orNull(!substitutedFor.empty(), substitutedFor)},
       {"inPlaceOf", orNull(!substitutedFor.empty(), substitutedFor)},
       {"outputs", written}};
-  fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  console::printText(jsonText(document) + "\n");
 }
 
 void runRender(const RenderArguments& a) {
@@ -232,6 +236,7 @@ void addOutputOptions(CLI::App& command, RenderArguments& a) {
           ->type_name("FILE");
   command.add_option("--mosaic-bits", a.mosaicBits, "Bits per pixel of the mosaic; 12 are stored unshifted in 16")
       ->check(CLI::IsMember({8u, 12u, 16u}))
+      ->transform(wholeNumberBetween(8, 16))
       ->capture_default_str()
       ->needs(mosaic);
   command.add_option("--mosaic-channel", a.mosaicChannel, "Light that the sensor of the mosaic measures")
@@ -251,12 +256,12 @@ void addMethodOptions(CLI::App& command, JobSettings& job) {
   command
       .add_option("--max-error", job.maxError,
                   "Replace --method by the fastest one within this relative RMS error on the pack")
-      ->check(CLI::Range(0.0, 1e6));
+      ->transform(numberBetween(0, 1e6));
   command.add_flag("--stokes", job.stokes, "Iterative methods: Stokes channels too, by four times the rays");
   command
       .add_option("--tolerance", job.tolerance,
                   "Iterative methods: share of a light's radiance that a path may lose; 0 is exact")
-      ->check(CLI::Range(0.0, 1.0))
+      ->transform(numberBetween(0, 1))
       ->capture_default_str();
   command.add_flag("--count-rays", job.countRays, "Count the rays even if that takes a second, untimed pass");
   command.add_flag("--check-numerics", job.checkNumerics,
@@ -276,7 +281,7 @@ void addRenderCommand(CLI::App& app) {
 }
 
 void listMethods() {
-  for (const MethodInfo& m : methods()) fmt::print("{:<17} {:>2} bytes per ray\n", m.name, m.payloadBytes);
+  for (const MethodInfo& m : methods()) console::printLine("{:<17} {:>2} bytes per ray", m.name, m.payloadBytes);
 }
 
 }  // namespace malus::render

@@ -14,6 +14,8 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/image.h"
 #include "meshprep/base/image_colour.h"
+#include "meshprep/base/output_files.h"
+#include "meshprep/json_text.h"
 #include "render/compare/image_difference.h"
 #include "render/image/output.h"
 #include "render/options.h"
@@ -33,9 +35,9 @@ struct CompareImagesArguments {
 
 void printDifference(const CompareImagesArguments& arguments, const ImageDifference& d) {
   if (!arguments.json) {
-    fmt::print("mean {:.6g}  rms {:.6g}  max {:.6g}  99.9 % {:.6g}  outliers over {:g}: {} of {} pixels{}\n", d.mean,
-               d.rms, d.max, d.p999, arguments.threshold, d.outliers, d.pixels,
-               d.nonFinite > 0 ? fmt::format(", {} with NaN or infinity", d.nonFinite) : "");
+    console::printLine("mean {:.6g}  rms {:.6g}  max {:.6g}  99.9 % {:.6g}  outliers over {:g}: {} of {} pixels{}",
+                       d.mean, d.rms, d.max, d.p999, arguments.threshold, d.outliers, d.pixels,
+                       d.nonFinite > 0 ? fmt::format(", {} with NaN or infinity", d.nonFinite) : "");
     return;
   }
   // JSON has no infinity.
@@ -44,7 +46,7 @@ void printDifference(const CompareImagesArguments& arguments, const ImageDiffere
                                  {"max", number(d.max)},   {"p999", number(d.p999)},
                                  {"outliers", d.outliers}, {"nonFinite", d.nonFinite},
                                  {"pixels", d.pixels},     {"threshold", arguments.threshold}};
-  fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  console::printText(jsonText(result) + "\n");
 }
 
 image::Image readLinear(const std::string& file, const std::vector<std::string>& channels) {
@@ -55,6 +57,11 @@ image::Image readLinear(const std::string& file, const std::vector<std::string>&
 }
 
 void runCompareImages(const CompareImagesArguments& arguments) {
+  OutputFiles files;
+  files.addInput(arguments.a);
+  files.addInput(arguments.b);
+  files.addOutput(arguments.difference, "--difference");
+  files.check();
   const image::Image a = readLinear(arguments.a, arguments.channels), b = readLinear(arguments.b, arguments.channels);
   ImageDifference d;
   try {
@@ -77,18 +84,16 @@ void addCompareImagesCommand(CLI::App& app) {
   command->add_option("b", a->b, "Second image")->required()->type_name("FILE");
   command->add_option("--channels", a->channels, "Channels to compare")->capture_default_str();
   command->add_option("--threshold", a->threshold, "Difference above which a pixel is an outlier")
-      ->check(finite())
-      ->check(CLI::NonNegativeNumber)
+      ->transform(nonNegativeNumber())
       ->capture_default_str();
   command->add_option("--fail-over", a->failOver, "Exit with code 3 if the largest difference is above this")
-      ->check(finite())
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--max-outliers", a->maxOutliers, "Exit with code 3 if more pixels are outliers");
+      ->transform(nonNegativeNumber());
+  command->add_option("--max-outliers", a->maxOutliers, "Exit with code 3 if more pixels are outliers")
+      ->transform(wholeNumberBetween(0));
   command->add_option("--difference", a->difference, "Image to write: the absolute difference times --gain")
       ->type_name("FILE");
   command->add_option("--gain", a->gain, "Factor of the difference image")
-      ->check(finite())
-      ->check(CLI::PositiveNumber)
+      ->transform(positiveNumber())
       ->capture_default_str();
   command->add_flag("--json", a->json, "Print the result as JSON");
   command->callback([a] { runCompareImages(*a); });

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "meshprep/base/console.h"
+#include "meshprep/json_text.h"
 #include "render/vulkan/device_description.h"
 
 namespace malus::render {
@@ -12,8 +14,8 @@ namespace malus::render {
 namespace {
 
 void printLine(std::size_t number, const vulkan::DeviceDescription& d) {
-  fmt::print("{}  {}; driver {}{}{}\n", number, d.name, d.driver, d.problem.empty() ? "" : "; not usable: " + d.problem,
-             d.isDefault ? "; used by default" : "");
+  console::printLine("{}  {}; driver {}{}{}", number, d.name, d.driver,
+                     d.problem.empty() ? "" : "; not usable: " + d.problem, d.isDefault ? "; used by default" : "");
 }
 
 void printDevices(bool asJson) {
@@ -28,10 +30,10 @@ void printDevices(bool asJson) {
       continue;
     }
     printLine(i, d);
-    fmt::print("   {}, Vulkan {}, ray-tracing cores: {}\n", d.type, d.vulkan, d.rayTracingCores);
-    for (const auto& [name, value] : d.values) fmt::print("   {:<48} {}\n", name, value);
+    console::printLine("   {}, Vulkan {}, ray-tracing cores: {}", d.type, d.vulkan, d.rayTracingCores);
+    for (const auto& [name, value] : d.values) console::printLine("   {:<48} {}", name, value);
   }
-  if (asJson) fmt::print("{}\n", document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (asJson) console::printText(jsonText(document, 1) + "\n");
 }
 
 }  // namespace

@@ -1,8 +1,5 @@
 #include "render/filter_options.h"
 
-#include <charconv>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "meshprep/base/console.h"
@@ -12,14 +9,6 @@
 namespace malus::render {
 
 namespace {
-
-std::optional<double> parseNumber(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failed != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 // "AXIS" or "AXIS,RETARDANCE" in degrees.
 std::optional<WavePlate> parseWavePlate(std::string_view text) {
@@ -44,7 +33,7 @@ void addFilterOptions(CLI::App& command, FilterOptions& options) {
   command
       .add_option("--polarizer", options.polarizer,
                   "Linear polarizer in front of the camera, from the image's x axis, counter-clockwise [degrees]")
-      ->check(finite());
+      ->transform(anyNumber());
   command.add_option("--analyser", options.analyser, "Circular analyser in front of the camera: the light that passes")
       ->transform(CLI::IsMember({"right", "left"}, CLI::ignore_case));
   command

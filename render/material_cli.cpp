@@ -1,6 +1,5 @@
 #include "render/material_cli.h"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -13,7 +12,11 @@
 #include "bake/pack/scene.h"
 #include "bake/scene_file/strict_object.h"
 #include "meshprep/base/atomic_file.h"
+#include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/output_files.h"
+#include "meshprep/json_text.h"
+#include "meshprep/number_option.h"
 #include "render/material/surface_response.h"
 #include "render/report_script.h"
 
@@ -29,13 +32,6 @@ struct MaterialArguments {
   unsigned wavelengthNm = 532;
   bool csv = false, json = false;
 };
-
-std::optional<double> parseNumber(std::string_view text) {
-  double value = 0;
-  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failed != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 constexpr std::size_t kMostAngles = 100000;
 
@@ -113,31 +109,33 @@ std::string matrixText(const std::array<double, 16>& m) {
 }
 
 void printTable(const MaterialArguments& a, const Interface& i, const std::vector<SurfaceResponse>& rows) {
-  fmt::print("{}, index {:g} - i {:g} against {:g}, {}\n",
-             a.eta ? std::string("given constants") : fmt::format("{} at {} nm", a.name, a.wavelengthNm), i.n2, i.k2,
-             i.n1, a.precision);
-  fmt::print("{:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "angle", "R_s", "R_p", "T_s", "T_p", "D", "phase");
+  console::printLine("{}, index {:g} - i {:g} against {:g}, {}",
+                     a.eta ? std::string("given constants") : fmt::format("{} at {} nm", a.name, a.wavelengthNm), i.n2,
+                     i.k2, i.n1, a.precision);
+  console::printLine("{:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}", "angle", "R_s", "R_p", "T_s", "T_p", "D",
+                     "phase");
   for (const SurfaceResponse& r : rows)
-    fmt::print("{:>8g} {:>10.6f} {:>10.6f} {:>10} {:>10} {:>10.6f} {:>10.4f}\n", r.angleDegrees, r.rs, r.rp,
-               number(r.ts), number(r.tp), r.diattenuation, r.phaseDegrees);
+    console::printLine("{:>8g} {:>10.6f} {:>10.6f} {:>10} {:>10} {:>10.6f} {:>10.4f}", r.angleDegrees, r.rs, r.rp,
+                       number(r.ts), number(r.tp), r.diattenuation, r.phaseDegrees);
   if (rows.size() > 1) return;
-  fmt::print("Mueller matrix of the reflection (frames: x is the s direction)\n{}", matrixText(rows[0].reflection));
+  console::printText("Mueller matrix of the reflection (frames: x is the s direction)\n" +
+                     matrixText(rows[0].reflection));
   if (rows[0].transmission)
-    fmt::print("Mueller matrix of the transmission, in flux\n{}", matrixText(*rows[0].transmission));
+    console::printText("Mueller matrix of the transmission, in flux\n" + matrixText(*rows[0].transmission));
 }
 
 void printCsv(const std::vector<SurfaceResponse>& rows) {
   std::string heading = "angleDegrees,rs,rp,ts,tp,diattenuation,phaseDegrees";
   for (const char* matrix : {"reflection", "transmission"})
     for (int i = 0; i < 16; ++i) heading += fmt::format(",{}{}{}", matrix, i / 4, i % 4);
-  fmt::print("{}\n", heading);
+  console::printOneLine(heading);
   const auto optional = [](const std::optional<double>& v) { return v ? fmt::format("{}", *v) : std::string(); };
   for (const SurfaceResponse& r : rows) {
     std::string line = fmt::format("{},{},{},{},{},{},{}", r.angleDegrees, r.rs, r.rp, optional(r.ts), optional(r.tp),
                                    r.diattenuation, r.phaseDegrees);
     for (const double v : r.reflection) line += fmt::format(",{}", v);
     for (std::size_t i = 0; i < 16; ++i) line += r.transmission ? fmt::format(",{}", (*r.transmission)[i]) : ",";
-    fmt::print("{}\n", line);
+    console::printOneLine(line);
   }
 }
 
@@ -148,6 +146,9 @@ void runMaterial(const MaterialArguments& a) {
     throw CLI::ValidationError(
         "--angle", fmt::format("expected DEG or FROM:TO:STEP within 0 to 90 with at most {} steps, found '{}'",
                                kMostAngles, a.angle));
+  OutputFiles files;
+  files.addOutput(a.plot, "--plot");
+  files.check();
   const Interface interface = interfaceFor(a);
   std::vector<SurfaceResponse> rows;
   for (const double angle : angles)
@@ -161,11 +162,11 @@ void runMaterial(const MaterialArguments& a) {
     if (extension != ".png" && extension != ".svg" && extension != ".pdf")
       throw Error(a.plot, "unknown plot format", ".png, .svg or .pdf", extension.string());
     writeBeside(a.plot, [&](const std::filesystem::path& file) {
-      runReportScript("material_plot.py", {file.string()}, document.dump(), "cannot draw the plot");
+      runReportScript("material_plot.py", {file.string()}, jsonText(document, -1), "cannot draw the plot");
     });
   }
   if (a.json)
-    fmt::print("{}\n", (rows.size() == 1 ? document[0] : document).dump(1));
+    console::printText(jsonText(rows.size() == 1 ? document[0] : document, 1) + "\n");
   else if (a.csv)
     printCsv(rows);
   else if (a.plot.empty())
@@ -179,15 +180,16 @@ void addMaterialCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("material", "Print the response of a surface to polarized light");
   command->add_option("name", a->name, "Material from --list-materials");
   CLI::Option* eta = command->add_option("--eta", a->eta, "Real part of the index, in place of a name")
-                         ->check(CLI::Range(0.0, pack::kMaxEta));
+                         ->transform(numberBetween(0, pack::kMaxEta));
   command->add_option("--k", a->k, "Imaginary part: the index is eta - i k; a metal if above 0")
-      ->check(CLI::Range(0.0, pack::kMaxEta))
+      ->transform(numberBetween(0, pack::kMaxEta))
       ->needs(eta);
   command->add_option("--outside", a->outside, "Index of the medium of the incident light")
-      ->check(CLI::Range(pack::kMinEta, pack::kMaxEta))
+      ->transform(numberBetween(pack::kMinEta, pack::kMaxEta))
       ->capture_default_str();
   command->add_option("--wavelength", a->wavelengthNm, "Wavelength for a named material: red, green or blue [nm]")
       ->check(CLI::IsMember({630u, 532u, 465u}))
+      ->transform(wholeNumberBetween(0, 1000000))
       ->capture_default_str();
   command->add_option("--angle", a->angle, "Angle of incidence: DEG, or FROM:TO:STEP [degrees]")->capture_default_str();
   command->add_option("--precision", a->precision, "Precision of the arithmetic")

@@ -1,6 +1,5 @@
 #include "render/options.h"
 
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,15 +10,6 @@
 #include "render/scene/methods.h"
 
 namespace malus::render {
-
-CLI::Validator finite() {
-  return {[](std::string& text) {
-            double value = 0;
-            return CLI::detail::lexical_cast(text, value) && std::isfinite(value) ? std::string()
-                                                                                  : "expected a number, found " + text;
-          },
-          "NUMBER"};
-}
 
 void addBackend(CLI::App& command, Backend& backend) {
   command
@@ -37,7 +27,7 @@ void addMethod(CLI::App& command, std::string& method) {
 
 void addDevice(CLI::App& command, std::string& device, unsigned& threads) {
   command.add_option("--threads", threads, "CPU threads; 0 for all")
-      ->check(CLI::Range(0u, 1024u))
+      ->transform(wholeNumberBetween(0, 1024))
       ->capture_default_str();
   command.add_option("--device", device,
                      "Vulkan device: number or part of its name from --list-devices (default: the best)");
@@ -57,8 +47,7 @@ void addVulkanPath(CLI::App& command, VulkanPath& path) {
 
 void addExposure(CLI::App& command, std::optional<double>& exposure) {
   command.add_option("--exposure", exposure, "Exposure of 8-bit images and mosaics [stops] (default: the pack's)")
-      ->check(finite())
-      ->check(CLI::Range(-100.0, 100.0));
+      ->transform(numberBetween(-100, 100));
 }
 
 void addJobOptions(CLI::App& command, std::string& pack, JobSettings& settings) {
@@ -69,9 +58,10 @@ void addJobOptions(CLI::App& command, std::string& pack, JobSettings& settings) 
   addHeight(command, settings.height);
   addDepth(command, settings.depth);
   command.add_option("--samples", settings.samples, "Rays per pixel along each axis")
-      ->check(CLI::Range(1u, 64u))
+      ->transform(wholeNumberBetween(1, 64))
       ->capture_default_str();
   command.add_option("--region", settings.region, "Part of the image: x y width height [pixels] (default: all of it)")
+      ->transform(wholeNumberBetween(0, pack::kMaxResolution))
       ->expected(4);
   addDevice(command, settings.device, settings.threads);
   addVulkanPath(command, settings.vulkanPath);

@@ -10,12 +10,10 @@
 #include <CLI/CLI.hpp>
 
 #include "bake/pack/format.h"
+#include "meshprep/number_option.h"
 #include "render/job.h"
 
 namespace malus::render {
-
-// Accepts finite numbers; CLI::Range lets NaN through.
-CLI::Validator finite();
 
 // --backend, --method, --device, --threads, --vulkan-path
 void addBackend(CLI::App& command, Backend& backend);
@@ -31,7 +29,8 @@ void addExposure(CLI::App& command, std::optional<double>& exposure);
 template <class Value>
 CLI::Option* addNumber(CLI::App& command, const char* name, Value& value, std::uint32_t least, std::uint32_t most,
                        const char* description) {
-  CLI::Option* option = command.add_option(name, value, description)->check(CLI::Range(least, most))->type_name("N");
+  CLI::Option* option =
+      command.add_option(name, value, description)->transform(wholeNumberBetween(least, most))->type_name("N");
   if constexpr (std::is_same_v<Value, std::vector<std::uint32_t>>) option->delimiter(',')->type_name("N,...");
   return option;
 }

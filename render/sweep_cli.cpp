@@ -15,6 +15,8 @@
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/output_files.h"
+#include "meshprep/json_text.h"
 #include "render/image/output.h"
 #include "render/job.h"
 #include "render/options.h"
@@ -24,6 +26,8 @@ namespace malus::render {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kListFile = "sweep.json";
 
 struct SweepArguments {
   std::string pack, folder;
@@ -87,8 +91,28 @@ nlohmann::json writeFrames(const SweepArguments& a, const FileName& fileName, co
   return frames;
 }
 
+std::string frameName(const SweepArguments& a, unsigned frame) {
+  const std::size_t digits = std::max<std::size_t>(3, std::to_string(a.frames - 1).size());
+  return fmt::format("frame-{:0{}}.png", frame, digits);
+}
+
+// Refuses to write a frame or the list over the pack.
+void checkFiles(const SweepArguments& a) {
+  OutputFiles files;
+  files.addInput(a.pack);
+  files.addOutputFolder(a.folder, "--output");
+  files.addOutput(fs::path(a.folder) / kListFile, "--output");
+  // Names differ in their numbers, so only an existing frame can be the pack.
+  std::error_code ignored;
+  for (unsigned i = 0; i < a.frames; ++i)
+    if (const fs::path frame = fs::path(a.folder) / frameName(a, i); fs::exists(frame, ignored))
+      files.addOutput(frame, "--output");
+  files.check();
+}
+
 void runSweep(const SweepArguments& a) {
   requireStokes(a.job.backend, a.job.method, "--method");
+  checkFiles(a);
   const pack::Pack pack = pack::read(a.pack);
   JobSettings settings = a.job;
   settings.stokes = settings.storesStokes = true;
@@ -100,12 +124,11 @@ void runSweep(const SweepArguments& a) {
   const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
 
   // Remove the list of an earlier sweep first: it would name frames of both.
-  const fs::path list = folder / "sweep.json";
+  const fs::path list = folder / kListFile;
   std::error_code failed;
   fs::remove(list, failed);
   if (failed) throw Error(list.string(), "cannot replace", "a writable folder", failed.message());
-  const std::size_t digits = std::max<std::size_t>(3, std::to_string(a.frames - 1).size());
-  const auto fileName = [&](unsigned frame) { return fmt::format("frame-{:0{}}.png", frame, digits); };
+  const auto fileName = [&](unsigned frame) { return frameName(a, frame); };
   const nlohmann::json frames = writeFrames(a, fileName, rendered, exposureEv);
   const std::string& substitutedFor = job.substitutedFor();
   const nlohmann::json result = {
@@ -122,19 +145,19 @@ void runSweep(const SweepArguments& a) {
       {"samples", job.parameters().samples},
       {"exposureEv", exposureEv},
       {"frames", frames}};
-  const std::string text = result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const std::string text = jsonText(result) + "\n";
   writeFile(list, text);
   console::progressDone();
   if (fs::exists(folder / fileName(a.frames), failed))
     console::warn(
         fmt::format("{}: {} and later frames are left from an earlier sweep", folder.string(), fileName(a.frames)));
   if (a.json)
-    fmt::print("{}", text);
+    console::printText(text);
   else
-    fmt::print("{}: {} {}{}, {} frames of {} x {} in {}{}\n", pack.scene.name, backend, method,
-               substitutedFor.empty() ? "" : fmt::format(" (substituted for {})", substitutedFor), a.frames,
-               rendered.width, rendered.height, folder.string(),
-               rendered.withoutRecursion.empty() ? "" : "; without recursion: " + rendered.withoutRecursion);
+    console::printLine("{}: {} {}{}, {} frames of {} x {} in {}{}", pack.scene.name, backend, method,
+                       substitutedFor.empty() ? "" : fmt::format(" (substituted for {})", substitutedFor), a.frames,
+                       rendered.width, rendered.height, folder.string(),
+                       rendered.withoutRecursion.empty() ? "" : "; without recursion: " + rendered.withoutRecursion);
 }
 
 }  // namespace
@@ -148,7 +171,7 @@ void addSweepCommand(CLI::App& app) {
       ->required()
       ->type_name("FOLDER");
   command->add_option("--frames", a->frames, "Number N of images, the polarizer at 0, 180/N, ... degrees")
-      ->check(CLI::Range(1u, 100000u))
+      ->transform(wholeNumberBetween(1, 100000))
       ->capture_default_str();
   addExposure(*command, a->exposure);
   command->add_flag("--json", a->json, "Print sweep.json");

@@ -1,83 +1,59 @@
 // The `malus` command: subcommands of the modules, exit codes.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "bake/cli.h"
 #include "meshprep/base/console.h"
-#include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
-#include "meshprep/cli.h"
-#include "render/cli.h"
-#include "render/compare/cli.h"
+#include "meshprep/base/usage_error.h"
 #include "render/compare_images_cli.h"
-#include "render/devices_cli.h"
-#include "render/material_cli.h"
-#include "render/sweep_cli.h"
 #include "render/vulkan/gpu_model.h"
-#include "tools/completion.h"
+#include "tools/command_line.h"
 
 namespace {
 
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kDiffer = 3, kInterrupted = 130 };
 
-int fail(const char* message) {
-  malus::console::progressDone();
-  fmt::print(stderr, "malus: {}\n", message);
-  return kFailed;
+int fail(const char* message, ExitCode code = kFailed) {
+  malus::console::error(message);
+  return code;
 }
 
 // Reports a failed write to standard output, for example to a full disk. CLI11 flushes its own output.
 int finish() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return fail("cannot write to standard output");
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return fail("cannot write to standard output; expected an open file on a disk with free space");
   return kDone;
 }
 
+// Opens standard streams that the caller closed, so that no file of the program takes their numbers and receives the
+// messages. Writing to them fails and is reported.
+void occupyStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) ::_exit(kFailed);
+}
+
 int run(int argc, char** argv) {
-  CLI::App app{"malus: polarized mirror and glass reflections, with their cost", "malus"};
-  app.set_version_flag("--version", "malus " MALUS_VERSION);
-  app.require_subcommand(0, 1);
-  app.fallthrough();
-  app.failure_message(CLI::FailureMessage::simple);
-  bool listMethods = false, listEffects = false, listMaterials = false, listDevices = false;
-  app.add_flag_callback(
-         "-q,--quiet", [] { malus::console::setVerbosity(malus::console::Verbosity::quiet); },
-         "Print no progress and no warnings")
-      ->trigger_on_parse();
-  app.add_flag_callback(
-         "-v,--verbose", [] { malus::console::setVerbosity(malus::console::Verbosity::verbose); }, "Print details")
-      ->trigger_on_parse();
-  app.add_flag("--list-methods", listMethods, "List the rendering methods");
-  app.add_flag("--list-effects", listEffects, "List the effects that a scene can need");
-  app.add_flag("--list-materials", listMaterials, "List the materials with published n and k");
-  app.add_flag("--list-devices", listDevices, "List the Vulkan devices");
-  malus::prep::addPrepCommand(app);
-  malus::bake::addBakeCommand(app);
-  malus::bake::addInfoCommand(app);
-  malus::bake::addUnpackCommand(app);
-  malus::render::addRenderCommand(app);
-  malus::render::addCompareCommand(app);
-  malus::render::addCompareImagesCommand(app);
-  malus::render::addSweepCommand(app);
-  malus::render::addMaterialCommand(app);
-  malus::render::addDevicesCommand(app);
-  malus::addCompletionCommand(app);
+  malus::CommandLine line;
   try {
-    app.parse(argc, argv);  // runs the subcommand
-    if (listMethods) malus::render::listMethods();
-    if (listEffects) malus::bake::listEffects();
-    if (listMaterials) malus::bake::listMaterials();
-    if (listDevices) malus::render::listDevices();
-    if (app.get_subcommands().empty() && !listMethods && !listEffects && !listMaterials && !listDevices) {
-      std::fputs(app.help().c_str(), stderr);
+    if (!line.run({argv + 1, argv + std::max(argc, 1)})) {
+      std::fputs(line.app().help().c_str(), stderr);
       return kUsage;
     }
+  } catch (const CLI::Success& asked) {  // --help, --version
+    line.app().exit(asked);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? finish() : kUsage;  // 0: --help, --version
+    return fail(line.describe(error).c_str(), kUsage);
   }
   return finish();
 }
@@ -85,6 +61,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupyStandardStreams();
   malus::handleInterrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // makes a write beyond the limit of file sizes fail, as on a full disk
   try {
@@ -97,6 +74,8 @@ int main(int argc, char** argv) {
   } catch (const malus::Interrupted&) {
     malus::console::progressDone();
     return kInterrupted;
+  } catch (const malus::UsageError& error) {
+    return fail(error.what(), kUsage);
   } catch (const malus::Error& error) {
     return fail(error.what());
   } catch (const std::bad_alloc&) {

@@ -9,7 +9,11 @@
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
+
 #include "meshprep/base/interrupt.h"
+#include "meshprep/base/output_files.h"
+#include "meshprep/base/usage_error.h"
+#include "meshprep/json_text.h"
 #include "render/compare/devices_table.h"
 #include "render/compare/results.h"
 #include "render/method_option.h"
@@ -69,11 +73,26 @@ void addFamilyEstimates(Comparison& comparison, const Arguments& a) {
     }
 }
 
+// Throws UsageError for the folder of a comparison, whose report would be lost.
+void requireNoComparison(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "results.json", ignored) && fs::exists(folder / "index.html", ignored))
+    throw UsageError("--output", fmt::format("{} has the report of a comparison", folder.string()), "another folder");
+}
+
 // The results of several devices side by side, and their page if there is an output folder.
 void showDevices(const Arguments& a) {
   std::vector<nlohmann::json> results;
   for (const std::string& file : a.shown) results.push_back(readResults(file));
-  fmt::print("{}\n", devicesTable(results));
+  OutputFiles files;
+  for (const std::string& file : a.shown) files.addInput(file);
+  if (!a.output.empty()) {
+    files.addOutputFolder(a.output, "--output");
+    files.addOutput(fs::path(a.output) / "index.html", "--output");
+    requireNoComparison(a.output);
+  }
+  files.check();
+  console::printText(devicesTable(results) + "\n");
   if (a.output.empty() || a.noReport) return;
   std::error_code failed;
   fs::create_directories(a.output, failed);
@@ -81,12 +100,27 @@ void showDevices(const Arguments& a) {
   std::vector<std::string> arguments = {a.output, fmt::format("{}", fmt::join(methodNames(), ","))};
   arguments.insert(arguments.end(), a.shown.begin(), a.shown.end());
   runReportScript("devices_report.py", arguments, "", "cannot write the report");
-  fmt::print("report: {}\n", (fs::path(a.output) / "index.html").string());
+  console::printLine("report: {}", (fs::path(a.output) / "index.html").string());
+}
+
+// Refuses to write a report over a pack.
+void checkFiles(const Arguments& a) {
+  const fs::path folder = a.output;
+  OutputFiles files;
+  for (const std::string& pack : a.packs) files.addInput(pack);
+  files.addOutputFolder(folder, "--output");
+  files.addOutputFolder(folder / "images", "--output");
+  for (const char* file : {"results.json", "results.csv", "index.html"}) files.addOutput(folder / file, "--output");
+  // Images have names that differ, so only an existing one can be a pack.
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images", ignored))
+    files.addOutput(entry.path(), "--output");
+  files.check();
 }
 
 void writeResults(const Comparison& comparison, const Arguments& a) {
   const fs::path folder = a.output;
-  writeFile(folder / "results.json", toJson(comparison, a.settings).dump(1) + "\n");
+  writeFile(folder / "results.json", jsonText(toJson(comparison, a.settings), 1) + "\n");
   writeFile(folder / "results.csv", toCsv(comparison));
 }
 
@@ -100,6 +134,8 @@ void checkArguments(const Arguments& a) {
 void runCompare(const Arguments& a) {
   checkArguments(a);
   if (!a.shown.empty()) return showDevices(a);
+  checkFiles(a);
+  const console::PeriodicProgress periodic;
   const fs::path folder = a.output;
   std::error_code failed;
   fs::create_directories(folder / "images", failed);
@@ -114,9 +150,9 @@ void runCompare(const Arguments& a) {
   addFamilyEstimates(comparison, a);
   writeResults(comparison, a);
   if (a.json)
-    fmt::print("{}\n", toJson(comparison, a.settings).dump(1));
+    console::printText(jsonText(toJson(comparison, a.settings), 1) + "\n");
   else
-    fmt::print("{}\n", toTable(comparison));
+    console::printText(toTable(comparison) + "\n");
   if (comparison.interrupted) {
     console::warn(fmt::format("interrupted: {} finished rounds are in {}", comparison.rounds, folder.string()));
     throw Interrupted{};
@@ -129,7 +165,7 @@ void runCompare(const Arguments& a) {
   runReportScript("compare_report.py", {folder.string()}, "",
                   "cannot write the report; results.json and results.csv are complete");
   console::progressDone();
-  if (!a.json) fmt::print("report: {}\n", (folder / "index.html").string());
+  if (!a.json) console::printLine("report: {}", (folder / "index.html").string());
 }
 
 void addBackends(CLI::App& command, std::vector<Backend>& backends) {
@@ -161,24 +197,25 @@ void addCompareCommand(CLI::App& app) {
   CLI::Option* width = addWidth(*command, settings.widths);
   CLI::Option* height = addHeight(*command, settings.heights);
   command->add_option("--scale", settings.scale, "Size relative to the pack's, along each side (default: 1)")
-      ->check(CLI::Range(0.001, 4.0))
+      ->transform(numberBetween(0.001, 4))
       ->excludes(width)
       ->excludes(height);
   addDepth(*command, settings.depths);
-  command->add_option("--rounds", settings.rounds, "Timed rounds after the warm-up")->capture_default_str();
+  command->add_option("--rounds", settings.rounds, "Timed rounds after the warm-up")
+      ->transform(wholeNumberBetween(1, 1000000))
+      ->capture_default_str();
   command
       ->add_option(
           "--minutes", settings.minutes,
           "Time limit: leaves out methods and rounds that exceed it, the first methods are preferred; 0 for none")
-      ->check(finite())
-      ->check(CLI::NonNegativeNumber)
+      ->transform(nonNegativeNumber())
       ->capture_default_str();
   addDevice(*command, settings.device, settings.threads);
   addVulkanPath(*command, settings.vulkanPath);
   command
       ->add_option("--polarizer", settings.polarizerDegrees,
                    "Linear polarizer in front of the camera, from the image's x axis, counter-clockwise [degrees]")
-      ->check(finite());
+      ->transform(anyNumber());
   command
       ->add_option("--gpu-model", settings.gpuFamilies,
                    "GPU families (navi21, navi31, ...) for a compiler's static cost estimate")

@@ -135,7 +135,7 @@ TEST_F(Compare, Refusals) {
   EXPECT_EQ(compare({"--methods", "magic"}).exitCode, 2);
   EXPECT_EQ(compare({"--backends", "magic"}).exitCode, 2);
   EXPECT_EQ(malus({"compare", "-o", report()}).exitCode, 2);
-  expectRefusal(compare({"--rounds", "0"}), "--rounds");
+  EXPECT_EQ(compare({"--rounds", "0"}).exitCode, 2);
   expectRefusal(malus({"compare", pack(), pack(), "-o", report()}), "'tiny'");
   expectRefusal(malus({"compare", folder_ / "no.pack", "-o", report()}), "no.pack");
   writeText(folder_ / "taken", "");

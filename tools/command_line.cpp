@@ -1,0 +1,141 @@
+#include "tools/command_line.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bake/cli.h"
+#include "bake/scene_file/strict_object.h"
+#include "meshprep/base/console.h"
+#include "meshprep/base/text.h"
+#include "meshprep/cli.h"
+#include "render/cli.h"
+#include "render/compare/cli.h"
+#include "render/compare_images_cli.h"
+#include "render/devices_cli.h"
+#include "render/material_cli.h"
+#include "render/sweep_cli.h"
+#include "tools/completion.h"
+
+namespace malus {
+
+namespace {
+
+// Removes a `--` in front of the command: `malus -- info PACK`. CLI11 would take the command for a positional argument.
+void removeLeadingMark(std::vector<std::string>& arguments) {
+  const auto word = std::find_if(arguments.begin(), arguments.end(),
+                                 [](const std::string& a) { return a == "--" || !a.starts_with('-'); });
+  if (word != arguments.end() && *word == "--") arguments.erase(word);
+}
+
+bool isVisible(const CLI::Option* option) { return !option->get_group().empty() && !option->get_positional(); }
+
+// Every name that an option can be given by: "--output", "-o".
+void appendNames(const CLI::App& app, std::vector<std::string>& names) {
+  for (const CLI::Option* option : app.get_options(isVisible)) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+}
+
+std::string nearestClause(const std::string& word, const std::vector<std::string>& names) {
+  const std::string near = bake::nearestName(word, names);
+  return near.empty() ? std::string() : fmt::format("; did you mean '{}'?", near);
+}
+
+// Text of CLI11, of one line.
+std::string oneLine(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  return printable(text);
+}
+
+}  // namespace
+
+CommandLine::CommandLine() : app_("malus: polarized mirror and glass reflections, with their cost", "malus") {
+  app_.set_version_flag("--version", "malus " MALUS_VERSION);
+  app_.require_subcommand(0, 1);
+  app_.fallthrough();
+  app_.add_flag_callback(
+          "-q,--quiet", [] { console::setVerbosity(console::Verbosity::quiet); },
+          "Print no progress and no warnings; packs keep the warnings for 'malus info'")
+      ->trigger_on_parse();
+  app_.add_flag_callback(
+          "-v,--verbose", [] { console::setVerbosity(console::Verbosity::verbose); }, "Print details")
+      ->trigger_on_parse();
+  app_.add_flag("--list-methods", listsMethods_, "List the rendering methods");
+  app_.add_flag("--list-effects", listsEffects_, "List the effects that a scene can need");
+  app_.add_flag("--list-materials", listsMaterials_, "List the materials with published n and k");
+  app_.add_flag("--list-devices", listsDevices_, "List the Vulkan devices");
+  prep::addPrepCommand(app_);
+  bake::addBakeCommand(app_);
+  bake::addInfoCommand(app_);
+  bake::addUnpackCommand(app_);
+  render::addRenderCommand(app_);
+  render::addCompareCommand(app_);
+  render::addCompareImagesCommand(app_);
+  render::addSweepCommand(app_);
+  render::addMaterialCommand(app_);
+  render::addDevicesCommand(app_);
+  addCompletionCommand(app_);
+}
+
+bool CommandLine::run(std::vector<std::string> arguments) {
+  removeLeadingMark(arguments);
+  std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 takes
+  app_.parse(std::move(arguments));
+  if (listsMethods_) render::listMethods();
+  if (listsEffects_) bake::listEffects();
+  if (listsMaterials_) bake::listMaterials();
+  if (listsDevices_) render::listDevices();
+  return !app_.get_subcommands().empty() || listsMethods_ || listsEffects_ || listsMaterials_ || listsDevices_;
+}
+
+void CommandLine::parse(std::vector<std::string> arguments) {
+  struct Parsed {};
+  // Called when everything is parsed, before the command.
+  app_.parse_complete_callback([] { throw Parsed{}; });
+  removeLeadingMark(arguments);
+  std::reverse(arguments.begin(), arguments.end());
+  try {
+    app_.parse(std::move(arguments));
+  } catch (const Parsed&) {
+  }
+  app_.parse_complete_callback({});
+}
+
+std::string CommandLine::describeUnknown() const {
+  const std::vector<CLI::App*> parsed = app_.get_subcommands();
+  std::vector<std::string> extras = app_.remaining(true);
+  if (extras.empty()) return {};
+  if (parsed.empty()) {
+    // The command is the first word; options in front of it may be unknown too.
+    const auto word =
+        std::find_if(extras.begin(), extras.end(), [](const std::string& e) { return !e.starts_with('-'); });
+    if (word != extras.end()) {
+      std::vector<std::string> names;
+      for (const CLI::App* command : app_.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); }))
+        names.push_back(command->get_name());
+      return fmt::format("unknown command '{}'{}", *word, nearestClause(*word, names));
+    }
+  }
+  const auto option = std::find_if(extras.begin(), extras.end(),
+                                   [](const std::string& e) { return e.size() > 1 && e[0] == '-' && e != "--"; });
+  const std::string prefix = parsed.empty() ? std::string() : parsed.front()->get_name() + ": ";
+  if (option == extras.end()) return fmt::format("{}unexpected argument '{}'", prefix, extras.front());
+  std::vector<std::string> names;
+  for (const CLI::App* command : parsed) appendNames(*command, names);
+  appendNames(app_, names);
+  const std::string name = option->substr(0, option->find('='));
+  return fmt::format("{}unknown option '{}'{}", prefix, name, nearestClause(name, names));
+}
+
+std::string CommandLine::describe(const CLI::ParseError& error) const {
+  std::string text = describeUnknown();
+  const std::vector<CLI::App*> parsed = app_.get_subcommands();
+  const std::string command = parsed.empty() ? std::string() : " " + parsed.front()->get_name();
+  if (text.empty()) text = parsed.empty() ? error.what() : parsed.front()->get_name() + ": " + error.what();
+  return fmt::format("{}; see 'malus{} --help'", oneLine(text), command);
+}
+
+}  // namespace malus

@@ -8,6 +8,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/compare/effects_table.h"
+#include "render/compare/machine.h"
 #include "render/compare/paths_table.h"
 #include "render/compare/timing_rounds.h"
 #include "render/compare/warm_up.h"
@@ -69,6 +70,7 @@ Comparison compare(const std::vector<std::filesystem::path>& packs, const Compar
                    const std::filesystem::path& folder, const Progress& progress, const Snapshot& snapshot) {
   const ComparisonSettings settings = completeSettings(asked);
   Comparison comparison;
+  comparison.date = currentDate();
   comparison.packs = readPacks(packs);
   const TimeLimit limit(settings.minutes);
   Watch watch(snapshot);

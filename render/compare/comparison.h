@@ -98,6 +98,7 @@ struct Comparison {
   std::vector<PathComparison> paths;
   nlohmann::json gpuModel = nlohmann::json::array();  // one entry per family, scene and method
   nlohmann::json deviceInfo;                          // of the Vulkan device (vulkan::toJson); null: not used
+  std::string date;                                   // of its start, as currentDate()
   std::uint32_t rounds = 0;                           // finished ones
   bool interrupted = false;
   bool timeIsOver = false;  // ended by ComparisonSettings::minutes

@@ -1,10 +1,14 @@
 #include "render/compare/results.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
 #include <commit.h>
 #include <fmt/format.h>
+
+#include "render/compare/machine.h"
 
 namespace malus::render {
 using nlohmann::json;
@@ -209,6 +213,8 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
   return {{"malus", MALUS_VERSION},
           {"commit", MALUS_COMMIT},
           {"compiler", fmt::format("{} {}", MALUS_COMPILER, __VERSION__)},
+          {"date", comparison.date},
+          {"machine", machineJson()},
           {"devices", comparison.devices},
           {"deviceInfo", comparison.deviceInfo},
           {"settings",
@@ -238,6 +244,25 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
           {"gpuModel", comparison.gpuModel}};
 }
 
+namespace {
+
+// Letters, digits and '-', as the names of scenes that malus baked.
+bool isPlain(const std::string& name) {
+  return std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '-'; });
+}
+
+// A field of CSV (RFC 4180): quotes are doubled.
+std::string csvText(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted.push_back('"');
+    quoted.push_back(c);
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
 std::string toCsv(const Comparison& comparison) {
   std::string text =
       "scene,renderer,method,effects,width,height,depth,payloadBytes,stateBytes,rays,medianMs,lowMs,highMs,wallMs,"
@@ -245,19 +270,14 @@ std::string toCsv(const Comparison& comparison) {
       "compileMs,readBackMs,ratioToSchlick,ratioLow,ratioHigh,meanAbs,maxAbs,relRms,shareOver1Percent,perceptual,"
       "energyRatio,vulkanPath,status\n";
   for (const ComparisonRow& r : comparison.rows) {
-    std::string status;
-    for (const char c : r.status) {
-      if (c == '"') status.push_back('"');
-      status.push_back(c);
-    }
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"\n",
-                    r.scene, backendInfo(r.backend).name, r.method, r.everyEffect ? "all" : "auto", r.width, r.height,
-                    r.depth, r.payloadBytes, r.stateBytes, r.rays, r.time.median, r.time.low, r.time.high,
-                    median(r.wallMs), median(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs, median(r.readBackMs),
-                    r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high, r.error.meanAbs,
-                    r.error.maxAbs, r.error.relRms, r.error.shareOver1Percent, r.error.perceptual, r.error.energyRatio,
-                    r.vulkanPath == VulkanPath::automatic ? "" : vulkanPathName(r.vulkanPath), status);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                        isPlain(r.scene) ? r.scene : csvText(r.scene), backendInfo(r.backend).name, r.method,
+                        r.everyEffect ? "all" : "auto", r.width, r.height, r.depth, r.payloadBytes, r.stateBytes,
+                        r.rays, r.time.median, r.time.low, r.time.high, median(r.wallMs), median(r.cpuMs), r.buildMs,
+                        r.uploadMs, r.compileMs, median(r.readBackMs), r.ratioToSchlick.median, r.ratioToSchlick.low,
+                        r.ratioToSchlick.high, r.error.meanAbs, r.error.maxAbs, r.error.relRms,
+                        r.error.shareOver1Percent, r.error.perceptual, r.error.energyRatio,
+                        r.vulkanPath == VulkanPath::automatic ? "" : vulkanPathName(r.vulkanPath), csvText(r.status));
   }
   return text;
 }

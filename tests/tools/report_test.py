@@ -20,6 +20,7 @@ import report_colours  # noqa: E402
 import report_data  # noqa: E402
 import report_errors  # noqa: E402
 import report_images  # noqa: E402
+import report_plots  # noqa: E402
 
 kWidth, kHeight = 12, 9
 
@@ -206,8 +207,76 @@ class Report(unittest.TestCase):
             if entry["method"] == "fresnel":
                 entry["error"] = error(0, 0.004)
         page = self.page()
-        for text in ("<code>fresnel</code> is within 0.40 % of the reference", "polarization may be left out",
+        # A ninth of the reference's light is half polarized, so a filter would show it.
+        for text in ("needs no polarization", "<code>fresnel</code> is within 0.40 % of the reference", "mosaics",
+                     "0 % in the median pixel and at most 50 %",
                      "use <code>fresnel</code>, which shows no significant difference"):
+            self.assertIn(text, page)
+        self.assertNotIn("may be left out", page)
+
+    def test_a_polarizer_is_named(self):
+        self.results["settings"]["polarizerDegrees"] = 120
+        self.assertIn("behind the polarizer at 120", self.page())
+
+    def test_few_rounds_recommend_nothing(self):
+        for entry in self.results["rows"]:
+            entry["samplesMs"] = entry["samplesMs"][:1]
+        page = self.page()
+        self.assertIn("1 round is too few", page)
+        for text in (" use <code>", "no significant difference in 2 of 2", "faster in"):
+            self.assertNotIn(text, page)
+
+    def test_no_method_is_compared_with_itself(self):
+        for entry in self.results["rows"]:
+            if entry["status"] == "ok":
+                entry["error"] = error(0, 0.004)
+        sentence = re.search(r"use <code>fresnel</code>[^.;]*", self.page())[0]
+        self.assertEqual(sentence.count("<code>fresnel</code>"), 1, sentence)
+        self.assertEqual(sentence.count("<code>schlick</code>"), 1, sentence)
+
+    def test_sentences_and_table_agree(self):
+        for entry in self.results["rows"]:
+            if entry["method"] == "fresnel":
+                entry["error"] = error(0.2149, 0.06)
+        page = self.page()
+        self.assertGreaterEqual(page.count("21 %"), 4)
+        self.assertNotIn("11 %", page)
+
+    def test_paragraphs_are_not_repeated(self):
+        paragraphs = [p for p in re.findall(r"<p>(.*?)</p>", self.page(), re.S) if len(p) > 40]
+        self.assertGreater(len(paragraphs), 5)
+        self.assertEqual(len(paragraphs), len(set(paragraphs)))
+
+    def test_the_summary_shows_what_is_right(self):
+        self.results.update(date="2026-01-31 12:00 UTC", machine={"cpu": "A <CPU>", "threads": 4})
+        page = self.page()
+        summary = page[page.index("<header>"):page.index('aria-labelledby="scene-tiny"')]
+        for text in ("A &lt;CPU&gt;", "2026-01-31", "Embree 3", "What a game shows", "What is right", "Difference"):
+            self.assertIn(text, summary)
+        self.assertEqual(summary.count('class="verdict"'), 1)
+        self.assertEqual(summary.count("<img "), 3)
+
+    def test_images_have_sizes_and_load_late(self):
+        images = re.findall(r"<img [^>]*>", self.page())
+        self.assertGreater(len(images), 5)
+        for image in images:
+            self.assertRegex(image, 'width="[0-9]+" height="[0-9]+"')
+            if "data-show" not in image:  # these get their source by script
+                self.assertIn('loading="lazy"', image)
+
+    def test_terms_are_explained_twice(self):
+        page = self.page()
+        glossary = page[page.index('id="reading"'):]
+        for term in ("FLIP", "DoLP", "AoLP", "payload", "quartiles"):
+            self.assertRegex(page, f'<abbr title="[^"]+">{term}</abbr>')
+            self.assertIn(f"<dt>{term}</dt>", glossary)
+
+    def test_control_characters_are_escaped(self):
+        self.results["scenes"]["tiny"]["title"] = "red \x1b[31m \x07 \u202e \x9b"
+        self.results["devices"]["vulkan"] = "\x1b"
+        page = self.page()
+        self.assertNotRegex(page, "[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e]")
+        for text in ("\\x1b[31m", "\\x07", "\\u{202e}", "\\x9b"):
             self.assertIn(text, page)
 
     def test_keys_of_earlier_versions_are_read(self):
@@ -303,6 +372,39 @@ class Report(unittest.TestCase):
 
     def test_usage(self):
         self.assertEqual(self.run_script().returncode, 2)
+
+
+class Plots(unittest.TestCase):
+    def test_an_error_of_zero_is_drawn_at_zero(self):
+        from matplotlib import pyplot
+        figure, axes = report_plots._axes()
+        report_plots._error_axis(axes, [0, 1e-3, 2e-2])
+        zero, least, low = (axes.transData.transform((1, y))[1] for y in (0, 1e-3, axes.get_ylim()[0]))
+        self.assertGreaterEqual(zero, low)
+        self.assertGreater(least - zero, 10)  # pixels
+        pyplot.close(figure)
+
+    def test_labels_have_the_order_of_the_points_and_leaders_do_not_cross(self):
+        generator = numpy.random.default_rng(3)
+        for trial in range(20):
+            rows = [row("embree", f"m{i}", medianMs=float(t), quartilesMs=[t, t], error=error(0, float(e)))
+                    for i, (t, e) in enumerate(zip(generator.uniform(1, 9, 12), 10 ** generator.uniform(-4, -3.8, 12)))]
+            group = report_data.Group("tiny", 1, 1, 1, rows)
+            drawn = []
+            labels = report_plots._labels
+            report_plots._labels = lambda figure, axes, points: (labels(figure, axes, points), drawn.append((figure, axes)))
+            try:
+                report_plots.error_against_time(group, "embree")
+            finally:
+                report_plots._labels = labels
+            figure, axes = drawn[0]
+            places = {text.get_text(): text.get_position()[1] for text in axes.texts}
+            wanted = [r["method"] for r in sorted(rows, key=lambda r: r["error"]["relRms"])]
+            self.assertEqual(sorted(places, key=places.get), wanted)
+            leaders = [line for line in axes.lines if len(line.get_xdata()) == 3 and line.get_transform() == axes.transAxes]
+            self.assertEqual(len(leaders), 12)
+            ends = sorted((line.get_ydata()[1], line.get_ydata()[2]) for line in leaders)
+            self.assertEqual(ends, sorted(ends, key=lambda e: e[1]))
 
 
 class Parts(unittest.TestCase):

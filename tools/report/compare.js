@@ -11,7 +11,12 @@ for (const box of document.querySelectorAll("[data-images]")) {
       image.alt = `${select.options[select.selectedIndex].text}: image on the ${select.dataset.side}`;
     };
     select.addEventListener("change", show);
-    show();
+    // Decode the images of a scene when it comes near the window.
+    new IntersectionObserver((entries, observer) => {
+      if (!entries.some((entry) => entry.isIntersecting)) return;
+      observer.disconnect();
+      show();
+    }, { rootMargin: "800px" }).observe(stack);
   }
 
   const place = (percent) => {

@@ -5,6 +5,8 @@ import os
 import pathlib
 from dataclasses import dataclass, field
 
+from report_text import printable, printable_json
+
 
 # Keys of earlier versions of malus that are still read.
 kEarlierKeys = {"picture": "image", "indistinguishable": "noSignificantDifference"}
@@ -12,6 +14,9 @@ kEarlierKeys = {"picture": "image", "indistinguishable": "noSignificantDifferenc
 
 class ReportError(Exception):
     """An error message of one line: the file, the problem and what was expected."""
+
+    def __init__(self, message: str):
+        super().__init__(printable(message))
 
 
 @dataclass
@@ -48,7 +53,7 @@ def read_results(folder: pathlib.Path) -> dict:
 
 def read_results_file(path: pathlib.Path) -> dict:
     try:
-        results = json.loads(path.read_text(encoding="utf-8"))
+        results = printable_json(json.loads(path.read_text(encoding="utf-8", errors="replace")))
     except OSError as error:
         raise ReportError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError as error:
@@ -107,6 +112,14 @@ def number(row: dict, *names):
     for name in names:
         value = value.get(name) if isinstance(value, dict) else None
     return value if isinstance(value, (int, float)) and math.isfinite(value) else None
+
+
+# Rounds from which the sign test of render/compare/statistics.h can reject equality at 5 %: 2 / 2^6 = 0.031.
+kFewestRounds = 6
+
+
+def has_enough_rounds(row: dict) -> bool:
+    return len(row.get("samplesMs") or []) >= kFewestRounds
 
 
 def timed(row: dict) -> bool:

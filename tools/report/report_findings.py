@@ -1,12 +1,12 @@
 """The paper's findings compared with the measurements of this run. Returns plain structures for the page."""
 import html
 
-from report_data import number, timed
+from report_data import has_enough_rounds, kFewestRounds, number, timed
 from report_gpu import own_cost, traverses_apart
 from report_format import energy, interval, percent, plain, ratio, group_size
 from report_words import bold, code, mostly, verdict
 
-kWords = {"same": "no significant difference", "faster": "faster", "slower": "slower", "": "not timed"}
+kWords = {"same": "no significant difference", "faster": "faster", "slower": "slower", "": "too few rounds"}
 
 
 def group_title(group) -> str:
@@ -21,7 +21,7 @@ def counted(words: list, subject: str) -> str:
     """"slower in 2, no significant difference in 4 of 6 cases"."""
     known = [w for w in words if w]
     if not known:
-        return f"{subject}: no times in this run."
+        return f"{subject}: no times, or fewer than {kFewestRounds} rounds, in this run."
     parts = [f"{kWords[w]} in {known.count(w)}" for w in ("faster", "slower", "same") if w in known]
     return f"{subject}: {', '.join(parts)} of {len(known)} cases."
 
@@ -64,6 +64,8 @@ def payloads(groups, devices) -> dict:
                 overlap = all(quartiles) and quartiles[0][0] <= quartiles[1][1] and quartiles[1][0] <= quartiles[0][1]
                 same = whole in (small.get("noSignificantDifference") or []) or overlap
                 word = "same" if same else "faster" if quotient < 1 else "slower"
+                if not has_enough_rounds(small) or not has_enough_rounds(large):
+                    word = ""
                 # On lavapipe payloads of 12 to 36 bytes make no significant difference, so other costs cause the difference.
                 bytes_differ = not (is_lavapipe(devices.get(renderer)) and
                                     all(12 <= (r.get("payloadBytes") or 0) <= 36 for r in (small, large)))
@@ -195,7 +197,8 @@ def needed(groups, wrongs) -> dict:
             if wrong is None or group.scene in seen:
                 continue
             seen.add(group.scene)
-            answer.append(f"{bold(group.scene)}: without polarization {percent(wrong.share)} of the pixels have "
+            share = number(group.row(renderer, "fresnel"), "error", "shareOver1Percent")
+            answer.append(f"{bold(group.scene)}: without polarization {percent(share)} of the pixels have "
                           f"an error above 1 %{mostly(wrong)}."
                           + ("" if wrong.dolp_off is None or wrong.dolp_rest is None else
                              f" Their median degree of polarization is {percent(wrong.dolp_off)}, that of the others "

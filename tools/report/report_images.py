@@ -11,6 +11,7 @@ from PIL import Image
 from report_data import ReportError
 
 kImageWidth = 640  # largest width of an image in the page; the EXR files have the full resolution
+kHeroWidth = 400  # largest width of an image in the summary
 kStokesWidth = 480  # largest width of a Stokes image in the page
 
 

@@ -15,10 +15,11 @@ from report_effects import ratio_interval, replacement_reasons
 from report_errors import ErrorSummary, kOff, relative_error
 from report_findings import findings
 from report_gpu import gpu_sections
-from report_images import ExrImage, jpeg, kImageWidth, kStokesWidth, packed_stokes, png, shrunk
+from report_images import ExrImage, jpeg, kHeroWidth, kImageWidth, kStokesWidth, packed_stokes, png, shrunk
 from report_paths import ratio_with_interval, without_recursion
 from report_plots import error_against_time
-from report_words import first_sentence, second_sentence
+from report_terms import kTerms, term
+from report_words import first_sentence, second_sentence, short_recommendation, short_verdict
 
 kHere = pathlib.Path(__file__).resolve().parent
 
@@ -26,7 +27,8 @@ kHere = pathlib.Path(__file__).resolve().parent
 class GroupView:
     """The content of the page for one group of rows."""
 
-    def __init__(self, folder: pathlib.Path, group, exposure_ev: float):
+    def __init__(self, folder: pathlib.Path, group, exposure_ev: float, polarizer=None):
+        self.polarizer, self.hero = polarizer, []
         self.group, self.key, self.size = group, group.key, report_format.group_size(group)
         self.wrongs, self.added, self.images, self.names = {}, None, {}, []
         self.differences, self.limit, self.polarization, self.stokes = {}, 0, None, None
@@ -41,7 +43,7 @@ class GroupView:
         group = self.group
         reference = ExrImage(folder / group.reference["image"]) if group.reference else None
         if reference is not None:
-            self._add("reference", "reference", reference.rgb)
+            self._add("reference", "reference, which is right", reference.rgb)
             if reference.stokes is not None:
                 self._polarization(reference.stokes)
         dolp = None
@@ -74,10 +76,29 @@ class GroupView:
         for (renderer, method), d in signed.items():
             self.differences.setdefault(renderer, []).append(
                 (method, png(*difference_colours(d, self.limit)), self.group.row(renderer, method)))
+        self._hero(rgb, reference.rgb)
+
+    def _hero(self, rgb: dict, reference: numpy.ndarray) -> None:
+        """The first images of the page: what a game shows (schlick), what is right, and the difference."""
+        for renderer in self.group.renderers:
+            for method in ("schlick", "fresnel"):
+                image = rgb.get((renderer, method))
+                if image is None or image.shape != reference.shape:
+                    continue
+                small, right = shrunk(image, kHeroWidth), shrunk(reference, kHeroWidth)
+                differences = png(*difference_colours(signed_difference(small, right), self.limit))
+                size = {"width": small.shape[1], "height": small.shape[0]}
+                self.hero = [
+                    {"uri": jpeg(tone_mapped(small, self.exposure_ev)), "what": "What a game shows", "by": method, **size},
+                    {"uri": jpeg(tone_mapped(right, self.exposure_ev)), "what": "What is right", "by": "reference", **size},
+                    {"uri": differences, "what": "Difference", "by": "red too bright, blue too dark", **size}]
+                return
 
     def _add(self, name: str, label: str, rgb: numpy.ndarray) -> None:
         self.names.append((name, label))
-        self.images[name] = jpeg(tone_mapped(shrunk(rgb, kImageWidth), self.exposure_ev))
+        small = shrunk(rgb, kImageWidth)
+        self.image_size = {"width": small.shape[1], "height": small.shape[0]}
+        self.images[name] = jpeg(tone_mapped(small, self.exposure_ev))
 
     def _polarization(self, stokes: numpy.ndarray) -> None:
         light = shrunk(luminance(stokes), kImageWidth)
@@ -98,13 +119,25 @@ class GroupView:
     def data(self) -> Markup:
         return script_json({"images": self.images, "stokes": self.stokes, "exposureEv": self.exposure_ev})
 
+    def _polarization_facts(self) -> tuple:
+        """The arguments of first_sentence, all of the first renderer that has the image of fresnel."""
+        for renderer in self.group.renderers:
+            exact = self.wrongs.get((self.key, renderer, "fresnel"))
+            if exact is not None:
+                break
+        row = self.group.row(renderer, "fresnel") if exact is not None else None
+        degrees = (self.polarization["median"], self.polarization["largest"]) if self.polarization else None
+        return exact, self.wrongs.get((self.key, renderer, "polarization")), row, degrees, self.polarizer
+
     @property
     def sentences(self) -> list:
-        wrong = next((w for (_, _, name), w in self.wrongs.items() if name == "polarization"), None)
-        exact = next((w for (_, _, name), w in self.wrongs.items() if name == "fresnel"), None)
-        row = next((r for r in map(lambda r: self.group.row(r, "fresnel"), self.group.renderers) if r), None)
-        return [Markup(first_sentence(exact, wrong, number(row, "error", "perceptual"))),
-                Markup(second_sentence(self.group))]
+        return [Markup(first_sentence(*self._polarization_facts())), Markup(second_sentence(self.group))]
+
+    @property
+    def verdict(self) -> Markup:
+        """One line: whether the scene needs polarization, and the method to use."""
+        text = f"{short_verdict(*self._polarization_facts())}; {short_recommendation(self.group)}."
+        return Markup(text[0].upper() + text[1:])
 
     def same_as(self, row: dict) -> str:
         """Lists the methods whose time shows no significant difference from that of a row, abbreviated."""
@@ -164,7 +197,7 @@ def page(folder: pathlib.Path, results: dict) -> str:
     scenes, wrongs, added = {}, {}, {}
     for group in group_rows(results):
         ev = number(results["scenes"][group.scene], "exposureEv") or 0.0
-        view = GroupView(folder, group, ev)
+        view = GroupView(folder, group, ev, number(results.get("settings") or {}, "polarizerDegrees"))
         scenes.setdefault(group.scene, []).append(view)
         wrongs.update(view.wrongs)
         if view.added is not None:
@@ -174,12 +207,13 @@ def page(folder: pathlib.Path, results: dict) -> str:
     environment.filters.update({name: getattr(report_format, name) for name in ("plain", "percent", "ratio", "energy", "count")})
     environment.filters["described"] = described
     environment.filters["pyid"] = id
+    environment.globals.update(term=term, terms=kTerms)
     groups = [view.group for views in scenes.values() for view in views]
     devices = results.get("devices") or {}
     model = results.get("gpuModel") or []
     effects = results.get("effects") or []
     return environment.get_template("index.html.j2").render(
-        results=results, devices=devices, settings=results.get("settings") or {}, driver=results.get("driver") or {},
+        results=results, devices=devices, machine=results.get("machine") or {}, settings=results.get("settings") or {}, driver=results.get("driver") or {},
         scenes=[(name, results["scenes"][name], views) for name, views in scenes.items()],
         findings=[{**f, "answer": [Markup(a) for a in f["answer"]]}
                   for f in findings(groups, wrongs, added, devices, model, results["rows"])],

@@ -2,6 +2,7 @@
 import hashlib
 import html
 import io
+import math
 import re
 
 import matplotlib
@@ -59,18 +60,34 @@ def spread(wanted: list, gap: float, low: float, high: float) -> list:
 
 
 def _labels(figure, axes, points: list) -> None:
-    """Draws the labels at the right edge, in the vertical order of the points, each with a thin leader line."""
+    """Draws the labels beside the right edge, in the vertical order of the points. Leaders run horizontally to the edge
+    and turn there, so that no two of them cross."""
     axes.autoscale_view()
     box = axes.get_window_extent()
-    points = sorted(points, key=lambda p: axes.transData.transform(p[:2])[1])
+    points = sorted(points, key=lambda p: (axes.transData.transform(p[:2])[1], p[0]))
     heights = [axes.transData.transform(p[:2])[1] for p in points]
     places = spread(heights, 12.5 * figure.dpi / 72, box.y0, box.y1)
     for (x, y, name, colour, bold), place in zip(points, places):
-        at = axes.transAxes.inverted().transform((box.x1, place))
-        axes.annotate(name, xy=(x, y), xytext=(1.04, at[1]), textcoords="axes fraction", va="center", ha="left",
-                      fontsize=9.5, color=kInk, fontweight="bold" if bold else "normal", annotation_clip=False,
-                      arrowprops={"arrowstyle": "-", "color": "#808080", "linewidth": 0.5, "alpha": 0.7,
-                                  "shrinkA": 1, "shrinkB": 3})
+        start, label = axes.transAxes.inverted().transform([axes.transData.transform((x, y)), (box.x1, place)])
+        axes.plot([start[0], 1, 1.07], [start[1], start[1], label[1]], transform=axes.transAxes, clip_on=False,
+                  color="#808080", linewidth=0.5, alpha=0.7, zorder=1)
+        axes.text(1.08, label[1], name, transform=axes.transAxes, va="center", ha="left", fontsize=9.5, color=kInk,
+                  fontweight="bold" if bold else "normal")
+
+
+def _error_axis(axes, errors: list) -> None:
+    """Makes the axis of errors logarithmic. If an error is 0, the axis is linear from 0 to the decade below the
+    smallest other error, so that 0 is drawn at 0, and that border is marked."""
+    positive = [e for e in errors if e > 0]
+    if positive and len(positive) == len(errors):
+        axes.set_yscale("log")
+        return
+    threshold = 10.0 ** math.floor(math.log10(min(positive))) if positive else 1e-7
+    axes.set_yscale("symlog", linthresh=threshold, linscale=0.4)
+    axes.set_ylim(bottom=-0.15 * threshold)
+    if not positive:
+        axes.set_ylim(top=10 * threshold)
+    axes.axhline(threshold, color="#808080", linewidth=0.6, linestyle=(0, (2, 3)), zorder=0)
 
 
 def error_against_time(group, renderer: str) -> str:
@@ -80,10 +97,9 @@ def error_against_time(group, renderer: str) -> str:
     if not rows:
         return ""
     front = pareto(rows)
-    least = min((r["error"]["relRms"] for r in rows if r["error"]["relRms"] > 0), default=1e-7)
-    height = lambda r: max(r["error"]["relRms"], least / 2)  # noqa: E731: keep an error of 0 on the logarithmic axis
+    height = lambda r: r["error"]["relRms"]  # noqa: E731
     figure, axes = _axes()
-    axes.set_yscale("log")
+    _error_axis(axes, [height(r) for r in rows])
     steps_x, steps_y = [], []
     for i, row in enumerate(front):
         if i:
@@ -102,7 +118,7 @@ def error_against_time(group, renderer: str) -> str:
     axes.set_ylabel("relative RMS error")
     axes.xaxis.set_major_locator(ticker.MaxNLocator(5))
     low, high = axes.get_ylim()
-    if high / low < 50:  # few decades: label intermediate ticks too
+    if low > 0 and high / low < 50:  # few decades: label intermediate ticks too
         axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
         axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
     axes.yaxis.set_minor_formatter(ticker.NullFormatter())

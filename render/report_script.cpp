@@ -58,7 +58,8 @@ void runReportScript(const std::string& script, const std::vector<std::string>& 
   if (!started || ::waitpid(child, &status, 0) < 0)
     throw Error(kPython, "cannot start the script",
                 "packages python3, python3-matplotlib, python3-jinja2, python3-openimageio");
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error(script, failure);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw Error(script, failure, "a script without errors; it printed the reason above");
 }
 
 }  // namespace malus::render

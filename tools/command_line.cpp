@@ -41,7 +41,7 @@ void appendNames(const CLI::App& app, std::vector<std::string>& names) {
 
 std::string nearestClause(const std::string& word, const std::vector<std::string>& names) {
   const std::string near = bake::nearestName(word, names);
-  return near.empty() ? std::string() : fmt::format("; did you mean '{}'?", near);
+  return near.empty() ? std::string() : fmt::format("; the nearest is '{}'", near);
 }
 
 // Text of CLI11, of one line.

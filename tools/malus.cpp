@@ -79,7 +79,8 @@ int main(int argc, char** argv) {
   } catch (const malus::Error& error) {
     return fail(error.what());
   } catch (const std::bad_alloc&) {
-    return fail("out of memory");
+    return fail(
+        "out of memory; expected a smaller image (--width, --region), fewer threads, or a machine with more memory");
   } catch (const std::exception& error) {
     return fail(error.what());
   }

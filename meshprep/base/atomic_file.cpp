@@ -62,7 +62,8 @@ std::vector<std::byte> readFile(const fs::path& path, std::size_t maxBytes) {
   if (file.fd < 0) throw systemError(path, "cannot open", "a readable file");
   struct stat info {};
   if (::fstat(file.fd, &info) != 0) throw systemError(path, "cannot read");
-  if (!S_ISREG(info.st_mode)) throw Error(path.string(), "is not a regular file");
+  if (!S_ISREG(info.st_mode))
+    throw Error(path.string(), "is not a regular file", "the path of a file, not of a folder, device or pipe");
   const auto size = static_cast<std::size_t>(info.st_size);
   if (size > maxBytes)
     throw Error(path.string(), "file is too large", fmt::format("at most {} bytes", maxBytes),
@@ -109,7 +110,7 @@ void writeBeside(const fs::path& asked, const std::function<void(const fs::path&
   flushToDisk(temporary);
   std::error_code failed;
   fs::rename(temporary, path, failed);
-  if (failed) throw Error(path.string(), fmt::format("cannot write: {}", failed.message()));
+  if (failed) throw Error(path.string(), fmt::format("cannot write: {}", failed.message()), "a writable folder");
 }
 
 void writeFile(const fs::path& path, std::span<const std::byte> bytes) {

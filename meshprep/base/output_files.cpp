@@ -124,12 +124,14 @@ void OutputFiles::check() const {
     const auto& [file, option] = outputs_[i];
     for (std::size_t j = 0; j < inputs.size(); ++j)
       if (areSame(outputs[i], inputs[j]))
-        throw UsageError(option, fmt::format("{} would overwrite an input", file.string()), "another file",
-                         inputs_[j].string());
+        throw UsageError(option, fmt::format("{} would overwrite the input {}", file.string(), inputs_[j].string()),
+                         "another file");
     for (std::size_t j = 0; j < i; ++j)
       if (areSame(outputs[i], outputs[j]))
-        throw UsageError(option, fmt::format("{} is the same file as that of {}", file.string(), outputs_[j].option),
-                         "a file for each output", outputs_[j].file.string());
+        throw UsageError(option,
+                         fmt::format("{} is the same file as {} of {}", file.string(), outputs_[j].file.string(),
+                                     outputs_[j].option),
+                         "a file for each output");
   }
 }
 

@@ -22,6 +22,8 @@ namespace malus::compress {
 
 namespace {
 
+constexpr const char* kExpected = "data as malus writes it; bake or prepare the mesh again";
+
 bool isPlainFloat3(const draco::PointAttribute& attribute) {
   return attribute.num_components() == 3 && attribute.data_type() == draco::DT_FLOAT32;
 }
@@ -64,9 +66,9 @@ void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, draco::Mesh&
   try {
     status = decoder.Decode(options, &buffer, &mesh);
   } catch (const std::exception& failure) {  // std::bad_alloc and std::length_error, from corrupt sizes
-    throw Error(where, fmt::format("Draco data is corrupt: {}", failure.what()));
+    throw Error(where, fmt::format("Draco data is corrupt: {}", failure.what()), kExpected);
   }
-  if (!status.ok()) throw Error(where, fmt::format("Draco data is corrupt: {}", status.error_msg_string()));
+  if (!status.ok()) throw Error(where, fmt::format("Draco data is corrupt: {}", status.error_msg_string()), kExpected);
 }
 
 // Returns the values of an attribute, one per vertex.
@@ -84,13 +86,13 @@ std::vector<glm::vec3> attributeValues(const draco::PointAttribute& attribute, s
     for (std::uint32_t i = 0; i < vertices; ++i) {
       const draco::AttributeValueIndex index = attribute.mapped_index(draco::PointIndex(i));
       if (index.value() >= attribute.size() || index.value() >= available)
-        throw Error(where, fmt::format("{} of vertex {} is missing", what, i));
+        throw Error(where, fmt::format("{} of vertex {} is missing", what, i), kExpected);
       attribute.GetValue(index, &values[i]);
     }
   }
   for (std::uint32_t i = 0; i < vertices; ++i)
     if (!std::isfinite(values[i].x) || !std::isfinite(values[i].y) || !std::isfinite(values[i].z))
-      throw Error(where, fmt::format("{} of vertex {} is not finite", what, i));
+      throw Error(where, fmt::format("{} of vertex {} is not finite", what, i), kExpected);
   return values;
 }
 

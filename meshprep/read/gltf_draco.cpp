@@ -19,6 +19,8 @@ namespace malus::prep {
 
 namespace {
 
+constexpr const char* kExpected = "an undamaged file; export it again, without Draco compression if that fails too";
+
 constexpr int kMaxAttributes = 16;
 constexpr int kMaxVertexBytes = 128;
 
@@ -68,12 +70,12 @@ void run(std::span<const std::byte> bytes, const GltfDracoCounts& counts, draco:
   try {
     status = decoder.Decode(draco::DecoderOptions(), &buffer, &mesh);
   } catch (const std::exception& failure) {  // std::bad_alloc and std::length_error, from corrupt sizes
-    throw Error(location, fmt::format("Draco data is corrupt: {}", failure.what()));
+    throw Error(location, fmt::format("Draco data is corrupt: {}", failure.what()), kExpected);
   }
   if (status.ok()) return;
   if (!decoder.mismatch().empty())
     throw Error(location, "Draco data has unexpected counts", describeExpected(counts), decoder.mismatch());
-  throw Error(location, fmt::format("Draco data is corrupt: {}", status.error_msg_string()));
+  throw Error(location, fmt::format("Draco data is corrupt: {}", status.error_msg_string()), kExpected);
 }
 
 // Returns the values of the attribute with this id, one per vertex.
@@ -90,11 +92,11 @@ std::vector<glm::vec3> attributeValues(const draco::Mesh& mesh, std::uint32_t id
   for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
     const draco::AttributeValueIndex index = attribute->mapped_index(draco::PointIndex(i));
     if (index.value() >= attribute->size() || index.value() >= available)
-      throw Error(location, fmt::format("the {} of vertex {} is missing", what, i));
+      throw Error(location, fmt::format("the {} of vertex {} is missing", what, i), kExpected);
     std::array<float, 3> v{};
     attribute->GetValue(index, v.data());
     if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
-      throw Error(location, fmt::format("the {} of vertex {} is not finite", what, i));
+      throw Error(location, fmt::format("the {} of vertex {} is not finite", what, i), kExpected);
     values.emplace_back(v[0], v[1], v[2]);
   }
   return values;

@@ -81,7 +81,7 @@ class Builder : public json::json_sax_t {
     constexpr int kNumberOutOfRange = 406;
     const std::string location = fmt::format("{}, byte {} of the JSON", where_, byte > 0 ? byte - 1 : 0);
     if (error.id == kNumberOutOfRange)
-      throw Error(location, fmt::format("number out of the range of double: {}", error.what()));
+      throw Error(location, fmt::format("number out of the range of double: {}", error.what()), "a size up to 1.8e308");
     throw Error(location, fmt::format("is not JSON: {}", error.what()), "glTF 2.0");
   }
 

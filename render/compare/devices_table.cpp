@@ -7,6 +7,7 @@
 
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/text.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
@@ -39,7 +40,7 @@ std::vector<Column> makeColumns(const json& results, const std::string& scene) {
     }
   std::vector<Column> columns;
   for (const auto& [renderer, size] : largest) {
-    Column column{results.at("devices").value(renderer, renderer), "", {}};
+    Column column{printable(results.at("devices").value(renderer, renderer)), "", {}};
     for (const char* list : {"rows", "rowsOnSecondPath"}) {
       if (!results.contains(list)) continue;  // by an earlier version
       for (const json& row : results.at(list))

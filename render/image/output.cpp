@@ -53,7 +53,7 @@ image::Image toImage(const RenderResult& result, const pack::Pack& pack, const R
 
 std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureEv) {
   const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
-  if (r < 0 || g < 0 || b < 0) throw Error("", "a PNG needs channels R, G and B");
+  if (r < 0 || g < 0 || b < 0) throw Error("", "a PNG needs channels R, G and B", "an output with the extension .exr");
   const double gain = std::exp2(exposureEv);
   const auto encode = [&](float radiance) {
     constexpr double kLinear = 0.7;

@@ -144,6 +144,19 @@ TEST_F(Compare, Refusals) {
                 "magic");
 }
 
+// In a pipe a line about the current step appears at least every 30 seconds, also within a long step; -q prints none.
+TEST_F(Compare, PrintsItsStepInAPipe) {
+  Start start;
+  start.sendSignalWhen = [](std::string_view err) { return contains(err, "round ", " of 1000000"); };
+  start.sendSignal = SIGINT;
+  start.timeoutSeconds = 120;
+  const Finished finished = malus({"compare", pack(), "-o", report(), "--backends", "embree", "--methods", "fresnel",
+                                   "--width", "200", "--rounds", "1000000", "--no-report"},
+                                  start);
+  EXPECT_EQ(finished.exitCode, 130) << finished.err;
+  EXPECT_LT(finished.seconds, 40);
+}
+
 TEST_F(Compare, InterruptingKeepsTheFinishedRounds) {
   Start start;
   // Progress is printed on a terminal; -v prints it to a pipe as well.

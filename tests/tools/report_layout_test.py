@@ -4,7 +4,7 @@ the window, no text cut off, readable contrast.
 
     report_layout_test.py [PAGE...]     PAGE: pages to check besides those that the test writes
 
-Exit codes: 0 passed, 1 failed, 77 not run because there is no Chromium (Debian package chromium).
+Exit codes: 0 passed, 1 failed, 77 not run because there is no Chromium (tools/install-deps --browser).
 """
 import html
 import json
@@ -96,7 +96,7 @@ def write_pages(folder: pathlib.Path) -> list:
 def main() -> int:
     browser = shutil.which("chromium") or shutil.which("chromium-browser")
     if browser is None:
-        print("not run: there is no Chromium; apt-get install chromium")
+        print("not run: there is no Chromium; tools/install-deps --browser installs it")
         return 77
     failures = 0
     with tempfile.TemporaryDirectory() as temporary:

@@ -120,7 +120,7 @@ def short_recommendation(group) -> str:
             continue
         median, word = number(pick, "ratioToSchlick", "median"), verdict(pick)
         cost = "" if not word or pick["method"] == "schlick" else (
-            f", no slower or faster than {code('schlick')} within the spread" if word == "same" else
+            f", in the time of {code('schlick')} within the spread" if word == "same" else
             f", {median:.2f} × the time of {code('schlick')}")
         parts.append(f"{code(pick['method'])} on {html.escape(renderer)}{cost}")
     return f"use {'; '.join(parts)}" if parts else "no method keeps 1 %"
@@ -151,7 +151,9 @@ def recommended(rows: list):
     best, same = cheapest_good(rows)
     if best is None:
         return None, []
-    pick = min([best, *same], key=lambda r: r["error"]["relRms"])
+    # Errors within 5 % of each other are equal: then the faster median is taken.
+    least = min(r["error"]["relRms"] for r in [best, *same])
+    pick = min((r for r in [best, *same] if r["error"]["relRms"] <= 1.05 * least), key=lambda r: r["medianMs"])
     return pick, [r for r in [best, *same] if r is not pick]
 
 

@@ -24,6 +24,7 @@
 #include "meshprep/deprecated_option.h"
 #include "meshprep/json_text.h"
 #include "meshprep/number_option.h"
+#include "meshprep/read/source_scene.h"
 #include "shaders/effects.h"
 
 namespace malus::bake {
@@ -37,11 +38,16 @@ struct BakeArguments {
   bool json = false, force = false;
 };
 
-// Refuses to write the pack over a file of the scene.
+// Refuses to write the pack over a file of the scene, or over a material library of a mesh, which is not read.
 void checkFiles(const BakeArguments& arguments, const std::vector<SourceFile>& sources) {
   OutputFiles files;
   files.addInput(arguments.input);
-  for (const SourceFile& source : sources) files.addInput(source.file);
+  for (const SourceFile& source : sources) {
+    files.addInput(source.file);
+    std::error_code ignored;
+    if (!source.mayBeMissing && std::filesystem::is_regular_file(source.file, ignored))
+      for (const std::filesystem::path& file : prep::referencedFiles(source.file)) files.addInput(file);
+  }
   files.addOutput(arguments.output, "--output");
   files.check();
 }

@@ -81,8 +81,10 @@ TEST_F(Safety, OutputsAreNotFilesOfTheScene) {
   writeText(folder_ / "parts.mtl", "newmtl gold\nKd 1 1 1\n");
   document["imports"] = json::array({{{"file", "parts.obj"}}});
   writeText(folder_ / "scene.json", document.dump());
+  writeText(folder_ / "floor.obj", "mtllib floor.mtl\n" + readText(folder_ / "floor.obj"));
+  writeText(folder_ / "floor.mtl", "newmtl a\n");
   before_ = contents();
-  for (const char* output : {"wood.exr", "sky.exr", "parts.obj", "parts.mtl"})
+  for (const char* output : {"wood.exr", "sky.exr", "parts.obj", "parts.mtl", "floor.mtl"})
     refuse({"bake", "scene.json", "-o", output}, "--output");
 }
 

@@ -131,7 +131,7 @@ class GroupView:
 
     @property
     def sentences(self) -> list:
-        return [Markup(first_sentence(*self._polarization_facts())), Markup(second_sentence(self.group))]
+        return [Markup(s) for s in (first_sentence(*self._polarization_facts()), second_sentence(self.group)) if s]
 
     @property
     def verdict(self) -> Markup:

@@ -6,6 +6,7 @@ from report_data import has_enough_rounds, kFewestRounds, number, timed
 from report_format import listed, percent, plain, ratio
 
 kEverywhere = 0.01  # largest relative error for "everywhere"
+kRounding = 1e-5  # relative RMS error that an exact method has in float
 kGood = 0.001  # largest share of pixels with an error above 1 % for a recommended method
 
 
@@ -151,16 +152,16 @@ def recommended(rows: list):
     best, same = cheapest_good(rows)
     if best is None:
         return None, []
-    # Errors within 5 % of each other are equal: then the faster median is taken.
-    least = min(r["error"]["relRms"] for r in [best, *same])
-    pick = min((r for r in [best, *same] if r["error"]["relRms"] <= 1.05 * least), key=lambda r: r["medianMs"])
+    # Errors within 5 % of each other, or within the rounding of float, are equal: then the faster median is taken.
+    least = max(1.05 * min(r["error"]["relRms"] for r in [best, *same]), kRounding)
+    pick = min((r for r in [best, *same] if r["error"]["relRms"] <= least), key=lambda r: r["medianMs"])
     return pick, [r for r in [best, *same] if r is not pick]
 
 
 def second_sentence(group) -> str:
-    """Recommends a method for each renderer, with its cost."""
+    """Recommends a method for each renderer, with its cost; "" if there are too few rounds, which the verdict states."""
     if few_rounds(group.rows):
-        return f"{more_rounds(few_rounds(group.rows))}."
+        return ""
     parts, allowed = [], kGood
     for renderer in group.renderers:
         rows = [r for r in group.rows if r["renderer"] == renderer]

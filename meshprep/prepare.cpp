@@ -313,6 +313,8 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
   report.steps.push_back({"polygons-non-planar", counts.nonPlanar, {}});
   report.steps.push_back({"polygons-self-crossing", counts.crossing, {}});
   report.steps.push_back({"polygon-corners-repeated", counts.repeatedCorners, {}});
+  report.steps.push_back({"faces-dropped-few-corners", counts.fewCorners, {}});
+  if (mesh.triangles.empty()) throw Error(source, "no face has three corners", "a triangle with area");
 
   // Clean, unless the mesh is used unchanged.
   if (options.asIs) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "meshprep/base/text.h"
+#include "meshprep/read/polygons.h"
 
 namespace malus::prep {
 
@@ -106,7 +107,8 @@ std::string toText(const Report& report) {
                           step.findings.empty() ? ""
                                                 : fmt::format("  {}{}", step.count > 1 ? "first: " : "",
                                                               describe(step.findings.front())));
-  for (const std::string& note : report.notes) text += fmt::format("  ignored: {}\n", printable(note));
+  for (const std::string& note : report.notes)
+    text += fmt::format("  {}{}\n", note.starts_with(kAcceptedNote) ? "" : "ignored: ", printable(note));
 
   // Print the numbers of components.
   const auto count = [&](auto which) {

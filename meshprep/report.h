@@ -33,7 +33,7 @@ struct Simplification {
 
 struct Report {
   std::string source;
-  std::vector<std::string> notes;  // content of the file that was ignored
+  std::vector<std::string> notes;  // of the readers (Polygons::notes)
   struct {
     std::uint64_t vertices = 0;
     std::uint64_t faces = 0;

@@ -99,7 +99,7 @@ std::string UniqueNames::take(std::string name) {
 }
 
 std::string leftOutNote(const std::filesystem::path& file, const std::string& note) {
-  return fmt::format("{}: left out: {}", file.string(), note);
+  return fmt::format("{}: {}{}", file.string(), note.starts_with(prep::kAcceptedNote) ? "" : "left out: ", note);
 }
 
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,

@@ -53,7 +53,7 @@ struct Imported {
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
                      UniqueNames& materialNames, UniqueNames& meshNames);
 
-// A note of the readers about contents that are left out, as a sentence.
+// A note of the readers about content that is left out or accepted, as a sentence.
 std::string leftOutNote(const std::filesystem::path& file, const std::string& note);
 
 }  // namespace malus::bake

@@ -61,7 +61,9 @@ class Triangulation {
     for (std::size_t i = 0; i < mesh_.positions.size(); ++i) mesh_.sourceVertices[i] = static_cast<std::uint32_t>(i);
     reserve();
     for (std::size_t f = 0; f < polygons_.faceCount(); ++f) {
-      if (polygons_.face(f).size() == 3) {
+      if (polygons_.face(f).size() < 3) {
+        ++counts_.fewCorners;
+      } else if (polygons_.face(f).size() == 3) {
         add(f, {0, 1, 2});
       } else {
         addPolygon(f);
@@ -91,7 +93,9 @@ class Triangulation {
 
 // Reserves memory for all triangles: at most corners - 2 per face.
 void Triangulation::reserve() {
-  const std::size_t most = polygons_.corners.size() - 2 * polygons_.faceCount();
+  std::size_t most = 0;
+  for (std::size_t f = 0; f < polygons_.faceCount(); ++f)
+    most += std::max(polygons_.face(f).size(), std::size_t{2}) - 2;
   mesh_.triangles.reserve(most);
   mesh_.sourceFaces.reserve(most);
   if (!polygons_.cornerNormals.empty() || !polygons_.normals.empty()) mesh_.cornerNormals.reserve(3 * most);

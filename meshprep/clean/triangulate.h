@@ -26,6 +26,7 @@ struct TriangulateCounts {
   std::uint64_t nonPlanar = 0;        // of these, those with a corner farther than 1e-4 of the size from the plane
   std::uint64_t crossing = 0;         // of these, those without ears, because they cross themselves; a fan is used
   std::uint64_t repeatedCorners = 0;  // corners at the position of the previous one, dropped
+  std::uint64_t fewCorners = 0;       // faces of fewer than three corners, dropped
 };
 
 // Sets source faces, corner normals (those of the corners, or else of the vertices) and smoothing groups, as far as the

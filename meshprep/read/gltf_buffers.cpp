@@ -1,7 +1,9 @@
 #include "meshprep/read/gltf_buffers.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -163,9 +165,17 @@ std::shared_ptr<const std::vector<std::byte>> GltfBuffers::load(const std::strin
   return data;
 }
 
+bool hasBackslash(std::string_view uri) {
+  return uri.find('\\') != std::string_view::npos || uri.find("%5C") != std::string_view::npos ||
+         uri.find("%5c") != std::string_view::npos;
+}
+
 std::filesystem::path resolveGltfUri(const std::filesystem::path& file, std::string_view uri,
                                      const std::string& location) {
-  const std::string name = decodePercent(uri, location);
+  std::string name = decodePercent(uri, location);
+  std::error_code ignored;
+  if (hasBackslash(uri) && !std::filesystem::is_regular_file(file.parent_path() / name, ignored))
+    std::replace(name.begin(), name.end(), '\\', '/');
   const auto fail = [&] {
     throw Error(location, "file reference is not allowed", "a file in the folder of the glTF file or below it",
                 "'" + name.substr(0, 80) + "'");

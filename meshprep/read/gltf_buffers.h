@@ -59,10 +59,14 @@ class GltfBuffers {
   std::size_t bytesRead_ = 0;
 };
 
-// Path of the file that a buffer's URI names, percent-decoded, in the folder of `file` or below it. `location` is for
-// messages. Throws Error: a URI with a scheme, an absolute path, a path that leaves the folder.
+// Path of the file that a buffer's URI names, percent-decoded, in the folder of `file` or below it. Backslashes are
+// read as slashes unless a file has exactly this name. `location` is for messages. Throws Error: a URI with a scheme,
+// an absolute path, a path that leaves the folder.
 std::filesystem::path resolveGltfUri(const std::filesystem::path& file, std::string_view uri,
                                      const std::string& location);
+
+// Returns true if the URI contains a backslash, which URIs do not permit.
+bool hasBackslash(std::string_view uri);
 
 inline bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
 

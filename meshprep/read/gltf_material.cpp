@@ -14,6 +14,7 @@ namespace malus::prep {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMaxEmission = 1e12;  // of factor and strength
 
 // Bounds of the numbers of one material.
 class BoundsCheck {
@@ -50,8 +51,11 @@ SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& l
   result.baseColour = checked("pbrMetallicRoughness.baseColorFactor", material.baseColorFactor);
   result.metallic = checked("pbrMetallicRoughness.metallicFactor", material.metallicFactor, 0, 1);
   result.roughness = checked("pbrMetallicRoughness.roughnessFactor", material.roughnessFactor, 0, 1);
-  result.emissive = checked("emissiveFactor", material.emissiveFactor);
-  result.emissive *= checked("emissiveStrength", material.emissiveStrength, 0, 1e12);
+  for (std::size_t i = 0; i < 3; ++i)
+    result.emissive[static_cast<int>(i)] = checked("emissiveFactor", material.emissiveFactor[i], 0, kMaxEmission);
+  if (result.emissive.x > 1 || result.emissive.y > 1 || result.emissive.z > 1)
+    addNote(notes, std::string(kAcceptedNote) + "emissive factors above 1");
+  result.emissive *= checked("emissiveStrength", material.emissiveStrength, 0, kMaxEmission);
   if (material.alphaMode != "OPAQUE") addNote(notes, "alpha coverage");
 
   // Transmission and volume. KHR_materials_ior reserves 0 for older shading models.

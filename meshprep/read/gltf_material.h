@@ -2,7 +2,8 @@
 // and _emissive_strength.
 //
 // An index of 0, which KHR_materials_ior reserves for older shading models, becomes 1.5. An attenuation distance is
-// used without a thickness too, because meshes are closed. Ignored content leaves a note.
+// used without a thickness too, because meshes are closed. Emissive factors above 1, which exporters wrote before
+// KHR_materials_emissive_strength, are accepted with a note. Ignored content leaves a note.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 #include "meshprep/read/lines.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -44,17 +45,32 @@ bool isUtf8(std::string_view text) {
 }  // namespace
 
 std::string_view Lines::takeRaw() {
-  const std::size_t begin = end_;
-  const std::size_t lineFeed = text_.find('\n', begin);
-  std::size_t stop = lineFeed == std::string::npos ? text_.size() : lineFeed;
-  end_ = lineFeed == std::string::npos ? text_.size() : lineFeed + 1;
+  // Find the line end, and reject other control characters.
+  const std::size_t begin = end_, size = text_.size();
+  std::size_t stop = begin;
+  for (; stop < size; ++stop) {
+    const auto c = static_cast<unsigned char>(text_[stop]);
+    if (c >= 0x20 || c == '\t') continue;
+    if (c == '\n' || c == '\r') break;
+    fail("control character in a text file", "ASCII or UTF-8", fmt::format("byte {:#04x}", c));
+  }
+
+  // Skip it. In a file of CR alone, an LF belongs to the data after the line.
+  end_ = std::min(stop + 1, size);
+  if (stop < size && text_[stop] == '\r') {
+    const bool onlyCr = hasCrLineEnds_ && !hasCrLfLineEnds_ && !hasLfLineEnds_;
+    if (end_ < size && text_[end_] == '\n' && !onlyCr) {
+      hasCrLfLineEnds_ = true;
+      ++end_;
+    } else {
+      hasCrLineEnds_ = true;
+      text_[stop] = '\n';
+    }
+  } else if (stop < size) {
+    hasLfLineEnds_ = true;
+  }
   ++nextNumber_;
-  if (stop > begin && text_[stop - 1] == '\r') --stop;
-  const std::string_view raw = std::string_view(text_).substr(begin, stop - begin);
-  for (const char c : raw)
-    if (static_cast<unsigned char>(c) < 0x20 && c != '\t')
-      fail("control character in a text file", "ASCII or UTF-8", fmt::format("byte {:#04x}", static_cast<unsigned>(c)));
-  return raw;
+  return std::string_view(text_).substr(begin, stop - begin);
 }
 
 bool Lines::next() {
@@ -65,7 +81,8 @@ bool Lines::next() {
   return true;
 }
 
-void Lines::joinContinued() {
+void Lines::joinContinued(char comment) {
+  if (comment != 0) cutComment(comment);
   if (!raw_.ends_with('\\')) return;
   const auto begin = static_cast<std::size_t>(raw_.data() - text_.data());
   while (raw_.ends_with('\\')) {
@@ -75,9 +92,24 @@ void Lines::joinContinued() {
     const std::string_view next = takeRaw();
     raw_ = std::string_view(text_).substr(begin,
                                           static_cast<std::size_t>(next.data() - text_.data()) + next.size() - begin);
+    if (const std::size_t begins = comment != 0 ? next.find(comment) : std::string_view::npos; begins < next.size()) {
+      hasCutComments_ = true;
+      blankWord(next.substr(begins));
+    }
   }
   line_ = trimmed(raw_);
 }
+
+void Lines::cutFrom(std::size_t begin) {
+  if (begin >= line_.size()) return;
+  hasCutComments_ = true;
+  blank(begin);
+  line_ = trimmed(line_.substr(0, begin));
+}
+
+void Lines::cutComment(char comment) { cutFrom(line_.find(comment)); }
+
+void Lines::cutSeparateComment(char comment) { cutFrom(lengthWithoutComment(line_, comment)); }
 
 bool Lines::nextStatement(char comment) {
   while (next()) {
@@ -98,9 +130,37 @@ void Lines::zero(std::string_view word) {
   for (std::size_t i = 0; i < word.size(); ++i) text_[begin + i] = i == 0 ? '0' : ' ';
 }
 
+void Lines::blankWord(std::string_view word) {
+  const auto begin = static_cast<std::size_t>(word.data() - text_.data());
+  for (std::size_t i = 0; i < word.size(); ++i) text_[begin + i] = ' ';
+}
+
 void Lines::fail(std::string_view problem, std::string_view expected, std::string_view found) const {
   throw Error(fmt::format("{}:{}", where_, number_), problem, expected, found);
 }
+
+std::size_t lengthWithoutComment(std::string_view names, char comment) {
+  const auto isBlank = [&](std::size_t i) { return kBlanks.find(names[i]) != std::string_view::npos; };
+  for (std::size_t i = names.find(comment); i < names.size(); i = names.find(comment, i + 1))
+    if (i > 0 && isBlank(i - 1) && (i + 1 == names.size() || isBlank(i + 1))) return i;
+  return names.size();
+}
+
+namespace {
+
+constexpr std::string_view kPadding("\0\x1a \t\r\n", 6);
+
+}  // namespace
+
+bool removePadding(std::string& text) {
+  const std::size_t last = text.find_last_not_of(kPadding);
+  const std::size_t length = last == std::string::npos ? 0 : last + 1;
+  const bool found = text.find_first_of(std::string_view("\0\x1a", 2), length) != std::string::npos;
+  if (found) text.resize(length);
+  return found;
+}
+
+bool isPadding(std::string_view bytes) { return bytes.find_first_not_of(kPadding) == std::string_view::npos; }
 
 std::string_view takeWord(std::string_view& rest) {
   const std::size_t begin = rest.find_first_not_of(kBlanks);

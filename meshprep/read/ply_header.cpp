@@ -163,7 +163,7 @@ void checkHeader(Header& header, std::size_t fileBytes, std::string_view where, 
   if (!hasSurface) at.fail("missing element in the header", "face or tristrips");
 }
 
-Encoding scanFormat(const std::string& bytes, Lines& lines) {
+Encoding scanFormat(Lines& lines) {
   if (!lines.next() || lines.line() != "ply") lines.fail("is not a PLY file", "ply", quoted(lines.line()));
   if (!lines.next()) lines.fail("unexpected end of the header", "a format");
   std::string_view rest = lines.line();
@@ -179,9 +179,6 @@ Encoding scanFormat(const std::string& bytes, Lines& lines) {
   if (known == kFormats.end())
     lines.fail("unknown PLY format", "ascii, binary_little_endian or binary_big_endian", quoted(format));
   if (takeWord(rest) != "1.0") lines.fail("unknown PLY version", "1.0", quoted(lines.line()));
-  const bool crLf = bytes.find("\r\n") < bytes.find('\n');
-  if (known->second != Encoding::kAscii && crLf)
-    lines.fail("binary PLY file was converted to CR LF line ends", "LF line ends; transfer the file in binary mode");
   return known->second;
 }
 
@@ -211,7 +208,7 @@ std::size_t byteSize(Type type) {
 Header scanHeader(std::string& bytes, std::string_view where) {
   Lines lines(bytes, where);
   Header header;
-  header.encoding = scanFormat(bytes, lines);
+  header.encoding = scanFormat(lines);
   std::array<bool, 4> seen{};  // by kind
   Element* element = nullptr;  // current element
   Element withoutData;         // receives the properties of empty elements
@@ -221,6 +218,9 @@ Header scanHeader(std::string& bytes, std::string_view where) {
     if (statement == "end_header") {
       header.end = lines.endOffset();
       header.nextLine = lines.nextNumber();
+      header.hasCrLineEnds = lines.hasCrLineEnds();
+      header.hasCrLfLineEnds = lines.hasCrLfLineEnds();
+      if (header.encoding != Encoding::kAscii && header.hasCrLfLineEnds) header.openMeshReads = false;
       checkHeader(header, bytes.size(), where, lines);
       return header;
     }

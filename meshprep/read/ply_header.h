@@ -46,10 +46,12 @@ struct Header {
   std::size_t end = 0;        // offset of the data
   std::size_t nextLine = 0;   // number of the first line of the data, if it is text
   bool openMeshReads = true;  // only vertices, then faces, in types that OpenMesh knows
+  bool hasCrLineEnds = false, hasCrLfLineEnds = false;
 };
 
 // Parses and checks the header: types, coordinates, corners, and counts against the file size. Comments and empty
-// elements become blanks, which OpenMesh skips. Throws Error at "WHERE:LINE".
+// elements become blanks, which OpenMesh skips. The data of a binary file begin after the LF, CR LF or, if all lines of
+// the header end in CR, the CR. Throws Error at "WHERE:LINE".
 Header scanHeader(std::string& bytes, std::string_view where);
 
 }  // namespace malus::prep::ply

@@ -36,6 +36,8 @@ class Text : public Source {
       if (!lines_.line().empty())
         lines_.fail("content after the elements of the header", "the end of the file", quoted(lines_.line()));
   }
+  bool hasPadding() const override { return false; }  // removed before scanning
+  bool hasCrLineEnds() const override { return lines_.hasCrLineEnds(); }
 
   double coordinate(Type) override { return prep::coordinate(word(), lines_); }
   double real(Type) override {
@@ -75,7 +77,11 @@ class Text : public Source {
 class Binary : public Source {
  public:
   Binary(std::string_view bytes, std::string_view where, const Header& header)
-      : bytes_(bytes), where_(where), offset_(header.end), bigEndian_(header.encoding == Encoding::kBigEndian) {}
+      : bytes_(bytes),
+        where_(where),
+        offset_(header.end),
+        bigEndian_(header.encoding == Encoding::kBigEndian),
+        converted_(header.hasCrLfLineEnds) {}
 
   void beginItem(std::string_view what, std::size_t index) override {
     what_ = what;
@@ -84,10 +90,14 @@ class Binary : public Source {
   }
   void endItem() override {}
   void endFile() override {
-    if (offset_ != bytes_.size())
+    // After a conversion of line ends, zeros at the end may be data.
+    hasPadding_ = offset_ < bytes_.size() && !converted_ && isPadding(bytes_.substr(offset_));
+    if (offset_ != bytes_.size() && !hasPadding_)
       failAt("content after the elements of the header", "the end of the file",
              fmt::format("{} bytes", bytes_.size() - offset_));
   }
+  bool hasPadding() const override { return hasPadding_; }
+  bool hasCrLineEnds() const override { return false; }
 
   double coordinate(Type type) override {
     const double value = real(type);
@@ -122,6 +132,10 @@ class Binary : public Source {
 
  private:
   [[noreturn]] void failAt(std::string_view problem, std::string_view expected, std::string_view found) const {
+    if (converted_)
+      throw Error(fmt::format("{}, byte {}", where_, offset_),
+                  fmt::format("{}; the header has CR LF line ends, so the data were probably converted too", problem),
+                  fmt::format("{}: transfer the file in binary mode", expected), found);
     throw Error(fmt::format("{}, byte {}", where_, offset_), problem, expected, found);
   }
 
@@ -146,6 +160,8 @@ class Binary : public Source {
   std::size_t begin_ = 0;
   std::size_t offset_;
   bool bigEndian_;
+  bool converted_;  // perhaps: the header has CR LF line ends
+  bool hasPadding_ = false;
 };
 
 }  // namespace

@@ -20,7 +20,9 @@ class Source {
   // Begins the next item; `what` ("vertex") and `index`, from 0, are for messages.
   virtual void beginItem(std::string_view what, std::size_t index) = 0;
   virtual void endItem() = 0;  // text: requires the end of the line
-  virtual void endFile() = 0;  // requires the end of the file
+  virtual void endFile() = 0;  // requires the end of the file, or padding without which the file is complete
+  virtual bool hasPadding() const = 0;
+  virtual bool hasCrLineEnds() const = 0;  // of text
 
   virtual double coordinate(Type type) = 0;  // finite, within the range of float
   virtual double real(Type type) = 0;        // may be infinite or NaN

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -19,9 +20,13 @@ struct Part {
   friend bool operator==(const Part&, const Part&) = default;
 };
 
+// Begins a note about content that is read although the format does not permit it; other notes are about content that
+// is ignored.
+inline constexpr std::string_view kAcceptedNote = "accepted: ";
+
 struct Polygons {
   std::vector<glm::dvec3> positions;
-  std::vector<std::uint32_t> corners;          // indices into positions, face by face
+  std::vector<std::uint32_t> corners;          // indices into positions, face by face; a face may have fewer than 3
   std::vector<std::size_t> firstCorner = {0};  // index into corners of each face, and the number of corners
 
   // Attributes as in the file; empty if the file has none.
@@ -38,7 +43,8 @@ struct Polygons {
   std::vector<std::uint64_t> vertexLocations;
   std::vector<std::uint64_t> faceLocations;
 
-  // Ignored content, each kind once: "colours of vertices".
+  // Ignored content, each kind once: "colours of vertices"; and after kAcceptedNote, what does not conform to the
+  // format but is read.
   std::vector<std::string> notes;
 
   std::size_t faceCount() const { return firstCorner.size() - 1; }

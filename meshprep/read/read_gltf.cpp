@@ -29,6 +29,7 @@ constexpr std::size_t kMinVertices = 6'000'000;
 constexpr std::size_t kMaxInstances = 65536;
 constexpr std::size_t kMinInstancedTriangles = 4'000'000;
 constexpr std::size_t kMaxCopies = 16;
+constexpr std::size_t kMaxShownUri = 80;
 
 constexpr auto kTriangles = static_cast<std::uint32_t>(gltf::PrimitiveMode::triangles);
 constexpr auto kTriangleStrip = static_cast<std::uint32_t>(gltf::PrimitiveMode::triangleStrip);
@@ -229,6 +230,10 @@ SourceScene readGltf(const std::filesystem::path& path) {
   GltfJson checked = parseGltfJson(container.json(), where);
   scene.notes = std::move(checked.notes);
   gltf::Document document = gltf::toDocument(std::move(checked.document), where);
+  for (const gltf::Buffer& buffer : document.buffers)
+    if (!isDataUri(buffer.uri) && hasBackslash(buffer.uri))
+      addNote(scene.notes,
+              fmt::format("{}backslashes in the file name {}", kAcceptedNote, buffer.uri.substr(0, kMaxShownUri)));
   GltfBuffers buffers(std::move(document.buffers), container, path);
 
   // Convert the materials.

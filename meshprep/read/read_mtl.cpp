@@ -22,6 +22,7 @@ namespace {
 
 constexpr double kDefaultColour = 0.8;
 constexpr std::size_t kMaxMaterials = 100'000;
+constexpr double kContradiction = 1e-3;  // of d + Tr from 1: files have few decimals
 
 constexpr std::array<std::string_view, 3> kIgnored = {"Ka", "sharpness", "Km"};
 constexpr std::array<std::string_view, 7> kTextures = {"bump", "disp", "decal", "refl", "norm", "Bump", "Disp"};
@@ -30,7 +31,7 @@ constexpr std::array<std::string_view, 7> kTextures = {"bump", "disp", "decal", 
 struct Statements {
   std::string name;
   std::optional<glm::dvec3> kd, ks, ke, tf;
-  std::optional<double> ns, ni, d, pm, pr;
+  std::optional<double> ns, ni, d, tr, pm, pr;
   int illum = 2;
 };
 
@@ -59,8 +60,13 @@ SourceMaterial convertMaterial(const Statements& from, std::vector<std::string>&
   if (from.ni && *from.ni < 1) addNote(notes, "indices of refraction below 1, replaced by 1.5");
   if (from.ni && *from.ni >= 1) result.ior = *from.ni;
   const bool refracts = from.illum == 4 || from.illum == 6 || from.illum == 7 || from.illum == 9;
-  if (from.d)
-    result.transmission = 1 - std::clamp(*from.d, 0.0, 1.0);
+  if (from.d && from.tr && std::abs(*from.d + *from.tr - 1) > kContradiction)
+    addNote(notes,
+            fmt::format("Tr {} of material {}, which contradicts d {}", *from.tr, prep::quoted(from.name), *from.d));
+  if (!from.d && from.tr && *from.tr > kTransmissive)
+    addNote(notes, fmt::format("{}Tr of material {} without d, read as 1 - d", kAcceptedNote, prep::quoted(from.name)));
+  if (from.d || from.tr)
+    result.transmission = from.d ? 1 - std::clamp(*from.d, 0.0, 1.0) : std::clamp(*from.tr, 0.0, 1.0);
   else if (refracts && from.tf)
     result.transmission = largest(clampToUnit(*from.tf));
   if (result.transmission > kTransmissive) result.metallic = 0;  // a metal is opaque
@@ -111,7 +117,7 @@ void parseStatement(std::string_view keyword, std::string_view rest, const Lines
   else if (keyword == "Pr")
     material.pr = number();
   else if (keyword == "Tr")
-    material.d = 1 - number();
+    material.tr = number();
   else if (keyword == "d") {
     std::string_view ahead = rest;
     if (takeWord(ahead) == "-halo") rest = ahead;
@@ -134,12 +140,15 @@ std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, s
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw Error(where, "file is UTF-16 text", "ASCII or UTF-8");
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  const bool padded = removePadding(text);
   std::vector<Statements> statements;
   Lines lines(text, where);
   while (lines.nextStatement('#')) {
     std::string_view rest = lines.line();
     const std::string_view keyword = takeWord(rest);
     if (keyword == "newmtl") {
+      lines.cutSeparateComment('#');
+      rest = lines.line().substr(keyword.size());
       rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
       if (rest.empty()) lines.fail("material without a name", "newmtl NAME");
       if (statements.size() == kMaxMaterials)
@@ -148,12 +157,17 @@ std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, s
       statements.back().name = parseName(rest, lines);
       continue;
     }
+    lines.cutComment('#');
+    rest = lines.line().substr(keyword.size());
     if (statements.empty()) lines.fail("statement outside of a material", "newmtl NAME first", quoted(keyword));
     parseStatement(keyword, rest, lines, statements.back(), notes);
   }
   std::vector<SourceMaterial> materials;
   materials.reserve(statements.size());
   for (const Statements& material : statements) materials.push_back(convertMaterial(material, notes));
+  if (lines.hasCrLineEnds()) addNote(notes, std::string(kAcceptedNote) + "CR line ends");
+  if (lines.hasCutComments()) addNote(notes, std::string(kAcceptedNote) + "comments at line ends");
+  if (padded) addNote(notes, std::string(kPaddingNote));
   return materials;
 }
 
@@ -161,19 +175,61 @@ std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vect
   return parseMtl(readTextFile(path), path.string(), notes);
 }
 
+namespace {
+
+std::string withSlashes(std::string_view name) {
+  std::string result(name);
+  std::replace(result.begin(), result.end(), '\\', '/');
+  return result;
+}
+
+// Returns the file that a name with backslashes, in quotes or with a comment refers to, if it exists. A file with
+// exactly this name comes first.
+std::optional<std::filesystem::path> findMaterialFile(const std::filesystem::path& obj, std::string_view name) {
+  std::vector<std::string> candidates = {std::string(name), withSlashes(name)};
+  const auto addWithSlashes = [&](std::string_view part) {
+    candidates.emplace_back(part);
+    candidates.push_back(withSlashes(part));
+  };
+  const auto trim = [](std::string_view text) {
+    const std::size_t last = text.find_last_not_of(" \t");
+    return text.substr(0, last == std::string_view::npos ? 0 : last + 1);
+  };
+  const std::string_view shown = trim(name.substr(0, name.find('#')));
+  addWithSlashes(shown);
+  if (shown.size() > 2 && shown.front() == '"' && shown.back() == '"')
+    addWithSlashes(shown.substr(1, shown.size() - 2));
+  for (const std::string& candidate : candidates) {
+    std::error_code ignored;
+    std::filesystem::path file = obj.parent_path() / std::filesystem::path(candidate);
+    if (!candidate.empty() && std::filesystem::is_regular_file(file, ignored)) return file;
+  }
+  return std::nullopt;
+}
+
+// Returns a name up to its first '#', without blanks before it.
+std::string withoutHash(std::string_view name) {
+  name = name.substr(0, name.find('#'));
+  const std::size_t last = name.find_last_not_of(" \t");
+  return std::string(name.substr(0, last == std::string_view::npos ? 0 : last + 1));
+}
+
+}  // namespace
+
 std::vector<std::filesystem::path> listMaterialFiles(const std::filesystem::path& obj,
                                                      const std::vector<std::string>& statements) {
   std::vector<std::filesystem::path> files;
-  const auto add = [&](std::string_view name) {
-    std::filesystem::path file = obj.parent_path() / std::filesystem::path(name);
+  const auto add = [&](std::filesystem::path file) {
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(std::move(file));
   };
   for (const std::string& statement : statements) {
-    std::error_code ignored;
-    const bool whole = std::filesystem::is_regular_file(obj.parent_path() / std::filesystem::path(statement), ignored);
-    std::string_view rest = statement;
-    if (whole) add(statement);
-    for (std::string_view word = takeWord(rest); !whole && !word.empty(); word = takeWord(rest)) add(word);
+    if (const auto whole = findMaterialFile(obj, statement)) {
+      add(*whole);
+      continue;
+    }
+    std::string_view rest = std::string_view(statement).substr(0, statement.find('#'));
+    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
+      add(findMaterialFile(obj, word).value_or(obj.parent_path() / withSlashes(word)));
   }
   return files;
 }
@@ -182,6 +238,9 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
   // Read the descriptions by name.
   std::map<std::string, SourceMaterial> described;
   std::vector<std::string> missing;
+  for (const std::string& statement : files)
+    if (statement.find('\\') != std::string::npos)
+      addNote(scene.notes, fmt::format("{}backslashes in the file name {}", kAcceptedNote, prep::quoted(statement)));
   for (const std::filesystem::path& path : listMaterialFiles(obj, files)) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
@@ -195,9 +254,21 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
     }
   }
 
-  // Set the materials. Report missing files only if a material is missing.
+  // Set the materials; if a name has no description, try it without a comment. Report missing files only if a material
+  // is missing.
+  std::map<std::string, const SourceMaterial*> withoutComments;
+  for (const auto& [name, material] : described) withoutComments.emplace(withoutHash(name), &material);
   for (SourceMaterial& material : scene.materials) {
     const auto found = described.find(material.name);
+    const auto similar = withoutComments.find(withoutHash(material.name));
+    if (found == described.end() && similar != withoutComments.end() && !similar->first.empty()) {
+      addNote(scene.notes, fmt::format("{}material {} described as {}", kAcceptedNote, prep::quoted(material.name),
+                                       prep::quoted(similar->second->name)));
+      const std::string name = material.name;
+      material = *similar->second;
+      material.name = name;
+      continue;
+    }
     if (found != described.end()) {
       material = found->second;
       continue;
@@ -215,10 +286,19 @@ std::vector<std::string> listMtllibs(std::string text, std::string_view where) {
   std::vector<std::string> statements;
   std::set<std::string> seen;
   Lines lines(text, where);
+  removePadding(text);
   while (lines.nextStatement('#')) {
-    lines.joinContinued();
+    // Statements as in scan_obj.cpp.
     std::string_view rest = lines.line();
-    if (takeWord(rest) != "mtllib") continue;
+    if (takeWord(rest) != "mtllib") {
+      lines.joinContinued('#');
+      continue;
+    }
+    lines.cutSeparateComment('#');
+    lines.joinContinued();
+    lines.cutSeparateComment('#');
+    rest = lines.line();
+    takeWord(rest);
     std::string name = parseName(rest, lines, kMaxPathBytes);
     if (!name.empty() && seen.insert(name).second) statements.push_back(std::move(name));
   }

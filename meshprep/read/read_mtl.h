@@ -8,12 +8,15 @@
 //   Pm, Pr          metallic and roughness, instead of the two rules above
 //   Ke r g b        emission
 //   Ni n            index of refraction; a value below 1 leaves a note and is replaced by 1.5
-//   d n, Tr n       transmission 1 - n, or n
+//   d n, Tr n       transmission 1 - n, or n. Some programs write Tr with the meaning of d: d is used if a material has
+//                   both, with a note if they contradict each other
 //   Tf r g b        transmittance of a metre of the interior; with illum 4, 6, 7 or 9 and neither d nor Tr, its largest
 //                   component is also the transmission
 //   illum n         see above
 //   Ka, sharpness   ignored
 //   map_*, bump, disp, decal, refl, norm and unknown statements leave a note.
+//
+// Comments after a statement are accepted with a note; in a newmtl statement, blanks must enclose their '#'.
 //
 // A single number stands for three equal ones. Numbers out of range are clamped.
 //
@@ -39,10 +42,12 @@ std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vect
 
 // Sets the scene's materials, which must have names, by the files of the mtllib statements. The first description of a
 // name is used; others leave a note. A material without description leaves a note, with the missing files, and becomes
-// diffuse with base colour 0.8.
+// diffuse with base colour 0.8. If a name has no description, the description of the same name up to a '#' is used,
+// with a note.
 void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files);
 
-// Returns the files of mtllib statements: the whole argument if that is a file, otherwise its words.
+// Returns the files of mtllib statements: the whole argument if that is a file, otherwise its words. If there is no
+// such file, backslashes are read as slashes, and quotes and the text from a '#' on are ignored.
 std::vector<std::filesystem::path> listMaterialFiles(const std::filesystem::path& obj,
                                                      const std::vector<std::string>& statements);
 

@@ -31,4 +31,14 @@ Scan scanStl(std::string& bytes, std::string_view where);
 // Adds a note about ignored content, once.
 void noteOnce(Polygons& polygons, std::string_view what);
 
+// Adds a note about content that the format does not permit, once.
+void noteAccepted(Polygons& polygons, std::string_view what);
+
+// Adds notes about accepted line ends and comments.
+void noteLines(Polygons& polygons, const Lines& lines);
+
+// Notes about content that several formats ignore.
+inline constexpr std::string_view kFewCorners = "faces of fewer than three corners";
+inline constexpr std::string_view kPaddingNote = "padding at the end of the file";
+
 }  // namespace malus::prep

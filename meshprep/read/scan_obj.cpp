@@ -1,7 +1,9 @@
 // Wavefront OBJ: positions, faces, corner normals, groups, objects, names of materials and smoothing groups. Texture
-// coordinates, colours, points and lines are ignored with a note. Free-form surfaces, statements that include a file
-// and unknown statements are errors. A backslash does not continue a comment. Source: Wavefront Technologies, "Object
-// Files (.obj)", Advanced Visualizer Manual, appendix B1.
+// coordinates, colours, points, lines and faces of fewer than three corners are ignored with a note. Comments after a
+// statement and empty slots of corners ("1/", "1//") are accepted with a note; in a statement with names, blanks must
+// enclose the '#' of a comment. Free-form surfaces, statements that include a file and unknown statements are errors. A
+// backslash does not continue a comment. Source: Wavefront Technologies, "Object Files (.obj)", Advanced Visualizer
+// Manual, appendix B1.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -41,6 +43,9 @@ constexpr std::array<Skipped, 14> kSkipped = {{{"vt", "texture coordinates"},
                                                {"shadow_obj", "objects for shadows and reflections"},
                                                {"trace_obj", "objects for shadows and reflections"}}};
 
+// Statements with names, which may contain '#'.
+constexpr std::array<std::string_view, 6> kNamed = {"g", "o", "usemtl", "mtllib", "usemap", "maplib"};
+
 // Numbers of positions, texture coordinates and normals so far.
 using Counts = std::array<long long, 3>;
 constexpr std::array<std::string_view, 3> kKinds = {"vertex", "texture coordinate", "normal"};
@@ -51,7 +56,7 @@ class ObjScan {
 
   Polygons run() {
     while (lines_.nextStatement('#')) {
-      lines_.joinContinued();
+      joinStatement();
       std::string_view rest = lines_.line();
       const std::string_view keyword = takeWord(rest);
       if (keyword == "v") {
@@ -68,9 +73,11 @@ class ObjScan {
   }
 
  private:
+  void joinStatement();
   void scanVertex(std::string_view rest);
   void scanFace(std::string_view rest);
   void scanCorner(std::string_view word);
+  void acceptEmptySlots(std::string_view corner);
   long long resolve(std::string_view word, std::size_t kind);
   void scanNormal(std::string_view rest);
   void scanSmoothing(std::string_view rest);
@@ -94,18 +101,31 @@ class ObjScan {
   std::unordered_set<std::string> materialFiles_;
 };
 
+// Joins the lines of a statement and removes its comments.
+void ObjScan::joinStatement() {
+  std::string_view peek = lines_.line();
+  const std::string_view keyword = takeWord(peek);
+  if (std::find(kNamed.begin(), kNamed.end(), keyword) == kNamed.end()) return lines_.joinContinued('#');
+  lines_.cutSeparateComment('#');
+  lines_.joinContinued();
+  lines_.cutSeparateComment('#');
+}
+
 void ObjScan::scanVertex(std::string_view rest) {
-  std::array<double, 7> numbers{};
+  std::array<double, 7> numbers{};  // x y z, or with a colour: x y z r g b, x y z r g b a, x y z weight r g b
   std::size_t count = 0;
+  const char* afterPosition = nullptr;
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
     if (count == numbers.size())
       lines_.fail("too many numbers in a vertex", "x y z, optionally a weight of 1 and a colour");
     numbers[count++] = coordinate(word, lines_);
+    if (count == 3) afterPosition = rest.data();
   }
   if (count < 3 || count == 5)
     lines_.fail("wrong number of numbers in a vertex", "3 (x y z), 4 (weight) or 6 (colour)", fmt::to_string(count));
-  if ((count == 4 || count == 7) && numbers[3] != 1)
+  if (count == 4 && numbers[3] != 1)
     lines_.fail("rational vertex is not supported", "a weight of 1", fmt::to_string(numbers[3]));
+  if (count == 7) lines_.blank(static_cast<std::size_t>(afterPosition - lines_.line().data()));
   if (count > 4) noteOnce(polygons_, "colours of vertices");
   polygons_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
   polygons_.vertexLocations.push_back(lines_.number());
@@ -116,14 +136,14 @@ void ObjScan::scanFace(std::string_view rest) {
   const std::size_t first = polygons_.corners.size();
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) scanCorner(word);
   const std::size_t corners = polygons_.corners.size() - first;
-  if (corners < 3) lines_.fail("too few corners in a face", "3 or more", fmt::to_string(corners));
+  if (corners < 3) noteOnce(polygons_, kFewCorners);
   polygons_.closeFace();
   polygons_.faceLocations.push_back(lines_.number());
   polygons_.partOf.push_back(parts_.current());
   if (smoothing_) polygons_.smoothingGroups.push_back(smoothingGroup_);
 }
 
-// v, v/vt, v//vn or v/vt/vn.
+// v, v/vt, v//vn or v/vt/vn. Empty slots at the end are accepted.
 void ObjScan::scanCorner(std::string_view word) {
   std::uint32_t normal = kNoNormal;
   std::string_view rest = word;
@@ -133,8 +153,9 @@ void ObjScan::scanCorner(std::string_view word) {
     const std::size_t slash = rest.find('/');
     const std::string_view part = rest.substr(0, slash);
     last = slash == std::string_view::npos;
-    const bool mayBeEmpty = kind == 1 && !last;
-    if (!(mayBeEmpty && part.empty())) {
+    if (part.empty() && kind > 0) {
+      if (last) acceptEmptySlots(word);
+    } else {
       const long long index = resolve(part, kind);
       if (index > highest_[kind]) {
         highest_[kind] = index;
@@ -147,6 +168,12 @@ void ObjScan::scanCorner(std::string_view word) {
   }
   if (normal != kNoNormal && normalOf_.empty()) normalOf_.resize(polygons_.corners.size() - 1, kNoNormal);
   if (normal != kNoNormal || !normalOf_.empty()) normalOf_.push_back(normal);
+}
+
+// Replaces the slashes at the end of a corner by blanks.
+void ObjScan::acceptEmptySlots(std::string_view corner) {
+  lines_.blankWord(corner.substr(corner.find_last_not_of('/') + 1));
+  noteAccepted(polygons_, "empty slots of corners");
 }
 
 // Converts an index from 1, or from -1 for the last vertex so far, to one from 0. finish() checks the upper bound.
@@ -199,6 +226,8 @@ void ObjScan::scanOther(std::string_view keyword, std::string_view rest) {
 }
 
 void ObjScan::finish() {
+  noteLines(polygons_, lines_);
+
   // Check the highest indices: a corner may refer to a vertex that follows it.
   for (std::size_t kind = 0; kind < 3; ++kind)
     if (highest_[kind] >= counts_[kind])
@@ -222,7 +251,9 @@ void ObjScan::finish() {
 
 Scan scanObj(std::string& bytes, std::string_view where) {
   Scan scan;
+  const bool padded = removePadding(bytes);
   scan.polygons = ObjScan(bytes, where).run();
+  if (padded) noteOnce(scan.polygons, kPaddingNote);
   return scan;
 }
 

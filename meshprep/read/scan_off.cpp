@@ -1,5 +1,6 @@
 // Object File Format, ASCII, three dimensions: [ST][C][N]OFF, one vertex or face per line, comments anywhere. Normals
-// are read; colours and texture coordinates are ignored with a note. Binary files are errors. Source: Geomview manual,
+// are read; colours, texture coordinates and faces of fewer than three corners are ignored with a note, and a missing
+// number of edges is accepted with a note. Binary files are errors. Source: Geomview manual,
 // "OFF: the format of polygon files", http://www.geomview.org/docs/html/OFF.html.
 #include <algorithm>
 #include <limits>
@@ -65,6 +66,7 @@ class OffScanner {
     for (std::size_t i = 0; i < faces_; ++i) scanFace(i);
     if (lines_.nextStatement('#'))
       lines_.fail("content after the elements of the header", "the end of the file", quoted(lines_.line()));
+    noteLines(scan_.polygons, lines_);
     bytes_.erase(0, headerBegin_);  // OpenMesh expects the header in the first line
     return std::move(scan_);
   }
@@ -100,7 +102,12 @@ class OffScanner {
   void scanCounts() {
     vertices_ = scanCount(rest_, "a number of vertices", bytes_.size(), 6, lines_);
     faces_ = scanCount(rest_, "a number of faces", bytes_.size(), 8, lines_);
-    wholeNumber(takeWord(rest_), "a number of edges", lines_);
+    if (const std::string_view edges = takeWord(rest_); edges.empty()) {
+      noteAccepted(scan_.polygons, "a missing number of edges");
+      scan_.openMeshReads = false;
+    } else {
+      wholeNumber(edges, "a number of edges", lines_);
+    }
     if (!takeWord(rest_).empty()) lines_.fail("too many counts", "numbers of vertices, faces and edges");
     blankFrom(rest_, lines_);
 
@@ -136,7 +143,8 @@ class OffScanner {
     Polygons& polygons = scan_.polygons;
     std::string_view rest = nextLine(fmt::format("{} faces, of which {} were read", faces_, i));
     const long long corners = wholeNumber(takeWord(rest), "a number of corners", lines_);
-    if (corners < 3) lines_.fail("too few corners in a face", "3 or more", fmt::to_string(corners));
+    if (corners < 0) lines_.fail("invalid number of corners", "0 or more", fmt::to_string(corners));
+    if (corners < 3) noteOnce(polygons, kFewCorners);
     for (long long c = 0; c < corners; ++c) {
       const std::string_view word = takeWord(rest);
       if (word.empty()) lines_.fail("missing corners in a face", fmt::format("{} corners", corners), fmt::to_string(c));
@@ -163,6 +171,11 @@ class OffScanner {
 
 }  // namespace
 
-Scan scanOff(std::string& bytes, std::string_view where) { return OffScanner(bytes, where).scan(); }
+Scan scanOff(std::string& bytes, std::string_view where) {
+  const bool padded = removePadding(bytes);
+  Scan scan = OffScanner(bytes, where).scan();
+  if (padded) noteOnce(scan.polygons, kPaddingNote);
+  return scan;
+}
 
 }  // namespace malus::prep

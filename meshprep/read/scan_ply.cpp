@@ -1,6 +1,7 @@
 // Polygon File Format: ASCII and binary with either byte order, all numeric types, elements in any order. Vertices,
-// normals of vertices, faces and triangle strips are read; other properties, lists and elements are ignored with a
-// note.
+// normals of vertices, faces and triangle strips are read; other properties, lists and elements, faces of fewer
+// than three corners, and padding are ignored with a note. CR line ends, and CR LF in the header of a binary file, are
+// accepted with a note.
 // Source: G. Turk, "The PLY Polygon File Format", Stanford University, 1994; triangle strips as in files of the
 // Stanford 3D Scanning Repository: -1 ends a strip.
 #include <algorithm>
@@ -32,6 +33,10 @@ class PlyScan {
   Polygons run() {
     for (const Element& element : header_.elements) scanElement(element);
     source_.endFile();
+    if (source_.hasPadding()) noteOnce(polygons_, kPaddingNote);
+    if (header_.hasCrLineEnds || source_.hasCrLineEnds()) noteAccepted(polygons_, "CR line ends");
+    if (header_.hasCrLfLineEnds && source_.locationsAreBytes())
+      noteAccepted(polygons_, "CR LF line ends in the header of a binary file");
     return std::move(polygons_);
   }
 
@@ -107,7 +112,7 @@ void PlyScan::scanVertex(const Element& element) {
 
 void PlyScan::scanFace(const Property& list) {
   const std::size_t corners = listLength(list);
-  if (corners < 3) source_.fail("too few corners", "3 or more", fmt::to_string(corners));
+  if (corners < 3) noteOnce(polygons_, kFewCorners);
   for (std::size_t c = 0; c < corners; ++c) polygons_.corners.push_back(corner(source_.whole(list.type)));
   polygons_.closeFace();
   polygons_.faceLocations.push_back(source_.location());
@@ -175,10 +180,14 @@ void PlyScan::noteSkipped(const Element& element) {
 }  // namespace
 
 Scan scanPly(std::string& bytes, std::string_view where) {
+  // Text may be padded too.
+  constexpr std::string_view kText = "format ascii";
+  const bool padded = bytes.find(kText) < bytes.find("end_header") && removePadding(bytes);
   const ply::Header header = ply::scanHeader(bytes, where);
   const std::unique_ptr<ply::Source> source = ply::openSource(bytes, where, header);
   Scan scan;
   scan.polygons = PlyScan(header, *source).run();
+  if (padded) noteOnce(scan.polygons, kPaddingNote);
   scan.openMeshReads = header.openMeshReads;
   return scan;
 }

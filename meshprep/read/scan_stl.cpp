@@ -1,6 +1,6 @@
 // Stereolithography, ASCII and binary (little-endian). Normals of facets are not read. Attributes, which some programs
-// use for colours, are ignored with a note. Each solid of an ASCII file with faces is a part. Source: 3D Systems,
-// "StereoLithography Interface Specification", 1989.
+// use for colours, and padding after the last facet are ignored with a note. Each solid of an ASCII file with faces is
+// a part. Source: 3D Systems, "StereoLithography Interface Specification", 1989.
 #include <array>
 #include <bit>
 #include <cctype>
@@ -40,6 +40,11 @@ Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t face
   Polygons& polygons = scan.polygons;
   polygons.locationsAreBytes = true;
   polygons.positions.reserve(3 * faces);
+  polygons.corners.reserve(3 * faces);
+  polygons.vertexLocations.reserve(3 * faces);
+  polygons.firstCorner.reserve(faces + 1);
+  polygons.faceLocations.reserve(faces);
+  bool coloured = false;
   for (std::size_t f = 0; f < faces; ++f) {
     const std::size_t begin = kHeaderBytes + f * kFaceBytes;
     polygons.faceLocations.push_back(begin);
@@ -58,8 +63,9 @@ Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t face
     }
     polygons.closeFace();
     const std::size_t attribute = begin + kNormalBytes + kCornersBytes;
-    if (bytes[attribute] != 0 || bytes[attribute + 1] != 0) noteOnce(polygons, "colours of faces");
+    coloured = coloured || bytes[attribute] != 0 || bytes[attribute + 1] != 0;
   }
+  if (coloured) noteOnce(polygons, "colours of faces");
   return scan;
 }
 
@@ -128,6 +134,7 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
     }
   }
   if (inSolid) throw Error(where, "unexpected end of file", "endsolid");
+  noteLines(polygons, lines);
 
   // Drop the list of parts if it is one unnamed part.
   if (polygons.parts == std::vector<Part>{Part{}}) {
@@ -142,12 +149,22 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
 Scan scanStl(std::string& bytes, std::string_view where) {
   // Decide by size, because binary files may begin with "solid" too.
   if (bytes.size() >= kHeaderBytes) {
-    const std::size_t faces = littleEndian(bytes, 80);
-    if (bytes.size() == kHeaderBytes + faces * kFaceBytes) return scanBinary(bytes, where, faces);
+    const std::size_t faces = littleEndian(bytes, 80), size = kHeaderBytes + faces * kFaceBytes;
+    if (size <= bytes.size() && isPadding(std::string_view(bytes).substr(size))) {
+      const bool padded = size < bytes.size();
+      bytes.resize(size);
+      Scan scan = scanBinary(bytes, where, faces);
+      if (padded) noteOnce(scan.polygons, kPaddingNote);
+      return scan;
+    }
   }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  if (first != std::string::npos && equalsIgnoringCase(std::string_view(bytes).substr(first, 5), "solid"))
-    return scanAscii(bytes, where);
+  if (first != std::string::npos && equalsIgnoringCase(std::string_view(bytes).substr(first, 5), "solid")) {
+    const bool padded = removePadding(bytes);
+    Scan scan = scanAscii(bytes, where);
+    if (padded) noteOnce(scan.polygons, kPaddingNote);
+    return scan;
+  }
   if (bytes.size() < kHeaderBytes)
     throw Error(where, "is not an STL file", "\"solid\", or at least 84 bytes", fmt::format("{} bytes", bytes.size()));
   const std::size_t faces = littleEndian(bytes, 80);

@@ -58,7 +58,7 @@ struct SourceScene {
   std::vector<SourcePart> parts;
   std::vector<SourceInstance> instances;
 
-  // Ignored content, each kind once: "textures".
+  // Ignored content, each kind once: "textures"; or after kAcceptedNote (polygons.h), accepted content.
   std::vector<std::string> notes;
 };
 

@@ -285,6 +285,20 @@ TEST(Prepare, CountsQuads) {
   EXPECT_EQ(report.count("polygons-concave"), 1u);
 }
 
+TEST(Prepare, LeavesOutFacesOfFewerCorners) {
+  const TemporaryFile file(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf\nf 1 2 3\n");
+  Report report;
+  const Mesh mesh = prepare(file.path(), {}, report);
+  EXPECT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.sourceFaces, (std::vector<std::uint32_t>{2}));
+  EXPECT_EQ(report.count("faces-dropped-few-corners"), 2u);
+  EXPECT_EQ(report.input.faces, 3u);
+  const TemporaryFile lines(".obj", "v 0 0 0\nv 1 0 0\nf 1 2\n");
+  Options options;
+  options.asIs = options.flat = true;
+  EXPECT_CONTAINS(errorMessage([&] { prepare(lines.path(), options, report); }), "three corners");
+}
+
 TEST(Prepare, RefusesInvalidOptionsAndEmptyResults) {
   const TemporaryFile file(".obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   Report report;

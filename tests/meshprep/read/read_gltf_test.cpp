@@ -454,6 +454,7 @@ TEST(ReadGltf, ReadsMaterials) {
                   "materials[1].pbrMetallicRoughness.metallicFactor: is");
   EXPECT_CONTAINS(error("pbrMetallicRoughness/baseColorFactor", {1, 1, 1}), "baseColorFactor: wrong type");
   EXPECT_CONTAINS(error("emissiveFactor", {1, -1, 0}), "materials[1].emissiveFactor", "range");
+  EXPECT_EQ(error("emissiveFactor", {1, 40, 0}), "");
   EXPECT_CONTAINS(error("extensions/KHR_materials_ior/ior", 0.5), "materials[1].ior", "range");
   EXPECT_CONTAINS(error("extensions/KHR_materials_volume/attenuationDistance", 0), "a positive distance");
   EXPECT_EQ(error("extensions/KHR_materials_ior/ior", 0), "");
@@ -478,6 +479,35 @@ TEST(ReadGltf, ReadsMaterials) {
   EXPECT_TRUE(noted.materials[1].isThinWalled);
   EXPECT_TRUE(hasNote(noted, "alpha coverage"));
   EXPECT_TRUE(hasNote(noted, "textures"));
+}
+
+TEST(ReadGltf, AcceptsEmissiveFactorsAboveOne) {
+  GltfFile gltf = triangleFile();
+  gltf.document["materials"] = {{{"emissiveFactor", {1, 40, 0.5}}}};
+  const SourceScene scene = readGlb(gltf);
+  EXPECT_EQ(scene.materials[0].emissive, glm::dvec3(1, 40, 0.5));
+  EXPECT_TRUE(hasNote(scene, "accepted: emissive factors above 1"));
+  gltf.document["materials"] = {{{"emissiveFactor", {1, 1, 1}}}};
+  EXPECT_FALSE(hasNote(readGlb(gltf), "accepted: emissive factors above 1"));
+}
+
+TEST(ReadGltf, AcceptsBackslashesInFileNames) {
+  const GltfFile gltf = triangleFile();
+  const std::filesystem::path folder = test::temporaryPath("");
+  std::filesystem::create_directories(folder / "sub");
+  std::ofstream(folder / "sub" / "a.bin", std::ios::binary) << gltf.bin;
+  for (const char* uri : {"sub\\a.bin", "sub%5Ca.bin", ".\\sub\\a.bin"}) {
+    std::ofstream(folder / "a.gltf") << gltf.gltf(uri);
+    const SourceScene scene = readGltf(folder / "a.gltf");
+    EXPECT_EQ(scene.parts.size(), 1u);
+    EXPECT_EQ(std::count_if(scene.notes.begin(), scene.notes.end(),
+                            [](const std::string& note) { return note.find("backslashes") != std::string::npos; }),
+              1);
+    EXPECT_EQ(gltfBufferFiles(folder / "a.gltf").at(0).lexically_normal(), folder / "sub" / "a.bin");
+  }
+  std::ofstream(folder / "a.gltf") << gltf.gltf("..\\a.bin");
+  EXPECT_CONTAINS(errorMessage([&] { readGltf(folder / "a.gltf"); }), "not allowed");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(ReadGltf, ReproducesASphere) {

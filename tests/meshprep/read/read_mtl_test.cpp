@@ -2,6 +2,8 @@
 #include "meshprep/read/read_mtl.h"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "tests/meshprep/shapes.h"
 
@@ -78,6 +80,79 @@ TEST(ReadMtl, ReadsTransmissionAndEmission) {
   EXPECT_CONTAINS(notes.at(0), "below 1");
 }
 
+TEST(ReadMtl, PrefersDToTr) {
+  // Programs write Tr as 1 - d or with the meaning of d.
+  EXPECT_EQ(one("d 1.0\nTr 0.0\n").transmission, 0);
+  EXPECT_TRUE(notes.empty());
+  EXPECT_NEAR(one("Tr 0.333\nd 0.6667\n").transmission, 0.3333, 1e-12);
+  EXPECT_TRUE(notes.empty());
+  for (const char* text : {"d 1\nTr 1\n", "Tr 1\nd 1\n"}) {
+    EXPECT_EQ(one(text).transmission, 0) << text;
+    ASSERT_EQ(notes.size(), 1u) << text;
+    EXPECT_CONTAINS(notes[0], "contradicts", "\"m\"");
+  }
+  for (const char* text : {"d 0\nTr 0\n", "Tr 0 # opaque\nd 0\n"}) {
+    EXPECT_EQ(one(text).transmission, 1) << text;
+    EXPECT_CONTAINS(notes.at(0), "contradicts");
+  }
+  one("Tr 1\n");
+  EXPECT_CONTAINS(notes.at(0), "without d");
+  one("Tr 0\n");
+  EXPECT_TRUE(notes.empty());
+}
+
+TEST(ReadMtl, AcceptsCommentsAndCrLineEnds) {
+  std::vector<std::string> found;
+  const auto materials =
+      parseMtl("newmtl red # the first\rKd 0.5 # grey\rd 0.25#x\rillum 2 #\rnewmtl Material #25\rKe 1 2 3 # lamp\r\0",
+               "a.mtl", found);
+  ASSERT_EQ(materials.size(), 2u);
+  EXPECT_EQ(materials[0].name, "red");
+  EXPECT_EQ(materials[0].baseColour, glm::dvec3(0.5));
+  EXPECT_EQ(materials[0].transmission, 0.75);
+  EXPECT_EQ(materials[1].name, "Material #25");
+  EXPECT_EQ(materials[1].emissive, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(found, (std::vector<std::string>{"accepted: CR line ends", "accepted: comments at line ends"}));
+}
+
+TEST(ReadMtl, FindsFilesOfOtherSpellings) {
+  const std::filesystem::path folder = test::temporaryPath("");
+  std::filesystem::create_directories(folder / "sub");
+  for (const char* name : {"sub/in.mtl", "a b.mtl", "c#1.mtl", "odd\\name.mtl"}) std::ofstream(folder / name) << "\n";
+  const auto found = [&](const std::string& statement) {
+    const auto files = listMaterialFiles(folder / "a.obj", {statement});
+    return files.size() == 1 ? files[0].lexically_normal().lexically_relative(folder).string() : "several";
+  };
+  for (const char* statement : {"sub/in.mtl", "sub\\in.mtl", ".\\sub\\in.mtl", "sub\\\\in.mtl", "sub\\in.mtl # comment",
+                                "sub\\in.mtl#comment", "\"sub\\in.mtl\"", "./sub\\..\\sub/in.mtl"})
+    EXPECT_EQ(found(statement), "sub/in.mtl") << statement;
+  EXPECT_EQ(found("a b.mtl"), "a b.mtl");
+  EXPECT_EQ(found("a b.mtl #x"), "a b.mtl");
+  EXPECT_EQ(found("c#1.mtl"), "c#1.mtl");
+  EXPECT_EQ(found("odd\\name.mtl"), "odd\\name.mtl");
+  EXPECT_EQ(found("sub\\none.mtl # x"), "sub/none.mtl");
+  EXPECT_EQ(listMaterialFiles(folder / "a.obj", {"sub\\in.mtl c#1.mtl"}).size(), 2u);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ReadMtl, FindsNamesWithComments) {
+  const test::TemporaryFile file(".mtl", "newmtl red\nKd 1 0 0\nnewmtl blue#2\nKd 0 0 1\nnewmtl #8\nKd 0 0 0\n");
+  SourceScene scene;
+  scene.materials.resize(4);
+  scene.materials[0].name = "red #comment";
+  scene.materials[1].name = "blue";
+  scene.materials[2].name = "green";
+  scene.materials[3].name = "#9";
+  describeMaterials(scene, file.path(), {file.path().filename().string()});
+  EXPECT_EQ(scene.materials[0].baseColour, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(scene.materials[0].name, "red #comment");
+  EXPECT_EQ(scene.materials[1].baseColour, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(scene.materials[2].baseColour, glm::dvec3(0.8));
+  EXPECT_EQ(scene.materials[3].baseColour, glm::dvec3(0.8));
+  ASSERT_EQ(scene.notes.size(), 4u);
+  EXPECT_CONTAINS(scene.notes[0], "accepted", "\"red\"");
+}
+
 TEST(ReadMtl, NotesIgnoredStatementsOnce) {
   one("map_Kd an image.png\nmap_Ks b.png\nbump c.png\nfancy 1 2\nfancy 3\nKd spectral a.rfl\nKs xyz 1 1 1\n");
   ASSERT_EQ(notes.size(), 4u);
@@ -96,7 +171,7 @@ TEST(ReadMtl, ReportsTheLineOfInvalidStatements) {
   EXPECT_CONTAINS(errorIn("newmtl a\nillum two\n"), "a.mtl:2", "number");
   EXPECT_CONTAINS(errorIn("Kd 1 1 1\n"), "a.mtl:1", "outside");
   EXPECT_CONTAINS(errorIn("newmtl  \n"), "a.mtl:1", "name");
-  EXPECT_CONTAINS(errorIn(std::string("newmtl a\n\0\n", 11)), "a.mtl:2", "control");
+  EXPECT_CONTAINS(errorIn(std::string("newmtl a\n\0\nd 1\n", 15)), "a.mtl:2", "control");
   EXPECT_CONTAINS(errorIn("\xff\xfen"), "UTF-16");
   EXPECT_EQ(errorIn("\xef\xbb\xbfnewmtl a\n"), "");
   EXPECT_EQ(errorIn(""), "");

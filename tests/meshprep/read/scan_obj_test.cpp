@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -100,11 +101,68 @@ TEST(ScanObj, RefusesInvalidIndices) {
 }
 
 TEST(ScanObj, RefusesInvalidFaces) {
-  expectRefused(kSquare + "f 1 2\n", ".obj:5:", "3 or more, found 2");
-  expectRefused(kSquare + "f 1/ 2 3\n", ".obj:5:", "v/vt");
   expectRefused(kSquare + "f 1/1/1/1 2 3\n", ".obj:5:", "v/vt");
-  expectRefused(kSquare + "f 1 2 3 # 4\n", ".obj:5:", "\"#\"");
   expectRefused(kSquare + "f /1 2 3\n", ".obj:5:", "nothing");
+}
+
+TEST(ScanObj, AcceptsCommentsAfterStatements) {
+  const Polygons polygons = read(
+      "mtllib a.mtl # colours\nv 0 0 0 # a\nv 1 0 0# b\nv 1 1 0 #\nv 0 1 0\t#c 5\nvn 0 0 1#n\nvt 0 0 # t\n"
+      "s 1# smooth\ng left # group\nusemtl red # C:\\\nf 1//1 2//1 3//1# 4\\\nf 1 2 \\\n 3 # C:\\\nf 1 2 4 #\n");
+  EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2, 0, 1, 3}));
+  EXPECT_EQ(polygons.faceLocations, (std::vector<std::uint64_t>{11, 12, 14}));
+  EXPECT_EQ(polygons.parts, (std::vector<Part>{{"left", "red"}}));
+  EXPECT_EQ(polygons.materialFiles, (std::vector<std::string>{"a.mtl"}));
+  EXPECT_EQ(polygons.notes, (std::vector<std::string>{"texture coordinates", "accepted: comments at line ends"}));
+}
+
+TEST(ScanObj, KeepsHashesInNames) {
+  const Polygons polygons = read("mtllib a#1.mtl\n" + kSquare + "g part#2\nusemtl Material #25\nf 1 2 3\n");
+  EXPECT_EQ(polygons.parts, (std::vector<Part>{{"part#2", "Material #25"}}));
+  EXPECT_EQ(polygons.materialFiles, (std::vector<std::string>{"a#1.mtl"}));
+  EXPECT_TRUE(polygons.notes.empty());
+}
+
+TEST(ScanObj, AcceptsEmptySlotsOfCorners) {
+  const Polygons polygons =
+      read(kSquare + "vt 0 0\nvn 0 0 1\nf 1/ 2// 3/\nf 1/1/ 2/1/ 3/1/1\nf 1/ 2/1 3//1# c\nf 1// 2// 4//\n");
+  EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 3}));
+  const glm::vec3 none(0), up(0, 0, 1);
+  EXPECT_EQ(polygons.cornerNormals,
+            (std::vector<glm::vec3>{none, none, none, none, none, up, none, none, up, none, none, none}));
+  EXPECT_EQ(std::count(polygons.notes.begin(), polygons.notes.end(), "accepted: empty slots of corners"), 1);
+}
+
+TEST(ScanObj, AcceptsColoursWithAlpha) {
+  const Polygons polygons = read("v 0 0 0 .5 .5 .5 1.0\nv 1 0 0 1 .5 .5 .25 # c\nv 0 1 0 255 0 0\nf 1 2 3\n");
+  EXPECT_EQ(polygons.positions[1], glm::dvec3(1, 0, 0));
+  EXPECT_EQ(polygons.notes, (std::vector<std::string>{"colours of vertices", "accepted: comments at line ends"}));
+  expectRefused("v 0 0 0 1 1\n", ".obj:1:", "6 (colour)");
+  expectRefused("v 0 0 0 1 1 1 1 1\n", ".obj:1:", "too many numbers");
+}
+
+TEST(ScanObj, KeepsFacesOfFewerCorners) {
+  // They keep the numbers of the faces after them; triangulate() leaves them out.
+  const Polygons polygons = read(kSquare + "vn 0 0 1\nf 1 2\nf 1//1 2//1 3//1\nf 3\nf\nf 1 3 4\n");
+  EXPECT_EQ(polygons.firstCorner, (std::vector<std::size_t>{0, 2, 5, 6, 6, 9}));
+  EXPECT_EQ(polygons.notes, (std::vector<std::string>{"faces of fewer than three corners"}));
+  expectRefused(kSquare + "f 1 5\nf 1 2 3\n", ".obj:5:", "found 5");
+}
+
+TEST(ScanObj, AcceptsCrLineEnds) {
+  const Polygons polygons = read("# a\rv 0 0 0\rv 1 0 0\rv 1 1 0 # b\r\rf 1 2 \\\r3\rusemtl red\rf 3 2 1\r");
+  EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 2, 1, 0}));
+  EXPECT_EQ(polygons.faceLocations, (std::vector<std::uint64_t>{6, 9}));
+  EXPECT_EQ(polygons.parts, (std::vector<Part>{{"", ""}, {"", "red"}}));
+  EXPECT_EQ(polygons.notes, (std::vector<std::string>{"accepted: CR line ends", "accepted: comments at line ends"}));
+  EXPECT_EQ(read("v 0 0 0\r\r\nv 1 0 0\r\nv 1 1 0\rf 1 2 3").faceCount(), 1u);  // mixed
+}
+
+TEST(ScanObj, IgnoresPadding) {
+  const Polygons polygons = read(kSquare + "f 1 2 3\n" + std::string("\0\0 \x1a\n\0", 6));
+  EXPECT_EQ(polygons.faceCount(), 1u);
+  EXPECT_EQ(polygons.notes, (std::vector<std::string>{"padding at the end of the file"}));
+  expectRefused(kSquare + std::string("f 1 2 3\n\0\nf 1 2 3\n", 19), ".obj:6:", "byte 0x00");
 }
 
 TEST(ScanObj, JoinsContinuedLines) {
@@ -209,7 +267,6 @@ TEST(ScanObj, RefusesOtherFiles) {
   expectRefused("<html>\n", ".obj:1:", "unknown statement");
   expectRefused("\xff\xfev", ".obj", "UTF-16");
   expectRefused(std::string("v\0 \0000\0", 7), ".obj:1:", "byte 0x00");
-  expectRefused("v 0 0 0\rv 1 0 0\r", ".obj:1:", "byte 0x0d");
   expectRefused(kSquare, ".obj", "no faces");
   expectRefused("# nothing\n", ".obj", "no vertices");
   expectRefused(kSquare + "surf 0 1 0 1 1 2 3 4\n", ".obj:5:", "surf");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -81,6 +82,28 @@ TEST(ScanStl, NotesAttributes) {
   EXPECT_TRUE(read(bytes).notes.empty());
   bytes[84 + 50 + 49] = '\x80';
   EXPECT_EQ(read(bytes).notes, (std::vector<std::string>{"colours of faces"}));
+}
+
+TEST(ScanStl, IgnoresPadding) {
+  const std::string binary = binaryStl(test::tetrahedronTriangles());
+  const std::string text = "solid x\n" + kFacet + "endsolid x\n";
+  for (const std::string& padding :
+       {std::string(2, '\0'), std::string(512, '\0'), std::string("\0\r\n\x1a", 4), std::string(5, '\0') + " "}) {
+    EXPECT_EQ(read(binary + padding).notes, (std::vector<std::string>{"padding at the end of the file"}));
+    EXPECT_EQ(read(binary + padding).faceCount(), 4u);
+    EXPECT_EQ(read(text + padding).notes, (std::vector<std::string>{"padding at the end of the file"}));
+  }
+  EXPECT_EQ(read(binary + "   \n").notes.size(), 1u);
+  EXPECT_TRUE(read(text + "  \n \n").notes.empty());
+  expectRefused(binary + std::string(50, '\0') + "x", ".stl", "wrong size");
+}
+
+TEST(ScanStl, AcceptsCrLineEnds) {
+  std::string text = "solid x\n" + kFacet + kFacet + "endsolid x\n";
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  const Polygons polygons = read(text);
+  EXPECT_EQ(polygons.faceLocations, (std::vector<std::uint64_t>{2, 9}));
+  EXPECT_EQ(polygons.notes, (std::vector<std::string>{"accepted: CR line ends"}));
 }
 
 TEST(ScanStl, AcceptsEmptyLines) {

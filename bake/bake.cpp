@@ -109,7 +109,8 @@ std::string makeProvenance(const SceneDescription& d, const pack::WriteSettings&
         {"positionBits", orNull(settings.bounds.positionBits)},
         {"normalBits", orNull(settings.bounds.normalBits)},
         {"keepMap", settings.keepMap},
-        {"allowOpenGlass", options.allowOpenGlass}}},
+        {"allowOpenGlass", options.allowOpenGlass},
+        {"strict", options.strict}}},
       {"warnings", nlohmann::json::array()},
   };
   return jsonText(provenance, -1);
@@ -141,7 +142,8 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   scene.materials = d.materials;
 
   // Meshes in world space.
-  PlacedMeshes placed = placeMeshes(d, {options.allowOpenGlass, settings.keepMap}, scene.materials, progress);
+  PlacedMeshes placed =
+      placeMeshes(d, {options.allowOpenGlass, settings.keepMap, options.strict}, scene.materials, progress);
   baked.reports = std::move(placed.reports);
   baked.notes = std::move(placed.notes);
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());

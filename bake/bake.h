@@ -17,6 +17,7 @@ namespace malus::bake {
 
 struct BakeOptions {
   bool allowOpenGlass = false;  // glass that is not certified (meshprep/certify/glass.h) is a note, not an Error
+  bool strict = false;  // an invalid part of a file, or one without area, is an Error and not left out with a note
 };
 
 struct Baked {

@@ -131,6 +131,8 @@ void addBakeCommand(CLI::App& app) {
                     "Write the map from packed vertices and triangles to those of the source files");
   command->add_flag("--allow-open-glass", arguments->options.allowOpenGlass,
                     "Bake glass that is not a certified body, with a warning");
+  command->add_flag("--strict", arguments->options.strict,
+                    "Fail if a part of a file is invalid or has no area, instead of leaving it out with a warning");
   command->add_flag("--force", arguments->force, "Bake although the pack is up to date, and encode every mesh again");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   addFormerOption(*command, "--max-normal-error", "--normal-error");

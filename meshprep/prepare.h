@@ -31,6 +31,7 @@ struct Options {
   bool flat = false;         // normals are those of the faces: none are stored, and no vertex is split
   bool openSurface = false;  // the surface is intentionally open: components keep their orientation
   bool asIs = false;         // only triangulate; keep the vertices, faces and, unless flat, normals of the file
+  bool strict = false;       // refuse a file with an invalid part instead of leaving the part out (readGltf())
 
   // Cleaning. steps.openSurface is set to openSurface.
   Cleaning steps;

@@ -103,9 +103,9 @@ std::string leftOutNote(const std::filesystem::path& file, const std::string& no
 }
 
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
-                     UniqueNames& materialNames, UniqueNames& meshNames) {
+                     UniqueNames& materialNames, UniqueNames& meshNames, bool strict) {
   Imported result;
-  prep::SourceScene source = prep::readSourceScene(description.file);
+  prep::SourceScene source = prep::readSourceScene(description.file, strict);
   std::vector<std::string>& notes = source.notes;
 
   // Find open surfaces by the name of a part or an instance.
@@ -117,10 +117,12 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
       failUnknown(description, "part or instance", "openSurfaces", name, known);
   const std::set<std::string> openSurfaces(description.openSurfaces.begin(), description.openSurfaces.end());
 
-  // Prepare every part in its own space, as a body or as an open surface, if an instance needs it.
-  std::map<std::pair<std::size_t, bool>, std::size_t> prepared;
+  // Prepare every part in its own space, as a body or as an open surface, if an instance needs it. A part that cannot
+  // be prepared is left out.
+  std::map<std::pair<std::size_t, bool>, std::optional<std::size_t>> prepared;
+  std::optional<Error> firstError;
   const auto preparePart = [&](std::size_t index, bool openSurface, bool glass) {
-    const auto [found, isNew] = prepared.emplace(std::pair(index, openSurface), result.parts.size());
+    const auto [found, isNew] = prepared.emplace(std::pair(index, openSurface), std::nullopt);
     if (!isNew) return found->second;
     const prep::SourcePart& part = source.parts[index];
     const bool authored = !part.polygons.normals.empty() || !part.polygons.cornerNormals.empty();
@@ -129,12 +131,22 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     options.certifyGlass = glass;
     options.normals = description.normals.value_or(authored ? prep::Normals::authored : prep::Normals::crease);
     ImportedPart made;
-    made.mesh = prep::prepare(part.polygons, fmt::format("{}: part '{}'", description.file.string(), part.name),
-                              options, made.report);
+    const std::string name = fmt::format("part '{}'", part.name);
+    try {
+      made.mesh =
+          prep::prepare(part.polygons, fmt::format("{}: {}", description.file.string(), name), options, made.report);
+    } catch (const Error& error) {
+      if (strict) throw;
+      if (!firstError) firstError = error;
+      const std::string_view what = error.what();
+      prep::addNote(notes, std::string(what.substr(std::min(what.find(name), what.size()))));
+      return found->second;
+    }
     for (std::uint32_t& v : made.mesh.sourceVertices)
       if (v != prep::kNoSource && !part.fileVertices.empty()) v = part.fileVertices[v];
     for (std::uint32_t& f : made.mesh.sourceFaces)
       if (!part.fileFaces.empty()) f = part.fileFaces[f];
+    found->second = result.parts.size();
     result.parts.push_back(std::move(made));
     return found->second;
   };
@@ -147,11 +159,15 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     ImportedMesh mesh;
     mesh.openSurface = openSurfaces.contains(part.name) || openSurfaces.contains(instance.name);
     mesh.material = indices.of(part.material);
-    mesh.part = preparePart(instance.part, mesh.openSurface, pack::hasInside(materials[mesh.material].kind));
+    const std::optional<std::size_t> preparedPart =
+        preparePart(instance.part, mesh.openSurface, pack::hasInside(materials[mesh.material].kind));
+    if (!preparedPart) continue;
+    mesh.part = *preparedPart;
     mesh.name = meshNames.take(instance.name);
     mesh.worldFromObject = worldFromFile * instance.worldFromObject;
     result.meshes.push_back(std::move(mesh));
   }
+  if (result.meshes.empty() && firstError) throw Error(*firstError);
   for (const std::string& note : notes) result.notes.push_back(leftOutNote(description.file, note));
   return result;
 }

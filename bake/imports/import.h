@@ -48,10 +48,11 @@ struct Imported {
   std::vector<std::string> notes;  // "model.glb: textures are left out"
 };
 
-// Adds converted materials to materials. Throws Error: everything that the readers and prepare() refuse, a material or
-// an open surface of the import that the file does not have, more materials than a pack can contain.
+// Adds converted materials to materials. A part that the readers or prepare() refuse is left out with a note, or an
+// Error if `strict`; it is an Error too if no part is left. Throws Error: a file that the readers refuse as a whole, a
+// material or an open surface of the import that the file does not have, more materials than a pack can contain.
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
-                     UniqueNames& materialNames, UniqueNames& meshNames);
+                     UniqueNames& materialNames, UniqueNames& meshNames, bool strict = false);
 
 // A note of the readers about content that is left out or accepted, as a sentence.
 std::string leftOutNote(const std::filesystem::path& file, const std::string& note);

@@ -50,7 +50,7 @@ class Placer {
     if (glass && options.asIs && !options.openSurface)
       throw Error(mesh.file.string(), fmt::format("mesh '{}' is a glass body with \"asIs\"", mesh.name),
                   "\"openSurface\": true beside \"asIs\": true, because it is not checked that the mesh is closed");
-    const prep::Polygons polygons = prep::readMesh(mesh.file);
+    const prep::Polygons polygons = prep::readMesh(mesh.file, settings_.strict);
     for (const std::string& note : polygons.notes) result_.notes.push_back(leftOutNote(mesh.file, note));
     prep::Report report;
     const prep::Mesh prepared = prep::prepare(polygons, mesh.file.string(), options, report);
@@ -66,7 +66,7 @@ class Placer {
   }
 
   void add(const ImportDescription& import) {
-    Imported imported = importScene(import, materials_, materialNames_, meshNames_);
+    Imported imported = importScene(import, materials_, materialNames_, meshNames_, settings_.strict);
     std::vector<char> reported(imported.parts.size(), 0);
     for (ImportedMesh& mesh : imported.meshes) {
       const ImportedPart& part = imported.parts[mesh.part];

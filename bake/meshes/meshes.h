@@ -16,6 +16,7 @@ namespace malus::bake {
 struct MeshSettings {
   bool allowOpenGlass = false;  // glass that is not certified is a note, not an error
   bool keepMap = false;         // fill the map to the source (pack::Mesh)
+  bool strict = false;          // as BakeOptions
 };
 
 // In world space, in double: positions are rounded to float after the origin is subtracted. `packed` has everything but

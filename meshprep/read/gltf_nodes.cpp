@@ -124,7 +124,8 @@ void requireNoCycle(const gltf::Document& document, const std::vector<bool>& has
 }  // namespace
 
 std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
-                                          std::vector<std::string>& notes) {
+                                          std::vector<std::string>& notes,
+                                          const std::function<void(const Error&)>& leaveOut) {
   // Check that the graph is a forest.
   const std::vector<bool> hasParent = findParents(document, where);
   requireNoCycle(document, hasParent, where);
@@ -142,10 +143,15 @@ std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::s
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       stack.emplace_back(*child, worldFromObject);
     if (!node.mesh) continue;
-    if (*node.mesh >= document.meshes.size())
-      throw Error(nodeLocation(where, index) + ".mesh", "refers to a missing mesh",
-                  fmt::format("an index below {}", document.meshes.size()), fmt::to_string(*node.mesh));
-    requireInvertible(worldFromObject, nodeLocation(where, index));
+    try {
+      if (*node.mesh >= document.meshes.size())
+        throw Error(nodeLocation(where, index) + ".mesh", "refers to a missing mesh",
+                    fmt::format("an index below {}", document.meshes.size()), fmt::to_string(*node.mesh));
+      requireInvertible(worldFromObject, nodeLocation(where, index));
+    } catch (const Error& error) {
+      leaveOut(error);
+      continue;
+    }
     if (placements.size() == most) throw Error(where, "too many nodes with meshes", fmt::format("at most {}", most));
     placements.push_back({*node.mesh, node.name.empty() ? fmt::format("node {}", index) : node.name, worldFromObject});
   }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
 
+#include "meshprep/base/error.h"
 #include "meshprep/read/gltf_document.h"
 
 namespace malus::prep {
@@ -17,11 +19,12 @@ struct GltfPlacement {
   glm::dmat4 worldFromObject{1.0};
 };
 
-// Returns the placements in depth-first order. Adds notes about ignored content. Throws Error: an index out of range, a
-// node with two parents, a cycle, a scene with a duplicate node or one that has a parent, a matrix whose last row is
-// not (0, 0, 0, 1), a rotation of length 0, a transform of a mesh that is singular or not finite, more than `most`
-// placements.
+// Returns the placements in depth-first order. Adds notes about ignored content. Calls leaveOut(error) for a node whose
+// mesh does not exist or whose transform is singular or out of range. Throws Error: a node or scene that does not
+// exist, a node with two parents, a cycle, a scene with a duplicate node or one that has a parent, a matrix whose last
+// row is not (0, 0, 0, 1), a rotation of length 0, more than `most` placements.
 std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
-                                          std::vector<std::string>& notes);
+                                          std::vector<std::string>& notes,
+                                          const std::function<void(const Error&)>& leaveOut);
 
 }  // namespace malus::prep

@@ -35,11 +35,43 @@ constexpr auto kTriangles = static_cast<std::uint32_t>(gltf::PrimitiveMode::tria
 constexpr auto kTriangleStrip = static_cast<std::uint32_t>(gltf::PrimitiveMode::triangleStrip);
 constexpr auto kTriangleFan = static_cast<std::uint32_t>(gltf::PrimitiveMode::triangleFan);
 
+// A limit of the whole file is exceeded.
+class FileLimitError : public Error {
+ public:
+  using Error::Error;
+};
+
+// Notes of what is left out because of an error, or the error if the reading is strict or nothing is left.
+class LeftOut {
+ public:
+  LeftOut(bool strict, std::string where, std::vector<std::string>& notes)
+      : strict_(strict), where_(std::move(where)), notes_(notes) {}
+
+  void add(const Error& error) {
+    if (strict_) throw error;
+    if (!first_) first_ = error;
+    std::string note = error.what();
+    if (note.starts_with(where_ + ": ")) note.erase(0, where_.size() + 2);
+    addNote(notes_, std::move(note));
+  }
+  // Throws the first error, if there is one.
+  void rethrowFirst() const {
+    if (first_) throw Error(*first_);
+  }
+
+ private:
+  bool strict_;
+  std::string where_;
+  std::vector<std::string>& notes_;
+  std::optional<Error> first_;
+};
+
 // Makes parts of primitives and keeps account of what has been read.
 class PartReader {
  public:
-  PartReader(const gltf::Document& document, GltfBuffers& buffers, std::size_t fileBytes, std::string where)
-      : document_(document), buffers_(buffers), fileBytes_(fileBytes), where_(std::move(where)) {
+  PartReader(const gltf::Document& document, GltfBuffers& buffers, std::size_t fileBytes, std::string where,
+             bool strict)
+      : document_(document), buffers_(buffers), fileBytes_(fileBytes), where_(std::move(where)), strict_(strict) {
     for (const gltf::Mesh& mesh : document.meshes)
       for (const gltf::Primitive& primitive : mesh.primitives)
         if (primitive.position) ++users_[*primitive.position];
@@ -68,7 +100,7 @@ class PartReader {
 
     // Read the triangles.
     Polygons polygons;
-    polygons.corners = triangles(primitive, positions.count(), location);
+    polygons.corners = triangles(primitive, positions.count(), location, notes);
     for (std::size_t i = 3; i <= polygons.corners.size(); i += 3) polygons.firstCorner.push_back(i);
 
     // Read the vertices; only those of the faces if primitives share the accessor.
@@ -101,14 +133,14 @@ class PartReader {
   void addTriangles(std::size_t count, std::size_t backed, const std::string& location) {
     const std::size_t most = std::max(kMinTriangles, backed);
     if (count > most || (triangles_ += count) > most)
-      throw Error(location, "too many triangles for the file size", fmt::format("at most {}", most),
-                  fmt::to_string(std::max(count, triangles_)));
+      throw FileLimitError(location, "too many triangles for the file size", fmt::format("at most {}", most),
+                           fmt::to_string(std::max(count, triangles_)));
   }
   void addVertices(std::size_t count, const std::string& location) {
     const std::size_t most = std::max(kMinVertices, bytes());
     if (count > most || (vertices_ += count) > most)
-      throw Error(location, "too many vertices for the file size", fmt::format("at most {}", most),
-                  fmt::to_string(std::max(count, vertices_)));
+      throw FileLimitError(location, "too many vertices for the file size", fmt::format("at most {}", most),
+                           fmt::to_string(std::max(count, vertices_)));
   }
 
   // Returns the declared count of an accessor.
@@ -132,15 +164,19 @@ class PartReader {
 
   // Returns three corners per triangle of a list, strip or fan.
   std::vector<std::uint32_t> triangles(const gltf::Primitive& primitive, std::size_t vertices,
-                                       const std::string& location) {
+                                       const std::string& location, std::vector<std::string>& notes) {
     // Count corners and triangles.
     std::optional<GltfAccessor> accessor;
     if (primitive.indices) accessor.emplace(document_, buffers_, *primitive.indices, where_);
-    const std::size_t count = accessor ? accessor->count() : vertices;
+    std::size_t count = accessor ? accessor->count() : vertices;
     const bool list = primitive.mode == kTriangles;
-    if (count < 3 || (list && count % 3 != 0))
-      throw Error(location, "incomplete triangle", list ? "a multiple of 3 corners" : "3 corners or more",
-                  fmt::format("{} corners", count));
+    if (count < 3) throw Error(location, "no triangle", "3 corners or more", fmt::format("{} corners", count));
+    if (list && count % 3 != 0) {
+      if (strict_)
+        throw Error(location, "incomplete triangle", "a multiple of 3 corners", fmt::format("{} corners", count));
+      addNote(notes, "incomplete triangles at the ends of lists");
+      count -= count % 3;
+    }
     const std::size_t triangleCount = list ? count / 3 : count - 2;
     addTriangles(triangleCount, bytes() / 2, location);
 
@@ -210,6 +246,7 @@ class PartReader {
   GltfBuffers& buffers_;
   std::size_t fileBytes_;
   std::string where_;
+  bool strict_;
   std::map<std::size_t, std::size_t> users_;     // primitives per accessor of positions
   std::map<std::size_t, GltfAccessor> vectors_;  // checked accessors
   std::size_t triangles_ = 0, vertices_ = 0;     // totals so far
@@ -221,9 +258,10 @@ std::string meshName(const gltf::Mesh& mesh, std::size_t index) {
 
 }  // namespace
 
-SourceScene readGltf(const std::filesystem::path& path) {
+SourceScene readGltf(const std::filesystem::path& path, bool strict) {
   const std::string where = path.string();
   SourceScene scene;
+  LeftOut leftOut(strict, where, scene.notes);
 
   // Parse the document.
   const GltfContainer container(path);
@@ -242,14 +280,16 @@ SourceScene readGltf(const std::filesystem::path& path) {
         gltfMaterial(document.materials[i], fmt::format("{}: materials[{}]", where, i), scene.notes));
 
   // Place the meshes. Meshes without a placement are not read.
-  const std::vector<GltfPlacement> placements = gltfPlacements(document, kMaxInstances, where, scene.notes);
+  const std::vector<GltfPlacement> placements =
+      gltfPlacements(document, kMaxInstances, where, scene.notes, [&](const Error& error) { leftOut.add(error); });
+  if (placements.empty()) leftOut.rethrowFirst();
   if (placements.empty()) throw Error(where, "no mesh in the scene", "a node with a mesh");
   std::vector<bool> placed(document.meshes.size(), false);
   for (const GltfPlacement& placement : placements) placed[placement.mesh] = true;
   if (std::find(placed.begin(), placed.end(), false) != placed.end()) addNote(scene.notes, "meshes without a node");
 
   // Read the parts.
-  PartReader reader(document, buffers, container.size(), where);
+  PartReader reader(document, buffers, container.size(), where, strict);
   std::vector<std::vector<std::size_t>> partsOfMesh(document.meshes.size());
   for (std::size_t m = 0; m < document.meshes.size(); ++m) {
     if (!placed[m]) continue;
@@ -259,18 +299,24 @@ SourceScene readGltf(const std::filesystem::path& path) {
       const std::string location = fmt::format("{}: meshes[{}].primitives[{}]", where, m, p);
       SourcePart part;
       part.name = mesh.primitives.size() == 1 ? meshName(mesh, m) : fmt::format("{}.{}", meshName(mesh, m), p + 1);
-      if (primitive.material) {
+      try {
         part.material = primitive.material;
-        if (*part.material >= scene.materials.size())
+        if (part.material && *part.material >= scene.materials.size())
           throw Error(location + ".material", "refers to a missing material",
                       fmt::format("an index below {}", scene.materials.size()), fmt::to_string(*primitive.material));
+        part.polygons = reader.read(primitive, location, scene.notes);
+      } catch (const FileLimitError&) {
+        throw;
+      } catch (const Error& error) {
+        leftOut.add(error);
+        continue;
       }
-      part.polygons = reader.read(primitive, location, scene.notes);
       if (part.polygons.faceCount() == 0) continue;
       partsOfMesh[m].push_back(scene.parts.size());
       scene.parts.push_back(std::move(part));
     }
   }
+  if (scene.parts.empty()) leftOut.rethrowFirst();
   if (scene.parts.empty()) throw Error(where, "file has no faces", "a mesh");
 
   // Make the instances, with a bounded number of triangles.

@@ -25,11 +25,15 @@
 
 namespace malus::prep {
 
+// A primitive that cannot be read, or an instance that cannot be placed, is left out with a note, or an Error if
+// `strict`. It is an Error too if nothing is left. The last one or two corners of a list of triangles, which are no
+// triangle, are left out with a note.
+//
 // Throws Error that names the file and the location in it ("meshes[0].primitives[1]", or a byte): not glTF 2.0, an
 // unknown required extension, a value of the wrong type, an index out of range, missing bytes, a number that is not
 // finite, a primitive without positions, a node that is its own ancestor or has two parents, a singular transform, a
 // limit exceeded.
-SourceScene readGltf(const std::filesystem::path& path);
+SourceScene readGltf(const std::filesystem::path& path, bool strict = false);
 
 // Files that contain the buffers.
 std::vector<std::filesystem::path> gltfBufferFiles(const std::filesystem::path& path);

@@ -52,8 +52,8 @@ Scan scanFile(Format format, std::string& bytes, const std::string& where) {
 
 }  // namespace
 
-Polygons readMesh(const std::filesystem::path& path) {
-  if (isGltf(path)) return mergeInstances(readGltf(path));
+Polygons readMesh(const std::filesystem::path& path, bool strict) {
+  if (isGltf(path)) return mergeInstances(readGltf(path, strict));
   const std::string where = path.string();
   std::string extension;
   const Format format = detectFormat(path, extension);

@@ -14,9 +14,9 @@
 
 namespace malus::prep {
 
-// STL shares no vertices: three positions per face. Throws Error that names a line or a byte: unreadable file, unknown
-// extension, no vertices or faces, more than 65536 + 64 corners per vertex, and every error of readGltf() and of the
-// scans. Any 10 MB of bytes take less than 2 s and 512 MB.
-Polygons readMesh(const std::filesystem::path& path);
+// strict: as readGltf(). STL shares no vertices: three positions per face. Throws Error that names a line or a byte:
+// unreadable file, unknown extension, no vertices or faces, more than 65536 + 64 corners per vertex, and every error of
+// readGltf() and of the scans. Any 10 MB of bytes take less than 2 s and 512 MB.
+Polygons readMesh(const std::filesystem::path& path, bool strict = false);
 
 }  // namespace malus::prep

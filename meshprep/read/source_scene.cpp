@@ -111,8 +111,8 @@ SourceScene splitByMaterial(Polygons polygons) {
   return scene;
 }
 
-SourceScene readSourceScene(const std::filesystem::path& path) {
-  if (isGltf(path)) return readGltf(path);
+SourceScene readSourceScene(const std::filesystem::path& path, bool strict) {
+  if (isGltf(path)) return readGltf(path, strict);
   Polygons polygons = readMesh(path);
   const std::vector<std::string> files = polygons.materialFiles;
   SourceScene scene = splitByMaterial(std::move(polygons));

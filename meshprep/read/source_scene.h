@@ -65,9 +65,9 @@ struct SourceScene {
 // Adds a note unless it exists. After 100 notes adds "and more" once.
 void addNote(std::vector<std::string>& notes, std::string note);
 
-// Reads a file by its extension: .gltf, .glb, .obj, .ply, .stl, .off. Throws Error as the reader of the format
-// (read_gltf.h, read_mtl.h, read_mesh.h).
-SourceScene readSourceScene(const std::filesystem::path& path);
+// Reads a file by its extension: .gltf, .glb, .obj, .ply, .stl, .off. strict: as readGltf(). Throws Error as the reader
+// of the format (read_gltf.h, read_mtl.h, read_mesh.h).
+SourceScene readSourceScene(const std::filesystem::path& path, bool strict = false);
 
 // Groups faces by material: one part per material, in the order of their first faces, with the vertices that its faces
 // use, in the order of the file. Of the materials only the names are set. Without materials there is one part.

@@ -233,6 +233,37 @@ TEST_F(Import, SimplifiesEveryPart) {
   EXPECT_EQ(error(), "");
 }
 
+TEST_F(Import, LeavesOutPartsThatCannotBePrepared) {
+  // A mesh of points, placed twice, and a primitive with an invalid index.
+  prep::Mesh dot;
+  dot.positions = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
+  dot.triangles = {{0, 1, 2}};
+  const int mesh = gltf_.addMesh(dot, "dot", 0);
+  gltf_.addNode({{"name", "dot a"}, {"mesh", mesh}});
+  gltf_.addNode({{"name", "dot b"}, {"mesh", mesh}});
+  const int broken = gltf_.addMesh(unitCube(), "broken", 0);
+  gltf_.document["meshes"][broken]["primitives"][0]["indices"] = 99;
+  gltf_.addNode({{"name", "broken"}, {"mesh", broken}});
+  folder_.write("model.glb", gltf_.glb());
+  const Baked result = baked();
+  EXPECT_EQ(result.scene.meshes.size(), 4u);
+  const auto count = [&](std::string_view part) {
+    return std::count_if(result.notes.begin(), result.notes.end(),
+                         [&](const std::string& note) { return contains(note, "left out") && contains(note, part); });
+  };
+  EXPECT_EQ(count("part 'dot': no triangle is left"), 1);
+  EXPECT_EQ(count("accessors[99]"), 1);
+  EXPECT_CONTAINS(errorMessage([&] { baked({.strict = true}); }), "accessors[99]");
+  gltf_.document["nodes"].back()["mesh"] = 0;
+  folder_.write("model.glb", gltf_.glb());
+  EXPECT_CONTAINS(errorMessage([&] { baked({.strict = true}); }), "part 'dot'", "no triangle is left");
+
+  // It is an error if nothing is left.
+  gltf_.document["scenes"] = {{{"nodes", {gltf_.document["nodes"].size() - 3}}}};
+  folder_.write("model.glb", gltf_.glb());
+  EXPECT_CONTAINS(error(), "part 'dot'", "no triangle is left");
+}
+
 TEST_F(Import, UnsupportedFeaturesAreReported) {
   gltf_.document["cameras"] = json::array();
   gltf_.document["animations"] = {{{"channels", json::array()}, {"samplers", json::array()}}};

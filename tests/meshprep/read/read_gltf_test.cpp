@@ -138,7 +138,7 @@ TEST(ReadGltf, RefusesInvalidIndices) {
   EXPECT_CONTAINS(error(std::vector<std::uint8_t>{0, 1, 3}), "accessors[1]", "index at 2");
   EXPECT_CONTAINS(error(std::vector<std::uint8_t>{0, 1, 255}), "primitive restart at 2");
   EXPECT_CONTAINS(error(std::vector<std::uint32_t>{0, 0xffffffffu, 1}), "primitive restart at 1");
-  EXPECT_CONTAINS(error(std::vector<std::uint16_t>{0, 1, 2, 0}), "meshes[0].primitives[0]", "triangle");
+  EXPECT_CONTAINS(error(std::vector<std::uint16_t>{0, 1}), "meshes[0].primitives[0]", "triangle", "found 2");
   EXPECT_CONTAINS(error(std::vector<std::uint16_t>{0, 1}, 5), "3 corners", "found 2");
   EXPECT_EQ(error(std::vector<std::uint16_t>{0, 1, 2}), "");
 }
@@ -479,6 +479,45 @@ TEST(ReadGltf, ReadsMaterials) {
   EXPECT_TRUE(noted.materials[1].isThinWalled);
   EXPECT_TRUE(hasNote(noted, "alpha coverage"));
   EXPECT_TRUE(hasNote(noted, "textures"));
+}
+
+TEST(ReadGltf, LeavesOutIncompleteTriangles) {
+  GltfFile gltf;
+  const int position = gltf.addVectors({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const int indices = gltf.addIndices(std::vector<std::uint16_t>{0, 1, 2, 0, 1});
+  gltf.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", position}}}, {"indices", indices}}}}});
+  gltf.addNode({{"mesh", 0}});
+  const TemporaryFile file(".glb", gltf.glb());
+  const SourceScene scene = readGltf(file.path());
+  EXPECT_EQ(scene.parts[0].polygons.corners, (Corners{0, 1, 2}));
+  EXPECT_TRUE(hasNote(scene, "incomplete triangles"));
+  EXPECT_CONTAINS(errorMessage([&] { readGltf(file.path(), true); }), "meshes[0].primitives[0]", "found 5");
+}
+
+TEST(ReadGltf, LeavesOutInvalidPartsAndInstances) {
+  GltfFile gltf = triangleFile();
+  const int position = gltf.addVectors({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const int invalid = gltf.addIndices(std::vector<std::uint16_t>{0, 1, 7});
+  gltf.add("meshes", {{"name", "bad"},
+                      {"primitives",
+                       {{{"attributes", {{"POSITION", position}}}, {"indices", invalid}},
+                        {{"attributes", {{"POSITION", 99}}}},
+                        {{"attributes", {{"POSITION", position}}}, {"material", 5}},
+                        {{"attributes", {{"POSITION", position}}}}}}});
+  gltf.addNode({{"mesh", 1}});
+  gltf.addNode({{"mesh", 0}, {"scale", {1, 0, 1}}});
+  gltf.addNode({{"mesh", 9}});
+  const TemporaryFile file(".glb", gltf.glb());
+  const SourceScene scene = readGltf(file.path());
+  EXPECT_EQ(scene.parts.size(), 2u);
+  EXPECT_EQ(scene.instances.size(), 2u);
+  for (const char* note : {"accessors[3]: invalid vertex index", "accessors[99]", "meshes[1].primitives[2].material",
+                           "nodes[2]: transform is singular", "nodes[3].mesh"})
+    EXPECT_TRUE(hasNote(scene, note)) << note;
+  EXPECT_FALSE(hasNote(scene, file.path().string()));  // readers of the notes know the file
+  EXPECT_CONTAINS(errorMessage([&] { readGltf(file.path(), true); }), "nodes[2]", "singular");
+  EXPECT_EQ(readMesh(file.path()).faceCount(), 2u);
+  EXPECT_CONTAINS(errorMessage([&] { readMesh(file.path(), true); }), "singular");
 }
 
 TEST(ReadGltf, AcceptsEmissiveFactorsAboveOne) {

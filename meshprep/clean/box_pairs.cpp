@@ -18,14 +18,14 @@ using Point = bg::model::point<double, 3, bg::cs::cartesian>;
 using TreeBox = bg::model::box<Point>;
 using Entry = std::pair<TreeBox, std::uint32_t>;
 
-constexpr std::uint64_t kBatch = 1024;  // pairs of a box between updates of the total
+constexpr std::uint64_t kBatch = 1024;  // cost of a box between updates of the total
 
 TreeBox treeBox(const Box& box) { return {{box.low.x, box.low.y, box.low.z}, {box.high.x, box.high.y, box.high.z}}; }
 
 }  // namespace
 
 bool forOverlappingBoxes(std::span<const Box> a, std::span<const Box> b, std::uint64_t most,
-                         const std::function<bool(std::uint32_t, std::uint32_t)>& visit) {
+                         const std::function<std::uint32_t(std::uint32_t, std::uint32_t)>& visit) {
   // Build the tree from all entries at once.
   std::vector<Entry> entries;
   entries.reserve(b.size());
@@ -33,20 +33,20 @@ bool forOverlappingBoxes(std::span<const Box> a, std::span<const Box> b, std::ui
   const bg::index::rtree<Entry, bg::index::quadratic<16>> tree(entries);
   entries = {};
 
-  // Query each box, until there are too many pairs.
-  std::atomic<std::uint64_t> pairs{0};
+  // Query each box, until the cost is too high.
+  std::atomic<std::uint64_t> cost{0};
   tbb::parallel_for(std::size_t{0}, a.size(), [&](std::size_t i) {
-    if (pairs.load(std::memory_order_relaxed) > most) return;
-    std::uint64_t found = 0;
+    if (cost.load(std::memory_order_relaxed) > most) return;
+    std::uint64_t added = 0;
     for (auto entry = tree.qbegin(bg::index::intersects(treeBox(a[i]))); entry != tree.qend(); ++entry) {
-      if (visit(static_cast<std::uint32_t>(i), entry->second)) ++found;
-      if (found < kBatch) continue;
-      pairs += std::exchange(found, 0);
-      if (pairs.load(std::memory_order_relaxed) > most) return;
+      added += visit(static_cast<std::uint32_t>(i), entry->second);
+      if (added < kBatch) continue;
+      cost += std::exchange(added, 0);
+      if (cost.load(std::memory_order_relaxed) > most) return;
     }
-    pairs += found;
+    cost += added;
   });
-  return pairs <= most;
+  return cost <= most;
 }
 
 }  // namespace malus::prep

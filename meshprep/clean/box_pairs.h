@@ -14,9 +14,9 @@ struct Box {
 };
 
 // Calls visit(i, j) for every a[i] and b[j] that overlap or touch, from several threads and in any order. visit returns
-// true to count the pair. Returns false if more than `most` were counted; the visited pairs then depend on the timing
-// of the threads and must be discarded.
+// the cost of the pair. Returns false if the costs exceed `most`; the visited pairs then depend on the timing of the
+// threads and must be discarded.
 bool forOverlappingBoxes(std::span<const Box> a, std::span<const Box> b, std::uint64_t most,
-                         const std::function<bool(std::uint32_t, std::uint32_t)>& visit);
+                         const std::function<std::uint32_t(std::uint32_t, std::uint32_t)>& visit);
 
 }  // namespace malus::prep

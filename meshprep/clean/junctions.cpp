@@ -50,18 +50,18 @@ Junctions findJunctions(const Mesh& mesh) {
   std::mutex lock;
   result.complete = forOverlappingBoxes(
       edgeBoxes, vertexBoxes, kCandidatesPerEdge * edges.size() + kMinCandidates,
-      [&](std::uint32_t e, std::uint32_t i) {
+      [&](std::uint32_t e, std::uint32_t i) -> std::uint32_t {
         const EdgeUse& edge = edges[e];
         const std::uint32_t v = vertices[i];
-        if (ids[v] == ids[edge.low] || ids[v] == ids[edge.high]) return true;
+        if (ids[v] == ids[edge.low] || ids[v] == ids[edge.high]) return 1;
         const glm::dvec3 direction = mesh.positions[edge.high] - mesh.positions[edge.low];
         const glm::dvec3 toVertex = mesh.positions[v] - mesh.positions[edge.low];
         const double fraction = glm::dot(toVertex, direction) / glm::dot(direction, direction);
         const double distance = glm::distance(toVertex, fraction * direction);
-        if (!(fraction > 0 && fraction < 1 && distance <= kJunctionTolerance * glm::length(direction))) return true;
+        if (!(fraction > 0 && fraction < 1 && distance <= kJunctionTolerance * glm::length(direction))) return 1;
         const std::lock_guard guard(lock);
         pairs.emplace_back(v, e);
-        return true;
+        return 1;
       });
   if (!result.complete) return result;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -14,6 +13,7 @@
 
 #include "meshprep/base/error.h"
 #include "meshprep/clean/degenerate_faces.h"
+#include "meshprep/clean/position_ids.h"
 #include "meshprep/clean/select.h"
 
 namespace malus::prep {
@@ -37,13 +37,6 @@ struct CellHash {
   }
 };
 
-// Returns the bits of the coordinates, with negative zero replaced by zero.
-Cell exactCell(const glm::dvec3& p) {
-  const glm::dvec3 oneZero = p + 0.0;
-  return {std::bit_cast<std::int64_t>(oneZero.x), std::bit_cast<std::int64_t>(oneZero.y),
-          std::bit_cast<std::int64_t>(oneZero.z)};
-}
-
 Cell gridCell(const glm::dvec3& p, double size) {
   Cell cell{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -56,17 +49,13 @@ Cell gridCell(const glm::dvec3& p, double size) {
   return cell;
 }
 
-// Kept vertices by position. find() returns an earlier vertex to join, or kNone.
+// Kept vertices by position, for a positive tolerance. find() returns an earlier vertex to join, or kNone.
 class VertexGrid {
  public:
   explicit VertexGrid(double tolerance) : tolerance_(tolerance) {}
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   std::uint32_t find(const glm::dvec3& p, const std::vector<glm::dvec3>& kept) const {
-    if (tolerance_ == 0) {
-      const auto found = cells_.find(exactCell(p));
-      return found == cells_.end() ? kNone : found->second.front();
-    }
     const Cell home = gridCell(p, tolerance_);
     std::uint32_t best = kNone;
     double bestDistance = tolerance_;
@@ -86,9 +75,7 @@ class VertexGrid {
     return best;
   }
 
-  void add(const glm::dvec3& p, std::uint32_t index) {
-    cells_[tolerance_ == 0 ? exactCell(p) : gridCell(p, tolerance_)].push_back(index);
-  }
+  void add(const glm::dvec3& p, std::uint32_t index) { cells_[gridCell(p, tolerance_)].push_back(index); }
 
  private:
   double tolerance_;
@@ -160,7 +147,7 @@ std::vector<char> findNonManifoldVertices(const Mesh& mesh, const std::vector<st
 Weld weld(Mesh& mesh, double tolerance) {
   // Join vertices at equal positions, then those within the tolerance.
   const std::size_t count = mesh.positions.size();
-  const std::vector<std::uint32_t> same = findRepresentatives(mesh, 0, std::vector<char>(count, 1));
+  const std::vector<std::uint32_t> same = positionIds(mesh);
   std::vector<std::uint32_t> become = same;
   Weld result;
   if (tolerance > 0) {

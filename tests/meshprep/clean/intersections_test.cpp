@@ -1,5 +1,6 @@
 #include "meshprep/clean/intersections.h"
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <random>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "meshprep/clean/box_pairs.h"
+#include "meshprep/clean/separation.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -60,6 +62,53 @@ TEST(Intersections, AcceptsSharedCornersOnly) {
   EXPECT_EQ(count({{0, 0, 0}, {1, 2, 1}, {2, 1, -1}}), Counts(1, 0));   // a corner, and through
   EXPECT_EQ(count({{0, 0, 0}, {1, 1, 0}, {-1, 3, 0}}), Counts(1, 0));   // a corner, and over in the plane
   EXPECT_EQ(count({{4, 0, 0}, {0, 0, 0}, {0, 4, 0}}), Counts(0, 1));    // the same three
+}
+
+TEST(Separation, IsProvenForMostPairsAndNeverForTouchingOnes) {
+  // Random triangles on a small grid touch often; those in general position are separated by floating point.
+  std::mt19937 random(1);
+  const auto draw = [&] {
+    return TriangleCorners{glm::dvec3(random() % 4, random() % 4, random() % 3),
+                           glm::dvec3(random() % 4, random() % 4, random() % 3),
+                           glm::dvec3(random() % 4, random() % 4, random() % 3)};
+  };
+  std::array<int, 3> proven{}, separate{};
+  for (int i = 0; i < 60000; ++i) {
+    const TriangleCorners a = draw();
+    TriangleCorners b = draw();
+    const auto shared = static_cast<std::size_t>(i % 3);
+    for (std::size_t k = 0; k < shared; ++k) b[k] = a[k];
+    if (!certainlyHasArea(a) || !certainlyHasArea(b)) continue;
+    const Intersections found = findIntersections(two({a[0], a[1], a[2], b[0], b[1], b[2]}));
+    std::size_t common = 0;
+    for (const glm::dvec3& p : a)
+      for (const glm::dvec3& q : b) common += p == q ? 1u : 0u;
+    if (common != shared) continue;
+    const bool isProven = shared == 0   ? areSeparate(a, b)
+                          : shared == 1 ? areSeparateBesideCorner(a, b)
+                                        : areSeparateBesideEdge(a, b);
+    if (isProven) {
+      EXPECT_TRUE(found.crossing.empty()) << i;
+      ++proven[shared];
+    }
+    separate[shared] += found.crossing.empty() ? 1 : 0;
+  }
+  for (std::size_t shared = 0; shared < 3; ++shared) {
+    EXPECT_GT(separate[shared], 3000);
+    EXPECT_GT(proven[shared], 0.95 * separate[shared]) << shared;
+  }
+}
+
+TEST(Separation, IsExactFarFromTheOrigin) {
+  // The gap is one unit in the last place of the coordinates.
+  const double x = 1e6, gap = 1.1641532182693481e-10;
+  const TriangleCorners a = {glm::dvec3(x, 0, 0), glm::dvec3(x, 1, 0), glm::dvec3(x, 0, 1)};
+  const TriangleCorners b = {glm::dvec3(x + gap, 0, 0), glm::dvec3(x + 1, 1, 0), glm::dvec3(x + 1, 0, 1)};
+  EXPECT_TRUE(areSeparate(a, b));
+  TriangleCorners touching = b;
+  touching[0].x = x;
+  touching[0].y = touching[0].z = 0.25;
+  EXPECT_FALSE(areSeparate(a, touching));
 }
 
 TEST(Intersections, MatchesTheTestOfAllPairs) {

@@ -186,6 +186,9 @@ class Preparation {
     step("components-not-orientable", orientation_.notOrientable);
     step("components-without-volume", orientation_.withoutVolume);
     step("components-nested", orientation_.nested);
+    step("components-kept-doubled", orientation_.keptDoubled);
+    step("components-oriented-by-visibility", orientation_.orientedByVisibility);
+    step("components-oriented-by-majority", orientation_.orientedByMajority);
     step("components-nesting-unchecked", orientation_.nestingUnchecked);
     Findings flipped;
     for (Component& c : orientation_.components) c.flipped = 0;
@@ -289,7 +292,7 @@ Mesh clean(Mesh mesh, const Options& options, Report& report) {
 
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report) {
   checkOptions(options, source.string());
-  return prepare(readMesh(source), source.string(), options, report);
+  return prepare(readMesh(source, options.strict), source.string(), options, report);
 }
 
 Mesh prepare(const Polygons& polygons, const std::string& source, const Options& options, Report& report) {
@@ -313,6 +316,7 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
   report.steps.push_back({"polygons-non-planar", counts.nonPlanar, {}});
   report.steps.push_back({"polygons-self-crossing", counts.crossing, {}});
   report.steps.push_back({"polygon-corners-repeated", counts.repeatedCorners, {}});
+  report.steps.push_back({"polygons-recut", counts.recut, {}});
   report.steps.push_back({"faces-dropped-few-corners", counts.fewCorners, {}});
   if (mesh.triangles.empty()) throw Error(source, "no face has three corners", "a triangle with area");
 

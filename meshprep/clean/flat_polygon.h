@@ -17,6 +17,9 @@ struct FlatPolygon {
   bool planar = true;  // all corners are within 1e-4 of the size of the plane
 };
 
+// Projects along Newell's normal so that the polygon runs counter-clockwise.
+FlatPolygon flatten(const std::vector<glm::dvec3>& corners);
+
 inline double cross2(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 // Returns twice the signed area of a triangle of corners.

@@ -13,6 +13,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/clean/degenerate_faces.h"
 #include "meshprep/clean/edges.h"
+#include "meshprep/clean/intersections.h"
 #include "meshprep/clean/position_ids.h"
 #include "meshprep/clean/select.h"
 #include "meshprep/clean/triangulate.h"
@@ -31,6 +32,37 @@ Finding describeHole(const Mesh& mesh, const Loop& loop, std::string_view remark
   }
   finding.what = fmt::format("{} edges, {:.4g} m around{}", loop.size(), around, remark);
   return finding;
+}
+
+// Cap of a hole, from this triangle on.
+struct Cap {
+  const Loop* loop;
+  std::size_t firstTriangle;
+};
+
+// Removes the caps that touch the surface, or an earlier cap that is kept, elsewhere than at common vertices.
+void keepSeparateCaps(Mesh& mesh, const std::vector<Cap>& caps, std::size_t before, FilledHoles& result) {
+  if (caps.empty()) return;
+  const Intersections found = findIntersections(mesh, before);
+  std::vector<std::vector<std::uint32_t>> touched(caps.size());  // triangles, by cap
+  const auto capOf = [&](std::size_t triangle) {
+    const auto next = std::upper_bound(caps.begin(), caps.end(), triangle,
+                                       [](std::size_t t, const Cap& cap) { return t < cap.firstTriangle; });
+    return static_cast<std::size_t>(next - caps.begin()) - 1;
+  };
+  for (const auto* pairs : {&found.crossing, &found.coincident})
+    for (const auto& [other, triangle] : *pairs) touched[capOf(triangle)].push_back(other);
+  std::vector<char> keep(caps.size(), 1);
+  for (std::size_t c = 0; c < caps.size(); ++c) {
+    for (const std::uint32_t other : touched[c])
+      if (other < before || keep[capOf(other)] != 0) keep[c] = 0;
+    if (!found.complete) keep[c] = 0;
+    if (keep[c] != 0)
+      result.filled.add([&] { return describeHole(mesh, *caps[c].loop, ""); });
+    else
+      result.left.add([&] { return describeHole(mesh, *caps[c].loop, ", the cap would cross the surface"); });
+  }
+  keepTriangles(mesh, [&](std::size_t i) { return i < before || keep[capOf(i)] != 0; });
 }
 
 }  // namespace
@@ -112,6 +144,8 @@ FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t 
 
   // Triangulate each loop as a polygon.
   FilledHoles result;
+  std::vector<Cap> caps;
+  const std::size_t before = mesh.triangles.size();
   for (const Loop& loop : loops) {
     Polygons polygon;
     for (const std::uint32_t v : loop) {
@@ -135,10 +169,11 @@ FilledHoles fillHoles(Mesh& mesh, const std::vector<Loop>& loops, std::uint64_t 
       result.left.add([&] { return describeHole(mesh, loop, loop.size() > maxEdges ? "" : ", cannot be filled"); });
       continue;
     }
-    result.filled.add([&] { return describeHole(mesh, loop, ""); });
+    caps.push_back({&loop, mesh.triangles.size()});
     for (const glm::uvec3& t : cap.triangles)
       addTriangle(mesh, {loop[t.x], loop[t.y], loop[t.z]}, beside.at(loop.front()));
   }
+  keepSeparateCaps(mesh, caps, before, result);
   return result;
 }
 

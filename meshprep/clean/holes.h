@@ -20,7 +20,8 @@ Findings describeHoles(const Mesh& mesh, const std::vector<Loop>& loops);
 
 struct FilledHoles {
   Findings filled;
-  Findings left;  // too long, self-crossing, without area, or in conflict with an existing face or edge
+  Findings left;  // too long, self-crossing, without area, or in conflict with an existing face or edge, or the cap
+                  // would touch the surface or another cap elsewhere than at the hole's edges
 };
 
 // Fills holes of at most maxEdges edges. Appends the triangles with the source face of a neighbour of the hole.

@@ -10,6 +10,8 @@
 #include <glm/geometric.hpp>
 
 #include "meshprep/clean/edges.h"
+#include "meshprep/clean/outside_visibility.h"
+#include "meshprep/clean/position_ids.h"
 #include "meshprep/clean/select.h"
 #include "meshprep/clean/shell_nesting.h"
 
@@ -18,6 +20,8 @@ namespace malus::prep {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kMaxVisibilityTests = 256;  // some milliseconds each
+constexpr double kClearDifference = 0.05;         // of visible shares: about twice the error of the sampling
 constexpr double kVolumeTolerance = 1e-12;  // relative to area times diagonal of the bounding box: rounding errors
 
 // Neighbour through an edge of two triangles.
@@ -43,6 +47,7 @@ class Orienter {
     findClosed();
     followMajority();
     if (!openSurface_) orientOutward();
+    keepDoubled();
     return finish();
   }
 
@@ -110,6 +115,7 @@ class Orienter {
   }
 
   void followMajority() {
+    std::vector<const Part*> contradictory;
     for (const Part& part : parts_) {
       if (!part.orientable) {
         for (const std::uint32_t t : part.triangles) flipped_[t] = 0;
@@ -118,6 +124,23 @@ class Orienter {
       const auto flips = static_cast<std::size_t>(std::count_if(part.triangles.begin(), part.triangles.end(),
                                                                 [&](std::uint32_t t) { return flipped_[t] != 0; }));
       if (2 * flips > part.triangles.size()) flipPart(part);
+      if (!part.closed && flips > 0 && flips < part.triangles.size()) contradictory.push_back(&part);
+    }
+    if (!openSurface_) orientByVisibility(std::move(contradictory));
+  }
+
+  // Decides open components whose faces contradict each other by their visibility from outside, the largest first.
+  void orientByVisibility(std::vector<const Part*> parts) {
+    if (parts.empty()) return;
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Part* a, const Part* b) { return a->triangles.size() > b->triangles.size(); });
+    const OutsideVisibility visibility(mesh_);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const VisibleShares visible =
+          i < kMaxVisibilityTests ? visibility.sample(parts[i]->triangles, flipped_) : VisibleShares{};
+      if (visible.back > visible.front + kClearDifference) flipPart(*parts[i]);
+      const bool clear = std::abs(visible.front - visible.back) > kClearDifference;
+      ++(clear ? result_.orientedByVisibility : result_.orientedByMajority);
     }
   }
 
@@ -186,6 +209,62 @@ class Orienter {
       if (follows) ++result_.nested;
       const double deciding = follows ? volumes[*nesting[i].parent] : volumes[i];
       if (deciding < 0) flipPart(parts_[shellPart[i]]);
+    }
+  }
+
+  // Triangle by its sorted positions.
+  struct Placed {
+    std::array<std::uint32_t, 3> ids;
+    std::uint32_t triangle;
+    bool even;  // orientation in the mesh: smallest, middle, largest id
+  };
+
+  // Returns the triangles that have the positions of another one, together.
+  std::vector<Placed> findCoincident() const {
+    const std::vector<std::uint32_t> position = positionIds(mesh_);
+    std::vector<Placed> placed;
+    placed.reserve(mesh_.triangles.size());
+    for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const glm::uvec3& t = mesh_.triangles[i];
+      const std::array<std::uint32_t, 3> ids = {position[t.x], position[t.y], position[t.z]};
+      Placed p{ids, i, false};
+      std::sort(p.ids.begin(), p.ids.end());
+      for (std::size_t k = 0; k < 3; ++k)
+        p.even = p.even || (ids[k] == p.ids[0] && ids[(k + 1) % 3] == p.ids[1] && ids[(k + 2) % 3] == p.ids[2]);
+      placed.push_back(p);
+    }
+    std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+      return a.ids != b.ids ? a.ids < b.ids : a.triangle < b.triangle;
+    });
+    std::vector<Placed> coincident;
+    for (std::size_t i = 0; i < placed.size(); ++i)
+      if ((i > 0 && placed[i - 1].ids == placed[i].ids) ||
+          (i + 1 < placed.size() && placed[i + 1].ids == placed[i].ids))
+        coincident.push_back(placed[i]);
+    return coincident;
+  }
+
+  // Keeps the orientation of parts if flipping them would make a triangle equal to one that is back to back with it:
+  // the two sides of a doubled surface would be duplicates.
+  void keepDoubled() {
+    if (std::find(flipped_.begin(), flipped_.end(), 1) == flipped_.end()) return;
+    const std::vector<Placed> coincident = findCoincident();
+    for (bool again = true; again;) {
+      again = false;
+      for (std::size_t begin = 0, end = 0; begin < coincident.size(); begin = end) {
+        std::array<std::array<bool, 2>, 2> seen{};  // by orientation after and before flipping
+        const auto isEvenAfter = [&](const Placed& p) { return p.even != (flipped_[p.triangle] != 0); };
+        for (; end < coincident.size() && coincident[end].ids == coincident[begin].ids; ++end)
+          seen[isEvenAfter(coincident[end]) ? 1 : 0][coincident[end].even ? 1 : 0] = true;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto& sameAfter = seen[isEvenAfter(coincident[i]) ? 1 : 0];
+          if (flipped_[coincident[i].triangle] == 0 || !sameAfter[0] || !sameAfter[1]) continue;
+          for (const std::uint32_t t : parts_[part_[coincident[i].triangle]].triangles) flipped_[t] = 0;
+          ++result_.keptDoubled;
+          again = true;
+          break;  // the others of this position are compared in the next round
+        }
+      }
     }
   }
 

@@ -4,6 +4,8 @@
 // Orientation, and the order of faces are kept; triangles of a face are consecutive, and triangles of the file
 // unchanged.
 //
+// Faces that would share a diagonal are cut again (shared_diagonals.h).
+//
 // The time is limited: all faces that are not convex share kEarTests, and kEarTestsPerCorner per corner of the mesh, a
 // few nanoseconds each. Measured for stars, combs, spirals, zigzags, coastlines, bows and random corners: a face of
 // 10,000 corners takes less than 0.1 s; of faces with 100,000 corners, smooth and winding outlines take 0.1 s, and
@@ -27,6 +29,7 @@ struct TriangulateCounts {
   std::uint64_t crossing = 0;         // of these, those without ears, because they cross themselves; a fan is used
   std::uint64_t repeatedCorners = 0;  // corners at the position of the previous one, dropped
   std::uint64_t fewCorners = 0;       // faces of fewer than three corners, dropped
+  std::uint64_t recut = 0;            // of polygons, those cut along other diagonals (shared_diagonals.h)
 };
 
 // Sets source faces, corner normals (those of the corners, or else of the vertices) and smoothing groups, as far as the

@@ -68,6 +68,30 @@ TEST(Holes, FillsWithoutTrianglesOfZeroArea) {
   EXPECT_EQ(left.left.count, 1u);
 }
 
+TEST(Holes, LeavesHolesWhoseCapsWouldCrossTheSurface) {
+  // A spike of the floor reaches through the open lid of a box.
+  const auto boxWithSpike = [](double height) {
+    Mesh mesh = openCube();
+    mesh.positions.emplace_back(0.4, height, 0.4);  // 8
+    mesh.positions.emplace_back(0.6, 0.25, 0.4);
+    mesh.positions.emplace_back(0.5, 0.25, 0.6);
+    mesh.positions.emplace_back(0.5, 0.2, 0.5);
+    for (const glm::uvec3 t :
+         {glm::uvec3(8, 9, 10), glm::uvec3(8, 11, 9), glm::uvec3(8, 10, 11), glm::uvec3(9, 11, 10)})
+      mesh.triangles.push_back(t);
+    return mesh;
+  };
+  Mesh crossed = boxWithSpike(1.5), free = boxWithSpike(0.9);
+  const std::size_t before = crossed.triangles.size();
+  const FilledHoles left = fillHoles(crossed, findHoles(crossed), 4);
+  EXPECT_EQ(left.filled.count, 0u);
+  EXPECT_EQ(left.left.count, 1u);
+  EXPECT_CONTAINS(left.left.first.at(0).what, "cross");
+  EXPECT_EQ(crossed.triangles.size(), before);
+  EXPECT_EQ(fillHoles(free, findHoles(free), 4).filled.count, 1u);
+  EXPECT_EQ(free.triangles.size(), before + 2);
+}
+
 TEST(Holes, FindsTwoLoops) {
   Mesh mesh = test::sphere(9, 16);
   mesh.triangles.erase(mesh.triangles.begin() + 100);

@@ -51,7 +51,67 @@ TEST(Orient, FlipsTheMinority) {
   EXPECT_EQ(mesh.triangles, cube().triangles);
 }
 
+// A building of four walls and a roof, without a floor. The roof has many triangles, which face inward.
+Mesh building(std::uint32_t roofColumns) {
+  Mesh mesh = cube();
+  std::erase_if(mesh.triangles, [&](const glm::uvec3& t) {
+    const auto isAt = [&](double z) {
+      return mesh.positions[t.x].z == z && mesh.positions[t.y].z == z && mesh.positions[t.z].z == z;
+    };
+    return isAt(0) || isAt(1);
+  });
+  const glm::dvec3 a = mesh.positions[4], b = mesh.positions[6];
+  const std::uint32_t left = 4, right = 5, leftEnd = 6, rightEnd = 7;
+  std::vector<std::uint32_t> ridge;  // from a to b
+  for (std::uint32_t i = 0; i <= roofColumns; ++i) {
+    ridge.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+    mesh.positions.push_back(a + (b - a) * (static_cast<double>(i) / roofColumns) + glm::dvec3(0.5, 0, 0.1));
+  }
+  for (std::uint32_t i = 0; i < roofColumns; ++i) {
+    mesh.triangles.emplace_back(left, ridge[i + 1], ridge[i]);
+    mesh.triangles.emplace_back(right, ridge[i], ridge[i + 1]);
+  }
+  mesh.triangles.emplace_back(left, leftEnd, ridge.back());
+  mesh.triangles.emplace_back(right, ridge.back(), rightEnd);
+  return mesh;
+}
+
+TEST(Orient, ShowsTheVisibleSideOfABuildingOutward) {
+  for (const bool inward : {false, true}) {
+    Mesh mesh = inward ? flipped(building(20)) : building(20);
+    const Mesh before = mesh;
+    const OrientResult result = orient(mesh, false);
+    ASSERT_EQ(result.components.size(), 1u);
+    EXPECT_EQ(result.orientedByVisibility, 1u);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const glm::uvec3 t = mesh.triangles[i];
+      const glm::dvec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+      EXPECT_GT(glm::dot(glm::cross(b - a, c - a), (a + b + c) / 3.0 - glm::dvec3(0.5, 0.5, 0.3)), 0) << i;
+    }
+  }
+}
+
+TEST(Orient, KeepsConsistentOpenComponents) {
+  Mesh mesh = flipped(cube());
+  mesh.triangles.resize(10);
+  const OrientResult result = orient(mesh, false);
+  EXPECT_EQ(result.flipped.count, 0u);
+  EXPECT_EQ(result.orientedByVisibility + result.orientedByMajority, 0u);
+}
+
 TEST(Orient, FollowsTheMajorityOfOpenComponents) {
+  // Both sides of a flat surface are visible.
+  Mesh mesh = cube();
+  mesh.triangles = {{0, 1, 3}, {0, 2, 3}};
+  mesh.positions.emplace_back(2, 0, 0);
+  mesh.triangles.emplace_back(1, 8, 3);
+  const OrientResult flat = orient(mesh, false);
+  EXPECT_EQ(flat.flipped.count, 1u);
+  EXPECT_EQ(flat.orientedByMajority, 1u);
+  EXPECT_EQ(mesh.triangles[0], glm::uvec3(0, 1, 3));
+}
+
+TEST(Orient, FollowsTheMajorityOfOpenSurfaces) {
   Mesh mesh = cube();
   mesh.triangles.resize(10);  // one side off
   for (std::size_t i = 0; i < 7; ++i)
@@ -59,7 +119,7 @@ TEST(Orient, FollowsTheMajorityOfOpenComponents) {
   Mesh expected = cube();
   expected.triangles.resize(10);
   expected = flipped(expected);
-  const OrientResult result = orient(mesh, false);
+  const OrientResult result = orient(mesh, true);
   EXPECT_EQ(result.flipped.count, 3u);
   EXPECT_EQ(mesh.triangles, expected.triangles);
   EXPECT_FALSE(result.components[0].closed);

@@ -1,0 +1,71 @@
+// Surfaces of which every face occurs twice, back to back.
+#include <gtest/gtest.h>
+
+#include "meshprep/prepare.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep {
+namespace {
+
+// Cleans with flat normals, and cleans the result again, which must not change it.
+Mesh cleanTwice(const Mesh& mesh, Report& report) {
+  Options options;
+  options.flat = true;
+  const Mesh once = clean(mesh, options, report);
+  Mesh again;
+  again.positions = once.positions;
+  again.triangles = once.triangles;
+  Report second;
+  const Mesh twice = clean(again, options, second);
+  EXPECT_EQ(twice.positions, once.positions);
+  EXPECT_EQ(twice.triangles, once.triangles);
+  EXPECT_EQ(report.count("faces-dropped-duplicate"), 0u);
+  EXPECT_EQ(report.count("cleaning-not-converged"), 0u);
+  return once;
+}
+
+double volume(const Mesh& mesh) {
+  double sum = 0;
+  for (const glm::uvec3& t : mesh.triangles)
+    sum += glm::dot(mesh.positions[t.x], glm::cross(mesh.positions[t.y], mesh.positions[t.z])) / 6;
+  return sum;
+}
+
+TEST(DoubledSurface, KeepsBothSidesOfClosedSurfaces) {
+  for (const Mesh& mesh : {test::cube(), test::sphere(9, 16)})
+    for (const bool insideFirst : {false, true}) {
+      const Mesh doubled =
+          insideFirst ? test::joined(test::flipped(mesh), mesh) : test::joined(mesh, test::flipped(mesh));
+      Report report;
+      const Mesh once = cleanTwice(doubled, report);
+      EXPECT_EQ(once.triangles.size(), doubled.triangles.size());
+      EXPECT_NEAR(volume(once), 0, 1e-12);
+    }
+}
+
+TEST(DoubledSurface, KeepsBothSidesOfOpenSurfaces) {
+  Mesh sheet = test::sphere(9, 16);
+  sheet.triangles.resize(100);
+  Report report;
+  EXPECT_EQ(cleanTwice(test::joined(sheet, test::flipped(sheet)), report).triangles.size(), 200u);
+}
+
+TEST(DoubledSurface, KeepsTheWallBetweenTwoBodies) {
+  const Mesh bodies = test::joined(test::cube(), test::cube(1, {1, 0, 0}));
+  Report report;
+  const Mesh once = cleanTwice(bodies, report);
+  EXPECT_EQ(once.triangles.size(), 24u);
+  EXPECT_NEAR(volume(once), 2, 1e-12);
+  for (const Component& component : report.components) EXPECT_TRUE(component.closed);
+}
+
+TEST(DoubledSurface, StillDropsCopiesOfTheSameSide) {
+  Report report;
+  Options options;
+  options.flat = true;
+  const Mesh once = clean(test::joined(test::sphere(5, 8), test::sphere(5, 8)), options, report);
+  EXPECT_EQ(once.triangles.size(), test::sphere(5, 8).triangles.size());
+}
+
+}  // namespace
+}  // namespace malus::prep

@@ -256,6 +256,39 @@ std::string meshName(const gltf::Mesh& mesh, std::size_t index) {
   return mesh.name.empty() ? fmt::format("mesh {}", index) : mesh.name;
 }
 
+// Adds the parts of the placed meshes to the scene. Returns their indices, by mesh.
+std::vector<std::vector<std::size_t>> readParts(const gltf::Document& document, const std::vector<bool>& placed,
+                                                PartReader& reader, const std::string& where, SourceScene& scene,
+                                                LeftOut& leftOut) {
+  std::vector<std::vector<std::size_t>> partsOfMesh(document.meshes.size());
+  for (std::size_t m = 0; m < document.meshes.size(); ++m) {
+    if (!placed[m]) continue;
+    const gltf::Mesh& mesh = document.meshes[m];
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const gltf::Primitive& primitive = mesh.primitives[p];
+      const std::string location = fmt::format("{}: meshes[{}].primitives[{}]", where, m, p);
+      SourcePart part;
+      part.name = mesh.primitives.size() == 1 ? meshName(mesh, m) : fmt::format("{}.{}", meshName(mesh, m), p + 1);
+      try {
+        part.material = primitive.material;
+        if (part.material && *part.material >= scene.materials.size())
+          throw Error(location + ".material", "refers to a missing material",
+                      fmt::format("an index below {}", scene.materials.size()), fmt::to_string(*primitive.material));
+        part.polygons = reader.read(primitive, location, scene.notes);
+      } catch (const FileLimitError&) {
+        throw;
+      } catch (const Error& error) {
+        leftOut.add(error);
+        continue;
+      }
+      if (part.polygons.faceCount() == 0) continue;
+      partsOfMesh[m].push_back(scene.parts.size());
+      scene.parts.push_back(std::move(part));
+    }
+  }
+  return partsOfMesh;
+}
+
 }  // namespace
 
 SourceScene readGltf(const std::filesystem::path& path, bool strict) {
@@ -290,32 +323,7 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
 
   // Read the parts.
   PartReader reader(document, buffers, container.size(), where, strict);
-  std::vector<std::vector<std::size_t>> partsOfMesh(document.meshes.size());
-  for (std::size_t m = 0; m < document.meshes.size(); ++m) {
-    if (!placed[m]) continue;
-    const gltf::Mesh& mesh = document.meshes[m];
-    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-      const gltf::Primitive& primitive = mesh.primitives[p];
-      const std::string location = fmt::format("{}: meshes[{}].primitives[{}]", where, m, p);
-      SourcePart part;
-      part.name = mesh.primitives.size() == 1 ? meshName(mesh, m) : fmt::format("{}.{}", meshName(mesh, m), p + 1);
-      try {
-        part.material = primitive.material;
-        if (part.material && *part.material >= scene.materials.size())
-          throw Error(location + ".material", "refers to a missing material",
-                      fmt::format("an index below {}", scene.materials.size()), fmt::to_string(*primitive.material));
-        part.polygons = reader.read(primitive, location, scene.notes);
-      } catch (const FileLimitError&) {
-        throw;
-      } catch (const Error& error) {
-        leftOut.add(error);
-        continue;
-      }
-      if (part.polygons.faceCount() == 0) continue;
-      partsOfMesh[m].push_back(scene.parts.size());
-      scene.parts.push_back(std::move(part));
-    }
-  }
+  const std::vector<std::vector<std::size_t>> partsOfMesh = readParts(document, placed, reader, where, scene, leftOut);
   if (scene.parts.empty()) leftOut.rethrowFirst();
   if (scene.parts.empty()) throw Error(where, "file has no faces", "a mesh");
 

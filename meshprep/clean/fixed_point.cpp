@@ -80,8 +80,10 @@ Cleaned cleanToFixedPoint(Mesh& mesh, const Cleaning& steps) {
   Cleaned first = cleanOnce(mesh, steps);
   // If a step is skipped, its defects remain in every pass.
   const bool all = steps.weld && steps.degenerate && steps.duplicates && steps.orient && steps.fans;
+  const bool nearWelds = steps.weldTolerance > 0 && first.welded.joined.count > 0;
+  const bool flippedDoubled = first.duplicates.opposite.count > 0 && first.orientation.flipped.count > 0;
   first.converged = !all || !(first.fans.changed() || first.filled.filled.count > 0 || first.welded.refused.count > 0 ||
-                              first.degenerate.edgesCollapsed.count > 0);
+                              first.degenerate.changed() || nearWelds || flippedDoubled);
   for (int pass = 0; pass < kMaxPasses && !first.converged && !mesh.triangles.empty(); ++pass) {
     const std::vector<glm::dvec3> positions = mesh.positions;
     const std::vector<glm::uvec3> triangles = mesh.triangles;

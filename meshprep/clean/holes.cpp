@@ -45,24 +45,24 @@ void keepSeparateCaps(Mesh& mesh, const std::vector<Cap>& caps, std::size_t befo
   if (caps.empty()) return;
   const Intersections found = findIntersections(mesh, before);
   std::vector<std::vector<std::uint32_t>> touched(caps.size());  // triangles, by cap
-  const auto capOf = [&](std::size_t triangle) {
+  const auto findCap = [&](std::size_t triangle) {
     const auto next = std::upper_bound(caps.begin(), caps.end(), triangle,
                                        [](std::size_t t, const Cap& cap) { return t < cap.firstTriangle; });
     return static_cast<std::size_t>(next - caps.begin()) - 1;
   };
   for (const auto* pairs : {&found.crossing, &found.coincident})
-    for (const auto& [other, triangle] : *pairs) touched[capOf(triangle)].push_back(other);
+    for (const auto& [other, triangle] : *pairs) touched[findCap(triangle)].push_back(other);
   std::vector<char> keep(caps.size(), 1);
   for (std::size_t c = 0; c < caps.size(); ++c) {
     for (const std::uint32_t other : touched[c])
-      if (other < before || keep[capOf(other)] != 0) keep[c] = 0;
+      if (other < before || keep[findCap(other)] != 0) keep[c] = 0;
     if (!found.complete) keep[c] = 0;
     if (keep[c] != 0)
       result.filled.add([&] { return describeHole(mesh, *caps[c].loop, ""); });
     else
       result.left.add([&] { return describeHole(mesh, *caps[c].loop, ", the cap would cross the surface"); });
   }
-  keepTriangles(mesh, [&](std::size_t i) { return i < before || keep[capOf(i)] != 0; });
+  keepTriangles(mesh, [&](std::size_t i) { return i < before || keep[findCap(i)] != 0; });
 }
 
 }  // namespace

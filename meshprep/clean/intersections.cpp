@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <mutex>
 #include <span>
 #include <utility>
@@ -107,11 +108,13 @@ Intersections findIntersections(const Mesh& mesh, std::size_t first) {
   // Test pairs with overlapping boxes, exactly if floating point does not decide.
   Intersections result;
   std::mutex lock;
+  std::atomic<std::uint64_t> exactTests{0};
   const auto test = [&](std::uint32_t fromFirst, std::uint32_t j) -> std::uint32_t {
     const auto i = static_cast<std::uint32_t>(fromFirst + first);
     if (j >= i || corners[i].flat || corners[j].flat) return 0;
     const TrianglePair pair = makePair(corners[j], corners[i]);
     if (pair.shared < 3 && areCertainlySeparate(pair)) return kCostOfTest;
+    exactTests.fetch_add(1, std::memory_order_relaxed);
     if (pair.shared < 3 && !touchExactly(pair)) return kCostOfExactTest;
     const std::lock_guard guard(lock);
     (pair.shared < 3 ? result.crossing : result.coincident).emplace_back(j, i);
@@ -119,7 +122,8 @@ Intersections findIntersections(const Mesh& mesh, std::size_t first) {
   };
   result.complete =
       forOverlappingBoxes(std::span(boxes).subspan(first), boxes, kCostPerTriangle * boxes.size() + kMinCost, test);
-  if (!result.complete) return {{}, {}, false};
+  result.exactTests = exactTests;
+  if (!result.complete) return {{}, {}, result.exactTests, false};
 
   // Sort, because the order of the threads varies.
   std::sort(result.crossing.begin(), result.crossing.end());

@@ -18,6 +18,7 @@ struct Intersections {
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  // triangles of the mesh, the smaller first
   std::vector<Pair> crossing;                            // sorted
   std::vector<Pair> coincident;                          // the same three positions; sorted
+  std::uint64_t exactTests = 0;                          // pairs that floating point did not decide
   bool complete = true;                                  // false: too many pairs to test (of long thin faces, or faces
                                                          // around one vertex), and the lists are empty
 };

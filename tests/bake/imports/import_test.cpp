@@ -202,6 +202,28 @@ TEST_F(Import, ObjReadsItsMaterialFile) {
   EXPECT_EQ(baked().notes.size(), 1u);  // a material without a description
 }
 
+TEST_F(Import, ReadsObjWithHabitsOfExporters) {
+  // CR line ends, comments, a backslash in a file name, empty slots, a face of two corners, d against Tr.
+  std::filesystem::create_directories(folder_.path() / "sub");
+  folder_.write("sub/in.mtl", "newmtl grey # matt\rKd 0.25 0.25 0.25#\rd 1.0\rTr 1.0\r");
+  folder_.write("habits.obj",
+                "mtllib sub\\in.mtl # colours\rusemtl grey#1\rv 0 0 0 .5 .5 .5 1 # a\rv 1 0 0\rv 0 1 0\rv 1 1 0\r"
+                "f 1/ 2/ 3//#b\rf 1 2\rf 2 4 3");
+  scene_["imports"][0] = {{"file", "habits.obj"}};
+  const Baked result = baked();
+  ASSERT_EQ(result.scene.meshes.size(), 1u);
+  EXPECT_EQ(result.scene.meshes[0].triangles.size(), 2u);
+  const pack::Material& material = result.scene.materials[result.scene.meshes[0].material];
+  EXPECT_EQ(material.kind, pack::MaterialKind::lambert);
+  EXPECT_EQ(material.albedo, glm::dvec3(0.25));
+  for (const char* part : {"CR line ends", "comments", "backslashes", "empty slots", "fewer than three", "contradicts",
+                           "colours of vertices", "described as"})
+    EXPECT_EQ(std::count_if(result.notes.begin(), result.notes.end(),
+                            [&](const std::string& note) { return contains(note, part); }),
+              1)
+        << part;
+}
+
 TEST_F(Import, SimplifiesEveryPart) {
   const prep::Mesh ball = prep::test::sphere(15, 20);
   std::string text = prep::test::objText(ball);

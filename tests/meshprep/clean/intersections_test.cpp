@@ -111,6 +111,31 @@ TEST(Separation, IsExactFarFromTheOrigin) {
   EXPECT_FALSE(areSeparate(a, touching));
 }
 
+// Fan of n triangles around a point, in a tilted plane.
+Mesh fan(std::uint32_t n) {
+  Mesh mesh;
+  mesh.positions.emplace_back(0.1, 0.2, 0.3);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 6.2831853071795862 * i / n;
+    mesh.positions.push_back(mesh.positions[0] + std::cos(angle) * glm::dvec3(0.6, 0.64, 0.48) +
+                             std::sin(angle) * glm::dvec3(0.8, -0.48, -0.36));
+    mesh.triangles.emplace_back(0, i + 1, (i + 1) % n + 1);
+  }
+  return mesh;
+}
+
+TEST(Intersections, NeedsFewExactTests) {
+  // Neighbours in one plane, within rounding, need them; their number must not grow with the square of the triangles.
+  for (const std::uint32_t n : {500u, 1000u, 2000u, 5000u}) {
+    const Intersections found = findIntersections(fan(n));
+    EXPECT_TRUE(found.complete) << n;
+    EXPECT_TRUE(found.crossing.empty()) << n;
+    EXPECT_LE(found.exactTests, 2 * n) << n;
+  }
+  const Mesh sphere = test::sphere(60, 90);
+  EXPECT_LE(findIntersections(sphere).exactTests, sphere.triangles.size() / 10);
+}
+
 TEST(Intersections, MatchesTheTestOfAllPairs) {
   const Mesh mesh = test::joined(test::sphere(6, 9), [] {
     Mesh other = test::sphere(5, 8);

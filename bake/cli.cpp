@@ -24,6 +24,7 @@
 #include "meshprep/deprecated_option.h"
 #include "meshprep/json_text.h"
 #include "meshprep/number_option.h"
+#include "meshprep/output_option.h"
 #include "meshprep/read/source_scene.h"
 #include "shaders/effects.h"
 
@@ -108,7 +109,10 @@ void addBakeCommand(CLI::App& app) {
   auto arguments = std::make_shared<BakeArguments>();
   CLI::App* command = app.add_subcommand("bake", "Bake a scene description into a scene pack");
   command->add_option("scene", arguments->input, "Scene description (bake/SCENE.md)")->required()->type_name("FILE");
-  command->add_option("-o,--output", arguments->output, "Pack to write")->required()->type_name("PACK");
+  command->add_option("-o,--output", arguments->output, "Pack to write")
+      ->required()
+      ->check(outputName())
+      ->type_name("PACK");
   command
       ->add_option("--position-error", arguments->settings.bounds.positionError,
                    "Largest distance of a vertex from its source [m]")
@@ -189,6 +193,7 @@ void addUnpackCommand(CLI::App& app) {
   command->add_option("pack", arguments->input, "Scene pack")->required()->type_name("PACK");
   command->add_option("-o,--output", arguments->output, "Folder to write (contents: bake/unpack.h)")
       ->required()
+      ->check(outputName())
       ->type_name("FOLDER");
   command->add_flag("--json", arguments->json, "Print scene.json as well");
   command->callback([arguments] {

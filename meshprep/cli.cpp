@@ -22,6 +22,7 @@
 #include "meshprep/deprecated_option.h"
 #include "meshprep/json_text.h"
 #include "meshprep/number_option.h"
+#include "meshprep/output_option.h"
 #include "meshprep/prepare.h"
 #include "meshprep/read/source_scene.h"
 
@@ -216,10 +217,14 @@ void addPrepCommand(CLI::App& app) {
       ->type_name("FILE");
   prep.add_option("-o,--output", arguments->output, "Draco file to write (NAME.mesh.drc)")
       ->required()
+      ->check(outputName())
       ->type_name("FILE");
-  prep.add_option("--report", arguments->reportFile, "JSON file for the report")->type_name("FILE");
+  prep.add_option("--report", arguments->reportFile, "JSON file for the report")
+      ->check(outputName())
+      ->type_name("FILE");
   prep.add_option("--source-map", arguments->mapFile,
                   "JSON file for the source vertex and face of every compressed vertex and triangle")
+      ->check(outputName())
       ->type_name("FILE");
   prep.add_flag("--json", arguments->json, "Print the report as JSON");
   addCleaningOptions(prep, *arguments);

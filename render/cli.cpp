@@ -15,6 +15,7 @@
 #include "meshprep/base/image.h"
 #include "meshprep/base/output_files.h"
 #include "meshprep/json_text.h"
+#include "meshprep/output_option.h"
 #include "render/effects_option.h"
 #include "render/filter_options.h"
 #include "render/image/mosaic.h"
@@ -222,17 +223,21 @@ void addOutputOptions(CLI::App& command, RenderArguments& a) {
   command.add_option("-o,--output", a.outputs, "Image to write: .exr (all channels) or .png; can be given twice")
       ->expected(1)
       ->take_all()
+      ->check(outputName())
       ->type_name("FILE");
   command
       .add_option("--output-dolp", a.dolp,
                   "Degree of linear polarization before the filter: .exr (0 to 1, per colour) or .png (viridis)")
+      ->check(outputName())
       ->type_name("FILE");
   command
       .add_option("--output-aolp", a.aolp,
                   "Angle of linear polarization before the filter: .exr (radians, per colour) or .png (hues)")
+      ->check(outputName())
       ->type_name("FILE");
   CLI::Option* mosaic =
       command.add_option("--mosaic", a.mosaic, "Raw image of a polarization camera, rows 90 45 / 135 0: .png or .tif")
+          ->check(outputName())
           ->type_name("FILE");
   command.add_option("--mosaic-bits", a.mosaicBits, "Bits per pixel of the mosaic; 12 are stored unshifted in 16")
       ->check(CLI::IsMember({8u, 12u, 16u}))

@@ -16,6 +16,7 @@
 #include "meshprep/base/image_colour.h"
 #include "meshprep/base/output_files.h"
 #include "meshprep/json_text.h"
+#include "meshprep/output_option.h"
 #include "render/compare/image_difference.h"
 #include "render/image/output.h"
 #include "render/options.h"
@@ -91,6 +92,7 @@ void addCompareImagesCommand(CLI::App& app) {
   command->add_option("--max-outliers", a->maxOutliers, "Exit with code 3 if more pixels are outliers")
       ->transform(wholeNumberBetween(0));
   command->add_option("--difference", a->difference, "Image to write: the absolute difference times --gain")
+      ->check(outputName())
       ->type_name("FILE");
   command->add_option("--gain", a->gain, "Factor of the difference image")
       ->transform(positiveNumber())

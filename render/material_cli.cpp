@@ -17,6 +17,7 @@
 #include "meshprep/base/output_files.h"
 #include "meshprep/json_text.h"
 #include "meshprep/number_option.h"
+#include "meshprep/output_option.h"
 #include "render/material/surface_response.h"
 #include "render/report_script.h"
 
@@ -197,7 +198,9 @@ void addMaterialCommand(CLI::App& app) {
       ->capture_default_str();
   CLI::Option* csv = command->add_flag("--csv", a->csv, "Print comma-separated values with every digit");
   command->add_flag("--json", a->json, "Print JSON: an object for one angle, a list for several")->excludes(csv);
-  command->add_option("--plot", a->plot, "Plot of the curves over the angle: .png, .svg or .pdf")->type_name("FILE");
+  command->add_option("--plot", a->plot, "Plot of the curves over the angle: .png, .svg or .pdf")
+      ->check(outputName())
+      ->type_name("FILE");
   command->callback([a] { runMaterial(*a); });
 }
 

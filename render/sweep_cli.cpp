@@ -17,6 +17,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/output_files.h"
 #include "meshprep/json_text.h"
+#include "meshprep/output_option.h"
 #include "render/image/output.h"
 #include "render/job.h"
 #include "render/options.h"
@@ -169,6 +170,7 @@ void addSweepCommand(CLI::App& app) {
   addJobOptions(*command, a->pack, a->job);
   command->add_option("-o,--output", a->folder, "Folder for frame-000.png, ... and sweep.json")
       ->required()
+      ->check(outputName())
       ->type_name("FOLDER");
   command->add_option("--frames", a->frames, "Number N of images, the polarizer at 0, 180/N, ... degrees")
       ->transform(wholeNumberBetween(1, 100000))

@@ -127,6 +127,8 @@ std::string CommandLine::describeUnknown() const {
   for (const CLI::App* command : parsed) appendNames(*command, names);
   appendNames(app_, names);
   const std::string name = option->substr(0, option->find('='));
+  if (std::find(names.begin(), names.end(), name) != names.end())  // CLI11 knows it, except behind `--`
+    return fmt::format("{}unexpected argument '{}' after '--'", prefix, name);
   return fmt::format("{}unknown option '{}'{}", prefix, name, nearestClause(name, names));
 }
 

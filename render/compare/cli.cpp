@@ -14,6 +14,7 @@
 #include "meshprep/base/output_files.h"
 #include "meshprep/base/usage_error.h"
 #include "meshprep/json_text.h"
+#include "meshprep/output_option.h"
 #include "render/compare/devices_table.h"
 #include "render/compare/results.h"
 #include "render/method_option.h"
@@ -189,7 +190,7 @@ void addCompareCommand(CLI::App& app) {
   settings.methods = methodNames();
   CLI::App* command = app.add_subcommand("compare", "Compare methods and renderers: error against time");
   command->add_option("packs", a->packs, "Scene packs")->type_name("PACK");
-  command->add_option("-o,--output", a->output, "Folder for the report")->type_name("FOLDER");
+  command->add_option("-o,--output", a->output, "Folder for the report")->check(outputName())->type_name("FOLDER");
   command->add_option("--show", a->shown, "Print the results of several devices side by side, render nothing")
       ->type_name("FILE...");
   command->add_option("--methods", settings.methods, "Methods (default: all)")->delimiter(',')->transform(methodName());

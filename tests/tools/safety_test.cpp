@@ -117,6 +117,17 @@ TEST_F(Safety, OutputsAreNotDevices) {
     refuse({command, "tiny.pack", "-o", "/dev/null"}, "--output");
 }
 
+TEST_F(Safety, OutputsHaveNames) {
+  refuse({"bake", "scene.json", "-o", ""}, "--output");
+  refuse({"prep", "cube.obj", "-o", "x.drc", "--report", ""}, "--report");
+  refuse({"prep", "cube.obj", "-o", "x.drc", "--source-map", ""}, "--source-map");
+  for (const char* option : {"--output", "--output-dolp", "--output-aolp", "--mosaic"})
+    refuse({"render", "tiny.pack", option, ""}, option);
+  for (const char* command : {"sweep", "unpack", "compare"}) refuse({command, "tiny.pack", "-o", ""}, "--output");
+  refuse({"material", "gold", "--plot", ""}, "--plot");
+  refuse({"compare-images", "a.png", "a.png", "--difference", ""}, "--difference");
+}
+
 TEST_F(Safety, UnpackKeepsFilesOfOthers) {
   fs::create_directories(folder_ / "out/meshes");
   writeText(folder_ / "out/meshes/000.ply", "mine");
@@ -212,6 +223,7 @@ TEST_F(Safety, SuggestsTheNearest) {
   expectSuggestion({"--list-method"}, "--list-methods");
   expectSuggestion({"info", "tiny.pack", "--quite"}, "--quiet");
   refuse({"info", "tiny.pack", "other.pack"}, "other.pack");
+  refuse({"render", "--", "tiny.pack", "-o", "o.exr"}, "after '--'");
 }
 
 TEST_F(Safety, DoubleDashEndsTheOptions) {

@@ -81,8 +81,8 @@ def first_sentence(wrong, polarization, row, degrees, polarizer) -> str:
                 f"{code('stokes')} has one too ({percent(share)} of the pixels, rounding at edges). "
                 f"{polarized_words(degrees, polarizer)}")
     size = f"at most {percent(polarization.largest)}" if polarization.largest <= 1 else "in places above 100 %"
-    return (f"The intensity {seen} needs polarization: {code('fresnel')}, which ignores it, has an error above 1 % of "
-            f"the reference in {percent(share)} of the pixels{mostly(polarization)}, {size}.")
+    return (f"The intensity {seen} needs polarization: {code('fresnel')}, which ignores it, has an error above 1 % in "
+            f"{percent(share)} of the pixels{mostly(polarization)}, {size}.")
 
 
 def short_verdict(wrong, polarization, row, degrees, polarizer) -> str:

@@ -151,7 +151,8 @@ void addCleaningOptions(CLI::App& prep, Arguments& arguments) {
   steps.emplace_back(kJunctions);
   steps.emplace_back(kIntersections);
   Options& options = arguments.options;
-  prep.add_flag("--strict", options.strict, "Fail if a part of a glTF file is invalid, instead of leaving it out");
+  prep.add_flag("--strict", options.strict,
+                "Fail if a part of a file is invalid or has no area, instead of leaving it out with a warning");
   prep.add_flag("--open-surface", options.openSurface, "Declare an open surface: its orientation is kept");
   prep.add_option("--weld", options.steps.weldTolerance, "Join vertices within this distance [m]")
       ->transform(nonNegativeNumber())

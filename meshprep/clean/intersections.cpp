@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <span>
 #include <utility>
@@ -12,6 +13,7 @@
 #endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "meshprep/clean/box_pairs.h"
 #include "meshprep/clean/position_ids.h"
@@ -27,7 +29,9 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 // Costs, in units of a few nanoseconds: 96 per pair in floating point, a microsecond for exact predicates.
 constexpr std::uint32_t kCostOfTest = 1, kCostOfExactTest = 16;
 constexpr std::uint64_t kCostPerTriangle = 32;  // average; a fine mesh has about 7
-constexpr std::uint64_t kMinCost = 1u << 24u;   // a fan of 5000 triangles around a vertex needs as much
+constexpr std::uint64_t kMinCost = 1u << 24u;
+constexpr std::size_t kMinHubTriangles = 512;
+constexpr double kArcMargin = 1e-9;  // for rounding errors of directions
 
 // Two triangles, the shared corners first.
 struct TrianglePair {
@@ -81,18 +85,8 @@ bool touchExactly(const TrianglePair& pair) {
   return CGAL::do_intersect(triangle(a), triangle(b));
 }
 
-}  // namespace
-
-Intersections findIntersections(const Mesh& mesh, std::size_t first) {
-  // Compute bounding boxes.
-  std::vector<Box> boxes;
-  boxes.reserve(mesh.triangles.size());
-  for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 &p = mesh.positions[t.x], &q = mesh.positions[t.y], &r = mesh.positions[t.z];
-    boxes.push_back({glm::min(p, glm::min(q, r)), glm::max(p, glm::max(q, r))});
-  }
-
-  // Collect the corners, and mark triangles without area.
+// Collects the corners, and marks triangles without area.
+std::vector<Corners> collectCorners(const Mesh& mesh) {
   std::vector<Corners> corners(mesh.triangles.size());
   const std::vector<std::uint32_t> ids = positionIds(mesh);
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -104,32 +98,145 @@ Intersections findIntersections(const Mesh& mesh, std::size_t first) {
     }
     c.flat = !certainlyHasArea(c.points) && CGAL::collinear(point(c.points[0]), point(c.points[1]), point(c.points[2]));
   }
-
-  // Test pairs with overlapping boxes, exactly if floating point does not decide.
-  Intersections result;
-  std::mutex lock;
-  std::atomic<std::uint64_t> exactTests{0};
-  const auto test = [&](std::uint32_t fromFirst, std::uint32_t j) -> std::uint32_t {
-    const auto i = static_cast<std::uint32_t>(fromFirst + first);
-    if (j >= i || corners[i].flat || corners[j].flat) return 0;
-    const TrianglePair pair = makePair(corners[j], corners[i]);
-    if (pair.shared < 3 && areCertainlySeparate(pair)) return kCostOfTest;
-    exactTests.fetch_add(1, std::memory_order_relaxed);
-    if (pair.shared < 3 && !touchExactly(pair)) return kCostOfExactTest;
-    const std::lock_guard guard(lock);
-    (pair.shared < 3 ? result.crossing : result.coincident).emplace_back(j, i);
-    return kCostOfExactTest;
-  };
-  result.complete =
-      forOverlappingBoxes(std::span(boxes).subspan(first), boxes, kCostPerTriangle * boxes.size() + kMinCost, test);
-  result.exactTests = exactTests;
-  if (!result.complete) return {{}, {}, result.exactTests, false};
-
-  // Sort, because the order of the threads varies.
-  std::sort(result.crossing.begin(), result.crossing.end());
-  std::sort(result.coincident.begin(), result.coincident.end());
-  return result;
+  return corners;
 }
+
+Box makeBox(const glm::dvec3& a, const glm::dvec3& b, double margin) {
+  return {glm::min(a, b) - margin, glm::max(a, b) + margin};
+}
+
+// Search for touching triangles. The boxes of all triangles around one vertex overlap. Around a vertex of many
+// triangles (a hub) the pairs are found by direction instead: two triangles with a common corner touch elsewhere only
+// if the arcs meet in which they cut a small sphere around it.
+class Search {
+ public:
+  Search(const Mesh& mesh, std::size_t first) : corners_(collectCorners(mesh)), first_(first) {
+    boxes_.reserve(corners_.size());
+    for (const Corners& c : corners_)
+      boxes_.push_back({glm::min(c.points[0], glm::min(c.points[1], c.points[2])),
+                        glm::max(c.points[0], glm::max(c.points[1], c.points[2]))});
+    if (first == 0) findHubs(mesh.positions.size());
+  }
+
+  Intersections run() {
+    std::vector<std::uint32_t> others;  // triangles that are not assigned to a hub, or to an earlier one
+    for (std::uint32_t i = 0; i < corners_.size(); ++i)
+      if (hubOf_.empty() || hubOf_[i] == kNoSource) others.push_back(i);
+    searchBetween(std::span(others).subspan(first_), others, kNoSource);
+    for (const std::uint32_t hub : hubs_) {
+      std::vector<std::uint32_t> assigned, around;
+      for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+        if (hubOf_[i] == hub) assigned.push_back(i);
+        if (hasCorner(i, hub)) around.push_back(i);
+      }
+      searchBetween(others, assigned, hub);
+      searchAround(hub, around);
+      others.insert(others.end(), assigned.begin(), assigned.end());
+    }
+    result_.exactTests = exactTests_;
+    if (!result_.complete) return {{}, {}, result_.exactTests, false};
+
+    // Sort, because the order of the threads varies; a pair with two common hubs is found twice.
+    for (auto* pairs : {&result_.crossing, &result_.coincident}) {
+      std::sort(pairs->begin(), pairs->end());
+      pairs->erase(std::unique(pairs->begin(), pairs->end()), pairs->end());
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool hasCorner(std::uint32_t triangle, std::uint32_t id) const {
+    const auto& ids = corners_[triangle].ids;
+    return ids[0] == id || ids[1] == id || ids[2] == id;
+  }
+
+  // Assigns each triangle to its first corner that is a hub. There are at most about sqrt(n) hubs of n triangles.
+  void findHubs(std::size_t vertexCount) {
+    std::vector<std::uint32_t> uses(vertexCount, 0);
+    for (const Corners& c : corners_)
+      for (const std::uint32_t id : c.ids) ++uses[id];
+    const auto limit =
+        std::max(kMinHubTriangles, static_cast<std::size_t>(4 * std::sqrt(static_cast<double>(corners_.size()))));
+    for (std::uint32_t id = 0; id < uses.size(); ++id)
+      if (uses[id] > limit) hubs_.push_back(id);
+    if (hubs_.empty()) return;
+    for (const Corners& c : corners_) {
+      const auto* const hub =
+          std::find_if(c.ids.begin(), c.ids.end(), [&](std::uint32_t id) { return uses[id] > limit; });
+      hubOf_.push_back(hub == c.ids.end() ? kNoSource : *hub);
+    }
+  }
+
+  // Tests a pair, exactly if floating point does not decide. Returns the cost.
+  std::uint32_t test(std::uint32_t i, std::uint32_t j) {
+    if (corners_[i].flat || corners_[j].flat) return 0;
+    const TrianglePair pair = makePair(corners_[i], corners_[j]);
+    if (pair.shared < 3 && areCertainlySeparate(pair)) return kCostOfTest;
+    exactTests_.fetch_add(1, std::memory_order_relaxed);
+    if (pair.shared < 3 && !touchExactly(pair)) return kCostOfExactTest;
+    const std::lock_guard guard(lock_);
+    (pair.shared < 3 ? result_.crossing : result_.coincident).emplace_back(std::min(i, j), std::max(i, j));
+    return kCostOfExactTest;
+  }
+
+  std::uint64_t mostCost(std::size_t boxes) const {
+    return kCostPerTriangle * boxes + kMinCost / (1 + 2 * hubs_.size());
+  }
+
+  // Tests the triangles of two lists whose boxes overlap, except pairs with the hub as a common corner. Without a hub,
+  // `a` is part of `b`, and each pair is tested once.
+  void searchBetween(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b, std::uint32_t hub) {
+    if (a.empty() || b.empty() || !result_.complete) return;
+    const auto take = [&](std::span<const std::uint32_t> list) {
+      std::vector<Box> boxes;
+      boxes.reserve(list.size());
+      for (const std::uint32_t i : list) boxes.push_back(boxes_[i]);
+      return boxes;
+    };
+    result_.complete = forOverlappingBoxes(take(a), take(b), mostCost(a.size() + b.size()),
+                                           [&](std::uint32_t k, std::uint32_t l) -> std::uint32_t {
+                                             const std::uint32_t i = a[k], j = b[l];
+                                             if (hub == kNoSource ? j >= i : hasCorner(i, hub)) return 0;
+                                             return test(i, j);
+                                           });
+  }
+
+  // Tests the triangles around a hub whose arcs on a sphere around it are close to each other.
+  void searchAround(std::uint32_t hub, std::span<const std::uint32_t> triangles) {
+    if (!result_.complete) return;
+    std::vector<Box> arcs;
+    arcs.reserve(triangles.size());
+    for (const std::uint32_t i : triangles) {
+      const Corners& c = corners_[i];
+      const auto at = static_cast<std::size_t>(std::find(c.ids.begin(), c.ids.end(), hub) - c.ids.begin());
+      const glm::dvec3 &centre = c.points[at], &p = c.points[(at + 1) % 3], &q = c.points[(at + 2) % 3];
+      if (p == centre || q == centre) {  // without area
+        arcs.push_back(makeBox(glm::dvec3(9), glm::dvec3(9), 0));
+        continue;
+      }
+      // The arc is at most its sagitta away from the chord.
+      const glm::dvec3 from = glm::normalize(p - centre), to = glm::normalize(q - centre);
+      const double chord = glm::distance(from, to);
+      arcs.push_back(makeBox(from, to, 1 - std::sqrt(std::max(0.0, 1 - chord * chord / 4)) + kArcMargin));
+    }
+    result_.complete =
+        forOverlappingBoxes(arcs, arcs, mostCost(arcs.size()), [&](std::uint32_t k, std::uint32_t l) -> std::uint32_t {
+          return l >= k ? 0 : test(triangles[k], triangles[l]);
+        });
+  }
+
+  std::vector<Corners> corners_;
+  std::size_t first_;
+  std::vector<Box> boxes_;
+  std::vector<std::uint32_t> hubs_, hubOf_;  // ids of positions; hubOf_ is one per triangle, or empty without hubs
+  Intersections result_;
+  std::mutex lock_;
+  std::atomic<std::uint64_t> exactTests_{0};
+};
+
+}  // namespace
+
+Intersections findIntersections(const Mesh& mesh, std::size_t first) { return Search(mesh, first).run(); }
 
 Findings describePairs(const Mesh& mesh, const std::vector<Intersections::Pair>& pairs) {
   Findings findings;

@@ -126,7 +126,7 @@ Mesh fan(std::uint32_t n) {
 
 TEST(Intersections, NeedsFewExactTests) {
   // Neighbours in one plane, within rounding, need them; their number must not grow with the square of the triangles.
-  for (const std::uint32_t n : {500u, 1000u, 2000u, 5000u}) {
+  for (const std::uint32_t n : {500u, 1000u, 2000u, 20000u}) {
     const Intersections found = findIntersections(fan(n));
     EXPECT_TRUE(found.complete) << n;
     EXPECT_TRUE(found.crossing.empty()) << n;
@@ -134,6 +134,44 @@ TEST(Intersections, NeedsFewExactTests) {
   }
   const Mesh sphere = test::sphere(60, 90);
   EXPECT_LE(findIntersections(sphere).exactTests, sphere.triangles.size() / 10);
+}
+
+TEST(Intersections, FindsPairsAroundVerticesOfManyTriangles) {
+  // Triangles through a fan: with its centre as a corner, without a common corner, with two fans, and a copy.
+  constexpr std::uint32_t kCount = 900;
+  Mesh mesh = fan(kCount);
+  const glm::dvec3 centre = mesh.positions[0], up(0, -0.6, 0.8);
+  const auto add = [&](const glm::dvec3& p) {
+    mesh.positions.push_back(p);
+    return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  };
+  const auto within = [&](std::uint32_t i, double share) {
+    const glm::uvec3& t = mesh.triangles[i];
+    return centre + share * ((mesh.positions[t.y] + mesh.positions[t.z]) * 0.5 - centre);
+  };
+  const std::uint32_t first = kCount;
+  mesh.triangles.emplace_back(0, add(within(100, 0.5) + 0.1 * up), add(within(100, 0.5) - 0.1 * up));
+  mesh.triangles.emplace_back(add(within(200, 0.5) + 0.1 * up), add(within(200, 0.5) - 0.1 * up),
+                              add(within(200, 3.0)));
+  mesh.triangles.push_back(mesh.triangles[300]);
+  mesh.triangles.emplace_back(0, add(centre + up), add(centre + up + glm::dvec3(0.1, 0, 0)));  // beside it
+  const Intersections found = findIntersections(mesh);
+  EXPECT_TRUE(found.complete);
+  EXPECT_EQ(found.crossing, (Pairs{{100, first}, {200, first + 1}}));
+  EXPECT_EQ(found.coincident, (Pairs{{300, first + 2}}));
+  EXPECT_LT(found.exactTests, 3 * kCount);
+
+  // Two fans that cross, with their triangles mixed.
+  Mesh two = fan(kCount), other = fan(kCount);
+  for (glm::dvec3& p : other.positions) p += (0.4 + (p - centre).x) * up;
+  const Mesh both = test::joined(two, other);
+  const Intersections crossed = findIntersections(both);
+  EXPECT_GT(crossed.crossing.size(), 300u);
+  Mesh few = both;
+  few.triangles.resize(kCount + 300);  // no second hub
+  std::size_t expected = 0;
+  for (const auto& [a, b] : crossed.crossing) expected += b < kCount + 300 ? 1u : 0u;
+  EXPECT_EQ(findIntersections(few).crossing.size(), expected);
 }
 
 TEST(Intersections, MatchesTheTestOfAllPairs) {

@@ -9,6 +9,7 @@
 #include "bake/imports/import.h"
 #include "bake/pack/format.h"
 #include "bake/placement/placement.h"
+#include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/prepare.h"
 #include "meshprep/read/read_mesh.h"
@@ -67,6 +68,7 @@ class Placer {
 
   void add(const ImportDescription& import) {
     Imported imported = importScene(import, materials_, materialNames_, meshNames_, settings_.strict);
+    result_.notes.insert(result_.notes.end(), imported.notes.begin(), imported.notes.end());
     std::vector<char> reported(imported.parts.size(), 0);
     for (ImportedMesh& mesh : imported.meshes) {
       const ImportedPart& part = imported.parts[mesh.part];
@@ -74,9 +76,9 @@ class Placer {
       place(part.mesh, mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.openSurface);
     }
     for (ImportedPart& part : imported.parts) addReport(import.file, std::move(part.report));
-    result_.notes.insert(result_.notes.end(), imported.notes.begin(), imported.notes.end());
   }
 
+  const std::vector<std::string>& notes() const { return result_.notes; }
   PlacedMeshes take() { return std::move(result_); }
 
  private:
@@ -124,13 +126,20 @@ PlacedMeshes placeMeshes(const SceneDescription& description, const MeshSettings
                          std::vector<pack::Material>& materials,
                          const std::function<void(std::string_view)>& progress) {
   Placer placer(description, settings, materials);
-  for (const MeshDescription& mesh : description.meshes) {
-    progress(fmt::format("preparing {}", mesh.name));
-    placer.add(mesh);
-  }
-  for (const ImportDescription& import : description.imports) {
-    progress(fmt::format("preparing {}", import.file.filename().string()));
-    placer.add(import);
+  try {
+    for (const MeshDescription& mesh : description.meshes) {
+      progress(fmt::format("preparing {}", mesh.name));
+      placer.add(mesh);
+    }
+    for (const ImportDescription& import : description.imports) {
+      progress(fmt::format("preparing {}", import.file.filename().string()));
+      placer.add(import);
+    }
+  } catch (const Error&) {
+    // A note may explain the error: a material is glass because of a statement that contradicts another one.
+    console::progressDone();
+    for (const std::string& note : placer.notes()) console::warn(note);
+    throw;
   }
   return placer.take();
 }

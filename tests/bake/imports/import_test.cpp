@@ -224,6 +224,16 @@ TEST_F(Import, ReadsObjWithHabitsOfExporters) {
         << part;
 }
 
+TEST_F(Import, PrintsNotesBeforeAnError) {
+  // "d 0" and "Tr 0" contradict each other. The open face is glass by d, and not certified.
+  folder_.write("a.mtl", "newmtl a\nd 0\nTr 0\n");
+  folder_.write("a.obj", "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  scene_["imports"][0] = {{"file", "a.obj"}};
+  testing::internal::CaptureStderr();
+  EXPECT_CONTAINS(error(), "not certified");
+  EXPECT_CONTAINS(testing::internal::GetCapturedStderr(), "warning", "contradicts");
+}
+
 TEST_F(Import, SimplifiesEveryPart) {
   const prep::Mesh ball = prep::test::sphere(15, 20);
   std::string text = prep::test::objText(ball);

@@ -103,12 +103,18 @@ void checkFiles(const SweepArguments& a) {
   files.addInput(a.pack);
   files.addOutputFolder(a.folder, "--output");
   files.addOutput(fs::path(a.folder) / kListFile, "--output");
-  // Names differ in their numbers, so only an existing frame can be the pack.
-  std::error_code ignored;
-  for (unsigned i = 0; i < a.frames; ++i)
-    if (const fs::path frame = fs::path(a.folder) / frameName(a, i); fs::exists(frame, ignored))
-      files.addOutput(frame, "--output");
   files.check();
+  // Names differ in their numbers, so only an existing frame can be the pack. Frames of an earlier sweep may be hard
+  // links of each other.
+  std::error_code ignored;
+  for (unsigned i = 0; i < a.frames; ++i) {
+    const fs::path frame = fs::path(a.folder) / frameName(a, i);
+    if (!fs::exists(frame, ignored)) continue;
+    OutputFiles one;
+    one.addInput(a.pack);
+    one.addOutput(frame, "--output");
+    one.check();
+  }
 }
 
 void runSweep(const SweepArguments& a) {

@@ -112,11 +112,16 @@ void checkFiles(const Arguments& a) {
   files.addOutputFolder(folder, "--output");
   files.addOutputFolder(folder / "images", "--output");
   for (const char* file : {"results.json", "results.csv", "index.html"}) files.addOutput(folder / file, "--output");
-  // Images have names that differ, so only an existing one can be a pack.
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images", ignored))
-    files.addOutput(entry.path(), "--output");
   files.check();
+  // Images have names that differ, so only an existing one can be a pack. Images of an earlier comparison may be hard
+  // links of each other, which is harmless, because each is replaced by renaming.
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images", ignored)) {
+    OutputFiles image;
+    for (const std::string& pack : a.packs) image.addInput(pack);
+    image.addOutput(entry.path(), "--output");
+    image.check();
+  }
 }
 
 void writeResults(const Comparison& comparison, const Arguments& a) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -44,7 +45,8 @@ class Recutter {
 
   std::uint64_t run() {
     listDiagonals();
-    const std::vector<std::uint32_t> faces = findConflicts();
+    std::vector<std::uint32_t> faces = findConflicts();
+    removeDoubled(faces);
     if (faces.empty()) return 0;
     countUses(faces);
     std::uint64_t recut = 0;
@@ -102,6 +104,20 @@ class Recutter {
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     return faces;
+  }
+
+  // Removes faces with the same corners as another one, which are the two sides of a doubled surface and stay back to
+  // back.
+  void removeDoubled(std::vector<std::uint32_t>& faces) const {
+    const auto sortedCorners = [&](std::uint32_t face) {
+      std::vector<std::uint32_t> corners;
+      for (const std::uint32_t corner : polygons_.face(face)) corners.push_back(ids_[corner]);
+      std::sort(corners.begin(), corners.end());
+      return corners;
+    };
+    std::map<std::vector<std::uint32_t>, std::uint32_t> counts;
+    for (const std::uint32_t face : faces) ++counts[sortedCorners(face)];
+    std::erase_if(faces, [&](std::uint32_t face) { return counts[sortedCorners(face)] > 1; });
   }
 
   // Counts the faces of every edge and diagonal between corners of these faces.

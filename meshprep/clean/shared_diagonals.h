@@ -3,7 +3,8 @@
 // Two faces that meet in two consecutive edges (a vertex of valence 2 between them) may both be cut along the line that
 // connects the other ends of these edges, and a diagonal may connect two corners that are already connected by an edge
 // of other faces. Such an edge has more than two triangles: the closed surface of the file would get a hole. These
-// faces are cut again along other diagonals, where that is possible.
+// faces are cut again along other diagonals, where that is possible. Two faces with the same corners are the sides
+// of a doubled surface and keep their diagonals.
 #pragma once
 
 #include <cstdint>

@@ -49,6 +49,17 @@ TEST(SharedDiagonals, KeepsOtherFacesUnchanged) {
   EXPECT_EQ(report.count("polygons-recut"), 0u);
 }
 
+TEST(SharedDiagonals, KeepsFacesBackToBack) {
+  const test::TemporaryFile file(".obj", "v 0 0 0\nv 1 0 0\nv 1 1 .2\nv 0 1 0\nf 1 2 3 4\nf 1 4 3 2\n");
+  Report report;
+  EXPECT_EQ(prepare(file.path(), {}, report).triangles.size(), 4u);
+  EXPECT_EQ(report.count("polygons-recut"), 0u);
+  EXPECT_EQ(report.count("faces-opposite"), 2u);
+  Options drop;
+  drop.steps.dropOpposite = true;
+  EXPECT_EQ(prepare(file.path(), drop, report).triangles.size(), 2u);
+}
+
 TEST(SharedDiagonals, AvoidsEdgesOfOtherFaces) {
   // The diagonal 1-3 of the quad is an edge of two triangles.
   Polygons polygons;

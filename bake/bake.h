@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bake/depth_probe.h"
 #include "bake/pack/scene.h"
 #include "bake/pack/writer.h"
 #include "bake/scene_file/scene_file.h"
@@ -25,6 +27,7 @@ struct Baked {
   std::vector<prep::Report> reports;  // per mesh of the description, then per part of an import
   std::vector<std::string> notes;     // left out contents of files, meshes not simplified, glass not certified
   double moved = 0;                   // metres; largest distance that rounding to float moves a vertex
+  std::optional<DepthProbe> probe;    // measured by the caller
 };
 
 // Calls progress with the current step. The provenance names all settings; keepMap is the only one that changes the

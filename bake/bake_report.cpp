@@ -33,6 +33,14 @@ Totals addUp(const Baked& baked, const pack::Written& written) {
   return totals;
 }
 
+json lightBeyondJson(const Baked& baked) {
+  if (!baked.probe) return nullptr;
+  return {{"share", shareBeyond(baked.scene.lightBeyond, baked.scene.depth)},
+          {"rays", baked.probe->rays},
+          {"unfollowedPaths", baked.probe->unfollowed},
+          {"milliseconds", baked.probe->milliseconds}};
+}
+
 }  // namespace
 
 json bakeJson(const Baked& baked, const pack::Written& written, const std::string& output) {
@@ -76,6 +84,7 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
            {{"positionMax", totals.worst.positionMax},
             {"normalMaxDegrees", totals.worst.normalMaxDegrees},
             {"tiltMaxDegrees", totals.worst.tiltMaxDegrees}}},
+          {"lightBeyondDepth", lightBeyondJson(baked)},
           {"notes", baked.notes},
           {"warnings", written.warnings}};
 }
@@ -106,6 +115,11 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
                         m.deviation.tiltMaxDegrees, m.encodeMs, m.decodeMs, m.method, m.reused ? ", reused" : "",
                         m.sequentialReason.empty() ? "" : ": ", m.sequentialReason);
   }
+
+  if (baked.probe)
+    text += fmt::format("  light beyond depth {}: {:.3g} %, measured by {} rays in {:.0f} ms\n", baked.scene.depth,
+                        100 * shareBeyond(baked.scene.lightBeyond, baked.scene.depth), baked.probe->rays,
+                        baked.probe->milliseconds);
 
   // Step 3: simplified files and parts.
   for (const prep::Report& report : baked.reports) {

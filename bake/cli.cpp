@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -64,7 +65,7 @@ void reportUpToDate(const BakeArguments& arguments, const pack::Scene& scene) {
     console::printLine("{}: {} is up to date: sources and settings are unchanged", scene.name, arguments.output);
 }
 
-void runBake(const BakeArguments& arguments) {
+void runBake(const BakeArguments& arguments, const MeasureDepth& measure) {
   // Remove the unfinished files of killed bakers, and stop if the pack is up to date.
   checkFiles(arguments, {});
   const SceneDescription description = readSceneFile(arguments.input);
@@ -80,7 +81,12 @@ void runBake(const BakeArguments& arguments) {
   }
 
   // Bake the scene and write the pack.
-  const Baked baked = bake(description, arguments.settings, console::progress, arguments.options);
+  Baked baked = bake(description, arguments.settings, console::progress, arguments.options);
+  if (measure) {
+    console::progress("measuring the light beyond the depth");
+    baked.probe = measure(baked.scene);
+    for (std::string& note : applyProbe(*baked.probe, baked.scene)) baked.notes.push_back(std::move(note));
+  }
   console::progress("compressing");
   pack::WriteSettings settings = arguments.settings;
   settings.conversionError = baked.moved;
@@ -105,7 +111,7 @@ void runBake(const BakeArguments& arguments) {
 
 }  // namespace
 
-void addBakeCommand(CLI::App& app) {
+void addBakeCommand(CLI::App& app, MeasureDepth measure) {
   auto arguments = std::make_shared<BakeArguments>();
   CLI::App* command = app.add_subcommand("bake", "Bake a scene description into a scene pack");
   command->add_option("scene", arguments->input, "Scene description (bake/SCENE.md)")->required()->type_name("FILE");
@@ -141,7 +147,7 @@ void addBakeCommand(CLI::App& app) {
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   addFormerOption(*command, "--max-normal-error", "--normal-error");
   addRemovedOption(*command, "--max-error", "--position-error");  // `render`: relative RMS error
-  command->callback([arguments] { runBake(*arguments); });
+  command->callback([arguments, measure = std::move(measure)] { runBake(*arguments, measure); });
 }
 
 void addInfoCommand(CLI::App& app) {

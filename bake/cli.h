@@ -7,12 +7,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bake/depth_probe.h"
+
 namespace malus::bake {
 
 // Thrown by info --diff where the packs differ: exit code 3.
 struct PacksDiffer {};
 
-void addBakeCommand(CLI::App& app);
+// measure: the depth probe of a renderer; without it, packs have no measurement.
+void addBakeCommand(CLI::App& app, MeasureDepth measure = {});
 void addInfoCommand(CLI::App& app);
 void addUnpackCommand(CLI::App& app);
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/depth_probe.h"
 #include "bake/effects/deepest_bounce.h"
 #include "bake/effects/effects.h"
 #include "bake/effects/polarization_bound.h"
@@ -101,6 +102,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
           {"effects", effectsJson(currentEffects(scene))},
           {"polarizationErrorBound", {bound.x, bound.y, bound.z}},
           {"deepestBounce", {{"tolerance", tolerance}, {"bounce", deepestBounce(scene, scene.depth, tolerance)}}},
+          {"lightBeyondDepth", scene.lightBeyond.empty() ? json() : json(shareBeyond(scene.lightBeyond, scene.depth))},
           {"sections", sections},
           {"warnings", bakeWarnings(scene)},
           {"provenance", provenance}};
@@ -139,6 +141,8 @@ std::string infoText(const pack::Pack& pack, double tolerance) {
                                          bound.x, bound.y, bound.z);
   text += fmt::format("  deepest bounce that can change a pixel by more than {:g} of its radiance: {}\n", tolerance,
                       deepestBounce(scene, scene.depth, tolerance));
+  if (!scene.lightBeyond.empty())
+    text += fmt::format("  light beyond the depth: {:.3g} %\n", 100 * shareBeyond(scene.lightBeyond, scene.depth));
   text += "\nsections\n";
   for (const pack::Section& s : pack.sections)
     text +=

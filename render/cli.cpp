@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bake/depth_probe.h"
 #include "bake/pack/reader.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
@@ -131,6 +132,8 @@ void reportJob(const RenderArguments& a, const Job& job) {
   warnOfFilter(a.filter, makeAnalyser(a.filter),
                backendInfo(a.job.backend).hasMethods ? job.requestedMethod() : std::string());
   for (const std::string& warning : job.warnings()) console::warn(warning);
+  const std::string lost = bake::lostLightNote(job.scene().lightBeyond, job.parameters().depth, "--depth");
+  if (!lost.empty()) console::warn(lost);
 }
 
 // Removes every channel except the colour.

@@ -15,6 +15,7 @@
 #include "render/compare_images_cli.h"
 #include "render/devices_cli.h"
 #include "render/material_cli.h"
+#include "render/reference/renderer.h"
 #include "render/sweep_cli.h"
 #include "tools/completion.h"
 
@@ -68,7 +69,7 @@ CommandLine::CommandLine() : app_("malus: polarized mirror and glass reflections
   app_.add_flag("--list-materials", listsMaterials_, "List the materials with published n and k");
   app_.add_flag("--list-devices", listsDevices_, "List the Vulkan devices");
   prep::addPrepCommand(app_);
-  bake::addBakeCommand(app_);
+  bake::addBakeCommand(app_, [](const pack::Scene& scene) { return reference::Renderer(scene, 0).probeDepth(); });
   bake::addInfoCommand(app_);
   bake::addUnpackCommand(app_);
   render::addRenderCommand(app_);

@@ -56,6 +56,7 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
   if (source.emissive != glm::dvec3(0.0)) {
     result.kind = Kind::emitter;
     result.radiance = glm::clamp(source.emissive, 0.0, kMostRadiance);
+    result.twoSided = source.isDoubleSided;
   } else if (transmission > prep::kTransmissive) {
     result.kind = source.isThinWalled ? Kind::thinGlass : Kind::glass;
     result.eta = ior;

@@ -1,7 +1,8 @@
 // Converts the material of an imported file (glTF's terms, meshprep/read/source_scene.h) into one of malus's materials
 // by the first of these rules that fits:
 //
-//   emissive over 0         emitter: radiance = emissive, whose cd/m^2 are taken as the scene's unit
+//   emissive over 0         emitter: radiance = emissive, whose cd/m^2 are taken as the scene's unit; twoSided if the
+//                           material is double-sided
 //   transmission over 0.5   transmission x (1 - metallic), as metals are opaque. Thin-walled (glTF without a volume, or
 //                           with one of thickness 0): thin-glass, eta = ior, internal transmittance at normal incidence
 //                           = base colour. Otherwise glass: eta = ior; with a volume, absorption = -ln(attenuation

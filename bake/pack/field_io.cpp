@@ -32,6 +32,12 @@ std::uint32_t FieldReader::integer(const Field& field) {
   return value;
 }
 
+void FieldReader::read(const Field& field, bool& value) {
+  const std::uint32_t number = r_.u32();
+  if (number > 1) r_.fail(fmt::format("{} is out of range", field.name), boundsText(0, 1), fmt::format("{}", number));
+  value = number == 1;
+}
+
 void FieldReader::read(const Field& field, glm::dvec3& value) {
   for (int i = 0; i < 3; ++i) value[i] = number(field, i);
 }

@@ -48,7 +48,7 @@ class FieldReader {
   void read(const Field& field, std::array<glm::dvec3, 9>& values);
   void read(const Field& field, std::uint32_t& value) { value = integer(field); }
   void read(const Field& field, std::uint64_t& value);
-  void read(const Field& field, bool& value) { value = integer(field) == 1; }
+  void read(const Field& field, bool& value);
   void read(const Field& field, MaterialKind& value) { value = static_cast<MaterialKind>(integer(field)); }
   void read(const Field& field, std::string& value);
   void read(const Field& field, std::int32_t& value);  // a number, or the index of a texture

@@ -32,7 +32,7 @@ inline constexpr std::uint32_t kMaxEffects = 4096;
 inline constexpr std::uint32_t kMaxVertices = 1u << 28;
 inline constexpr std::uint32_t kMaxTriangles = 1u << 28;
 inline constexpr double kMaxCoordinate = 1e9;  // metres; the squared area of a face still fits a float
-inline constexpr std::uint32_t kMaxDepth = 64;
+inline constexpr std::uint32_t kMaxDepth = 255;
 inline constexpr std::uint32_t kMaxResolution = 16384;
 inline constexpr std::uint32_t kMaxEnvironmentSize = 8192;
 inline constexpr std::uint32_t kMaxTextures = 256;
@@ -68,6 +68,7 @@ inline constexpr const char* kGeometry = "GEOM";
 inline constexpr const char* kEncodings = "ENCD";
 inline constexpr const char* kSourceMap = "SMAP";
 inline constexpr const char* kEffects = "EFCT";
+inline constexpr const char* kBeyond = "BYND";
 inline constexpr const char* kProvenance = "PROV";
 
 struct SectionInfo {
@@ -92,6 +93,7 @@ inline constexpr auto kKnownSections = std::to_array<SectionInfo>({
     {kEncodings, false, kOptional, "bits and errors of the encoded meshes"},
     {kSourceMap, false, kOptional, "map to the source files; written on request"},
     {kEffects, false, kOptional, "effects that the scene needs"},
+    {kBeyond, false, kOptional, "light beyond each depth; written if it was measured and there is any"},
     {kProvenance, false, kOptional, "versions, settings and hashes of the sources, as JSON"},
 });
 

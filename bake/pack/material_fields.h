@@ -47,7 +47,7 @@ void visitBaseFields(Visitor& visit, Materials&... m) {
   visit(Field{.name = "radiance",
               .high = kMaxLight,
               .unit = "W/(m^2 sr)",
-              .text = "emitted from the side that the normals point to",
+              .text = "emitted from the side that the normals point to; see `twoSided`",
               .section = kMaterials,
               .kinds = kindsWhere(isEmitter),
               .key = Key::required,
@@ -233,6 +233,19 @@ void visitTextureFields(Visitor& visit, Materials&... m) {
         m.maps.v...);
 }
 
+// The field of SRFX from version 2 on.
+template <class Visitor, class... Materials>
+void visitEmitterFields(Visitor& visit, Materials&... m) {
+  visit(Field{.name = "twoSided",
+              .text = "true: the back of the emitter radiates like its front",
+              .section = kSurfaces,
+              .since = 2,
+              .isFeature = true,
+              .kinds = kindsWhere(isEmitter),
+              .key = Key::optional},
+        m.twoSided...);
+}
+
 // Calls visit(field, value of each material...) for every field, in the order of the bytes.
 template <class Visitor, class... Materials>
 void visitMaterial(Visitor&& visit, Materials&... m) {
@@ -240,6 +253,7 @@ void visitMaterial(Visitor&& visit, Materials&... m) {
   visitInterfaceFields(visit, m...);
   visitPolarizationFields(visit, m...);
   visitTextureFields(visit, m...);
+  visitEmitterFields(visit, m...);
 }
 
 // Version of SRFX that the materials need: 0 where the section is not needed.

@@ -117,6 +117,18 @@ void readEffects(ByteReader r, std::vector<Effect>& effects) {
   r.end();
 }
 
+void readLightBeyond(ByteReader r, std::vector<double>& shares) {
+  const std::uint32_t count = r.count(8, kMaxDepth + 1, "number of depths");
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double share = r.f64("share"), most = shares.empty() ? 1 : shares.back();
+    if (!(share >= 0 && share <= most))
+      r.fail("share of the light is out of range", fmt::format("0 to {:g}, that of the depth before", most),
+             fmt::format("{:g}", share));
+    shares.push_back(share);
+  }
+  r.end();
+}
+
 }  // namespace
 
 Pack parse(std::span<const std::byte> bytes, std::string_view where) {
@@ -148,6 +160,7 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
   if (const Section* at = find(kEncodings)) pack.encodings = readEncodings(reader(*at), scene.meshes.size());
   if (const Section* at = find(kSourceMap)) readSourceMap(reader(*at), scene.meshes);
   if (const Section* at = find(kEffects)) readEffects(reader(*at), scene.effects);
+  if (const Section* at = find(kBeyond)) readLightBeyond(reader(*at), scene.lightBeyond);
   if (const Section* at = find(kProvenance)) {
     ByteReader r = reader(*at);
     scene.provenance = r.text(kMaxProvenanceBytes);

@@ -56,6 +56,7 @@ struct Material {
   double roughness = 0;               // GGX alpha of metal, paint, mirror-glass; 0 to 1
   glm::dvec3 axis{0.0};  // unit: field of a polarized emitter, transmitted field of a polarizer, fast axis of a plate
   double polarization = 0;                // degree of an emitter's linear polarization
+  bool twoSided = false;                  // an emitter that also radiates from its back
   glm::dvec3 transmittanceParallel{1.0};  // of power, of polarizers and wave plates, for a field parallel to the axis
   glm::dvec3 transmittanceCrossed{1.0};   // and crossed with it
   glm::dvec3 retardanceDegrees{0.0};      // of wave plates
@@ -134,6 +135,9 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<Mesh> meshes;
   std::vector<Effect> effects;
+  // Share of the image's light that arrives after more than i specular interactions, decreasing; 0 past the end. Empty:
+  // not measured.
+  std::vector<double> lightBeyond;
   std::string provenance;  // JSON: source hashes, settings, versions
 
   std::uint64_t vertexCount() const;

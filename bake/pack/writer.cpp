@@ -94,6 +94,13 @@ std::vector<std::byte> effectBytes(const std::vector<Effect>& effects) {
   return w.take();
 }
 
+std::vector<std::byte> lightBeyondBytes(const std::vector<double>& shares) {
+  ByteWriter w;
+  w.u32(static_cast<std::uint32_t>(shares.size()));
+  for (const double share : shares) w.f64(share);
+  return w.take();
+}
+
 std::vector<std::byte> textBytes(const std::string& text) {
   ByteWriter w;
   w.text(text);
@@ -160,6 +167,7 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
   bodies.push_back({kEncodings, encodingBytes(encoded.encodings)});
   if (settings.keepMap) bodies.push_back({kSourceMap, std::move(encoded.map)});
   bodies.push_back({kEffects, effectBytes(scene.effects)});
+  if (!scene.lightBeyond.empty()) bodies.push_back({kBeyond, lightBeyondBytes(scene.lightBeyond)});
   bodies.push_back(
       {kProvenance, textBytes(settings.provenance ? settings.provenance(written.warnings) : scene.provenance)});
   written.bytes = assemble(bodies);

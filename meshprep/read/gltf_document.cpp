@@ -136,6 +136,7 @@ Material toMaterial(const json& object) {
   get(object, "name", material.name);
   get(object, "emissiveFactor", material.emissiveFactor);
   get(object, "alphaMode", material.alphaMode);
+  get(object, "doubleSided", material.doubleSided);
   const json& pbr = child(object, "pbrMetallicRoughness");
   get(pbr, "baseColorFactor", material.baseColorFactor);
   get(pbr, "metallicFactor", material.metallicFactor);

@@ -88,6 +88,7 @@ struct Material {
   double roughnessFactor = 1;
   std::array<double, 3> emissiveFactor{0, 0, 0};
   std::string alphaMode = "OPAQUE";
+  bool doubleSided = false;
   double emissiveStrength = 1;       // KHR_materials_emissive_strength
   double ior = 1.5;                  // KHR_materials_ior
   double transmissionFactor = 0;     // KHR_materials_transmission

@@ -56,6 +56,7 @@ SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& l
   if (result.emissive.x > 1 || result.emissive.y > 1 || result.emissive.z > 1)
     addNote(notes, std::string(kAcceptedNote) + "emissive factors above 1");
   result.emissive *= checked("emissiveStrength", material.emissiveStrength, 0, kMaxEmission);
+  result.isDoubleSided = material.doubleSided;
   if (material.alphaMode != "OPAQUE") addNote(notes, "alpha coverage");
 
   // Transmission and volume. KHR_materials_ior reserves 0 for older shading models.

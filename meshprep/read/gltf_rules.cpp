@@ -81,6 +81,7 @@ constexpr std::array kRules = {
     Rule{"materials/pbrMetallicRoughness/roughnessFactor", Type::number},
     Rule{"materials/emissiveFactor", Type::numbers, 3},
     Rule{"materials/alphaMode", Type::text},
+    Rule{"materials/doubleSided", Type::flag},
     Rule{"materials/extensions", Type::object},
     Rule{"materials/extensions/KHR_materials_ior", Type::object},
     Rule{"materials/extensions/KHR_materials_ior/ior", Type::number},

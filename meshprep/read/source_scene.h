@@ -30,6 +30,7 @@ struct SourceMaterial {
   double metallic = 1;              // 0 to 1
   double roughness = 1;             // 0 to 1; the square root of GGX's alpha
   glm::dvec3 emissive{0.0};         // radiance, W / (m^2 sr) or relative, including the strength
+  bool isDoubleSided = false;       // emission on both sides
   double transmission = 0;          // 0 to 1
   bool isThinWalled = false;        // transmits without refraction, tinted by the base colour
   double ior = 1.5;                 // 1 or more

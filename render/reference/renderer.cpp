@@ -15,6 +15,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/embree/embree.h"
+#include "render/reference/depth_paths.h"
 #include "render/reference/surface.h"
 #include "render/scene/render_scene.h"
 #include "shaders/optics/optics.h"
@@ -125,6 +126,41 @@ struct Tracer {
                    polarized(radiance, f64::rayleighDegree(cosine, e.skyDegree)));
   }
 
+  // Light of the emitter at a hit along -d, as basic radiance.
+  static Light emittedLight(const Hit& h) {
+    const pack::Material& m = *h.surface.material;
+    const dvec3 radiance = h.outside || m.twoSided ? m.radiance / (m.outsideEta * m.outsideEta) : dvec3(0);
+    if (m.polarization == 0) return unpolarized(radiance);
+    const dvec3 s = f64::sDirection(h.d, glm::cross(h.face, m.axis));
+    return rotated(glm::transpose(toSurface(h.d, s)), polarized(radiance, m.polarization));
+  }
+
+  // Indices on this side and beyond, and the transmitted ray. Replaces a shading normal by that of the face if the ray
+  // would not pass the face.
+  struct Refraction {
+    double n1, n2;
+    dvec3 direction;
+    bool isTotal;
+  };
+  static Refraction refractionAt(Hit& h) {
+    const pack::Material& m = *h.surface.material;
+    const bool isBody = pack::hasInside(m.kind), entersOutside = isBody && !h.outside;
+    const double inside = h.surface.eta.y;
+    Refraction r{entersOutside ? inside : m.outsideEta, entersOutside ? m.outsideEta : inside, h.d, false};
+    const auto refract = [&] {
+      r.direction = f64::refractedDirection(h.d, h.normal, h.c, r.n1, r.n2);
+      r.isTotal = f64::refractionTerms(h.c, r.n1, r.n2).total;
+    };
+    if (!isBody) return r;
+    refract();
+    if (!r.isTotal && glm::dot(r.direction, h.face) >= 0) {
+      h.normal = h.face;
+      h.c = f64::clampUnit(-glm::dot(h.d, h.face));
+      refract();
+    }
+    return r;
+  }
+
   // Absorption of the medium on the side of the ray, in 1/m.
   static dvec3 absorptionAt(const Hit& h) {
     const pack::Material& m = *h.surface.material;
@@ -226,10 +262,7 @@ struct Tracer {
 
     // Handle surfaces without an interface.
     if (pack::isEmitter(m.kind)) {
-      const dvec3 radiance = h.outside ? m.radiance / (m.outsideEta * m.outsideEta) * medium : dvec3(0);
-      if (m.polarization == 0) return checked(h, depth, unpolarized(radiance), {});
-      const dvec3 s = f64::sDirection(d, glm::cross(h.face, m.axis));
-      return checked(h, depth, rotated(glm::transpose(toSurface(d, s)), polarized(radiance, m.polarization)), {});
+      return checked(h, depth, scaled(emittedLight(h), medium), {});
     }
     dvec3 diffuse, highlight;
     if (!pack::isInterface(m.kind)) {
@@ -247,22 +280,9 @@ struct Tracer {
     }
 
     // Handle interfaces, from the index on this side to the index beyond.
-    const bool clear = pack::isClear(m.kind), body = pack::hasInside(m.kind);
+    const bool clear = pack::isClear(m.kind);
     if (clear && depth == 0) return unpolarized(dvec3(0));
-    const double inside = h.surface.eta.y;
-    const double n1 = !body || h.outside ? m.outsideEta : inside, n2 = !body || h.outside ? inside : m.outsideEta;
-    dvec3 refracted = d;
-    bool total = false;
-    if (body) {
-      refracted = f64::refractedDirection(d, h.normal, h.c, n1, n2);
-      total = f64::refractionTerms(h.c, n1, n2).total;
-      if (!total && glm::dot(refracted, h.face) >= 0) {
-        h.normal = h.face;
-        h.c = f64::clampUnit(-glm::dot(d, h.face));
-        refracted = f64::refractedDirection(d, h.normal, h.c, n1, n2);
-        total = f64::refractionTerms(h.c, n1, n2).total;
-      }
-    }
+    const auto [n1, n2, refracted, total] = refractionAt(h);
     const Interface interface = evaluateInterface(h.surface, h.c, n1, n2);
     const dvec3 mirror = f64::mirrorDirection(d, h.normal, h.c);
     const dvec3 s = f64::sDirection(d, h.normal);  // the same for all three rays
@@ -373,6 +393,47 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
   result.cost.traceMs = result.cost.wallMs = sinceMs(start);
   result.cost.rays = rays;
   return result;
+}
+
+bake::DepthProbe Renderer::probeDepth() {
+  const auto start = Clock::now();
+  constexpr std::uint32_t kSide = 32;
+  const pack::Scene& scene = impl_->scene;
+  const render::RenderParameters parameters = render::defaultParameters(scene);
+  const std::uint32_t height = std::clamp(kSide * scene.height / scene.width, 1u, kSide);
+  const double tanY = std::tan(scene.camera.verticalFovDegrees / 360 * std::numbers::pi),
+               tanX = tanY * scene.width / scene.height;
+  struct Row {
+    std::vector<double> energy;
+    std::vector<bool> darkBacks;
+    std::uint64_t rays, unfollowed;
+  };
+  std::vector<Row> rows(height);
+  tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {
+    Tracer tracer{scene, impl_->bvh, impl_->hemisphereTransmittance, parameters};
+    DepthPaths paths(tracer);
+    for (std::uint32_t x = 0; x < kSide; ++x)
+      paths.followPixel(scene.camera.position,
+                        f64::cameraDirection(scene.camera.right, scene.camera.up, scene.camera.forward, tanX, tanY,
+                                             (x + 0.5) / kSide, (y + 0.5) / height));
+    rows[y] = {paths.energy, paths.darkBacks, tracer.rays, paths.unfollowed};
+  });
+
+  // Add up in the order of the rows, so that the sums do not depend on the threads.
+  bake::DepthProbe probe;
+  std::vector<double> energy(rows[0].energy.size());
+  std::vector<bool> darkBacks(scene.materials.size());
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < energy.size(); ++i) energy[i] += row.energy[i];
+    for (std::size_t i = 0; i < darkBacks.size(); ++i) darkBacks[i] = darkBacks[i] || row.darkBacks[i];
+    probe.rays += row.rays;
+    probe.unfollowed += row.unfollowed;
+  }
+  probe.beyond = sharesBeyond(energy);
+  for (std::uint32_t i = 0; i < darkBacks.size(); ++i)
+    if (darkBacks[i] && scene.materials[i].radiance != dvec3(0.0)) probe.darkEmitters.push_back(i);
+  probe.milliseconds = sinceMs(start);
+  return probe;
 }
 
 render::RenderResult render(const pack::Scene& scene, const render::RenderParameters& parameters, unsigned threads) {

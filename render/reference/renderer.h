@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "bake/depth_probe.h"
 #include "bake/pack/scene.h"
 #include "render/renderer.h"
 
@@ -22,6 +23,9 @@ class Renderer final : public render::Renderer {
   std::string device() const override;
   std::vector<std::string> methods() const override { return {}; }
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
+
+  // Follows the paths of at most 32 x 32 pixels without a limit of the depth. Deterministic; at most 2^20 rays.
+  bake::DepthProbe probeDepth();
 
  private:
   struct Impl;

@@ -77,8 +77,8 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     const double basic = 1 / (m.outsideEta * m.outsideEta);
     g.eta = glm::vec3(m.eta);
     g.k = glm::vec3(m.k);
-    g.albedo = glm::vec3(m.albedo);
     g.radiance = glm::vec3(m.radiance * basic);
+    g.albedo = !pack::isEmitter(m.kind) ? glm::vec3(m.albedo) : m.twoSided ? g.radiance : glm::vec3(0.0f);
     g.hemisphereTransmittance = glm::vec3(hemisphereTransmittance(m));
     g.outsideEta = static_cast<float>(m.outsideEta);
     g.basicScale = static_cast<float>(basic);

@@ -4,7 +4,7 @@
 struct Material {
   real3 eta;                      // real part of the index; dielectrics use eta.y in every colour
   real3 k;                        // imaginary part: eta - i k
-  real3 albedo;                   // diffuse reflectance; 0: none
+  real3 albedo;                   // diffuse reflectance; 0: none. Of an emitter: the radiance of its back
   real3 radiance;                 // emitted, divided by the square of the index it is emitted into
   real3 hemisphereTransmittance;  // mean transmittance of the interface for light from all directions
   real outsideEta;                // index on the side that the normals point to

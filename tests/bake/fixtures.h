@@ -145,6 +145,8 @@ inline pack::Scene unusualScene() {
   plate.kind = pack::MaterialKind::wavePlate;
   plate.axis = {0, 0.8, 0.6};
   plate.retardanceDegrees = {76, 90, 103};
+  lamp.twoSided = true;
+  scene.lightBeyond = {0.75, 0.25, 0.25, 0.001};
   scene.materials.push_back(polarizer);
   scene.materials.push_back(plate);
   return scene;

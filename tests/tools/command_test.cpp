@@ -86,7 +86,7 @@ TEST(Usage, WrongArgumentsExitWithTwo) {
       {"render", "a.pack", "-o", "a.exr", "--backend", "magic"},
       {"render", "a.pack", "-o", "a.exr", "--width", "0"},
       {"render", "a.pack", "-o", "a.exr", "--width", "wide"},
-      {"render", "a.pack", "-o", "a.exr", "--depth", "65"},
+      {"render", "a.pack", "-o", "a.exr", "--depth", "256"},
       {"render", "a.pack", "-o", "a.exr", "--region", "1", "2", "3"},
       {"render", "a.pack", "-o", "a.exr", "--polarizer", "nan"},
       {"render", "a.pack", "-o", "a.exr", "--polarizer", "inf"},

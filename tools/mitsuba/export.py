@@ -162,6 +162,8 @@ def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environ
         path = scene.folder / mesh["file"]
         shape = {"type": "ply", "id": f"mesh{i}", "filename": str(path), "face_normals": not has_normals(path),
                  "bsdf": bsdf(material, colour)}
+        if material.get("twoSided"):
+            raise ValueError(f"material of {path}: Mitsuba's area emitters have one side")
         if material["type"] == "emitter" and material["radiance"][colour] > 0:
             shape["emitter"] = {"type": "area", "radiance": material["radiance"][colour]}
         description[f"mesh{i}"] = shape

@@ -142,6 +142,9 @@ TEST(SourceMaterial, EmissionTakesPrecedence) {
   source.emissive = {0, 40, 2};
   EXPECT_EQ(made(source).kind, Kind::emitter);
   EXPECT_EQ(made(source).radiance, glm::dvec3(0, 40, 2));
+  EXPECT_FALSE(made(source).twoSided);
+  source.isDoubleSided = true;
+  EXPECT_TRUE(made(source).twoSided);
 }
 
 TEST(SourceMaterial, PartsWithoutMaterialAreMatt) {

@@ -348,7 +348,7 @@ TEST(CorruptPack, ImageOutOfBounds) {
   const std::size_t end = test::section(sections, "META").bytes.size();
   EXPECT_TRUE(contains(errorWith("META", end - 8, kNan), "not finite"));
   EXPECT_TRUE(contains(errorWith("META", end - 8, 101.0), "exposureEv", "-100 to 100", "found 101"));
-  EXPECT_TRUE(contains(errorWith("META", end - 12, 65u), "depth"));
+  EXPECT_TRUE(contains(errorWith("META", end - 12, 256u), "depth"));
   EXPECT_TRUE(contains(errorWith("META", end - 16, 16385u), "height"));
   EXPECT_TRUE(contains(errorWith("META", end - 16, 0u), "height"));
   EXPECT_TRUE(contains(errorWith("META", end - 20, 0u), "width"));
@@ -366,6 +366,17 @@ TEST(CorruptPack, LightOutOfBounds) {
   for (const std::uint16_t half :
        {std::uint16_t{0x7c00}, std::uint16_t{0x7e00}, std::uint16_t{0xbc00}})  // inf, NaN, -1
     EXPECT_TRUE(contains(errorWith("ENVR", 252 + 6, half), "environment texel")) << half;
+}
+
+TEST(CorruptPack, LightBeyondOutOfBounds) {
+  const auto refused = [](std::size_t at, auto number) {
+    std::vector<RawSection> sections = test::takenApart(serialize(bake::test::unusualScene(), {}).bytes);
+    test::setNumber(test::section(sections, "BYND").bytes, at, number);
+    return errorMessage([&] { parse(test::putTogether(sections), "file.pack"); });
+  };
+  EXPECT_CONTAINS(refused(0, 5u), "number of depths");
+  for (const double share : {-0.1, 1.1, kNan}) EXPECT_CONTAINS(refused(4, share), "share");
+  EXPECT_CONTAINS(refused(12, 0.9), "share");  // more than beyond a smaller depth
 }
 
 TEST(CorruptPack, StorageOfTexelsOutOfBounds) {

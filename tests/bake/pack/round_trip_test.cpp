@@ -82,6 +82,7 @@ TEST(PackRoundTrip, OptionalSections) {
   const Scene s = parse(serialize(scene, {}).bytes, "test").scene;
   EXPECT_EQ(s.environment.sun, scene.environment.sun);
   EXPECT_EQ(s.environment.skyDegree, scene.environment.skyDegree);
+  EXPECT_EQ(s.lightBeyond, scene.lightBeyond);
   ASSERT_EQ(s.textures.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(s.textures[i].name, scene.textures[i].name);
@@ -100,6 +101,7 @@ TEST(PackRoundTrip, OptionalSections) {
     EXPECT_EQ(m.roughness, truth.roughness);
     EXPECT_EQ(m.axis, truth.axis);
     EXPECT_EQ(m.polarization, truth.polarization);
+    EXPECT_EQ(m.twoSided, truth.twoSided);
     EXPECT_EQ(m.transmittanceParallel, truth.transmittanceParallel);
     EXPECT_EQ(m.transmittanceCrossed, truth.transmittanceCrossed);
     EXPECT_EQ(m.retardanceDegrees, truth.retardanceDegrees);
@@ -158,7 +160,8 @@ TEST(PackRoundTrip, Version1StillOpens) {
 TEST(PackRoundTrip, UnusedOptionalSectionsAreNotWritten) {
   const Pack pack = parse(serialize(smallScene(), {}).bytes, "test");
   for (const Section& section : pack.sections)
-    EXPECT_TRUE(section.id != kSurfaces && section.id != kTextures && section.id != kSky) << section.id;
+    EXPECT_TRUE(section.id != kSurfaces && section.id != kTextures && section.id != kSky && section.id != kBeyond)
+        << section.id;
   for (const Material& m : pack.scene.materials) EXPECT_TRUE(m.isPlain()) << m.name;
 }
 

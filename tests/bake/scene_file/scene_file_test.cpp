@@ -216,7 +216,7 @@ TEST(SceneFile, Ranges) {
       {"/resolution", "[64]"},
       {"/resolution", "[64.5, 48]"},
       {"/resolution", "[-64, 48]"},
-      {"/depth", "65"},
+      {"/depth", "256"},
       {"/depth", "-1"},
       {"/depth", "4.0"},
       {"/exposureEv", "101"},

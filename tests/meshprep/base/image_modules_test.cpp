@@ -165,7 +165,7 @@ TEST_F(ImageModules, FilesOfOtherProgramsHaveTheSameValues) {
     ++found;
     readBoth(entry.path().string());
   }
-  EXPECT_GE(found, 28u);
+  EXPECT_GE(found, 30u);
 }
 
 TEST_F(ImageModules, ColoursAreNotMultipliedByAlpha) {
@@ -188,6 +188,20 @@ TEST_F(ImageModules, DataWindowsArePlacedInTheDisplayWindow) {
   EXPECT_GT(alpha(9, 8), 0);
   EXPECT_EQ(alpha(10, 8), 0);
   EXPECT_EQ(alpha(9, 9), 0);
+}
+
+// 8 x 4 pixels of which one file stores columns 0 to 3, the other columns 4 to 7, all 1.
+TEST_F(ImageModules, DisjointDataWindowsDiffer) {
+  const Image left = readBoth(std::string(MALUS_IMAGE_FILES) + "/left-half.exr"),
+              right = readBoth(std::string(MALUS_IMAGE_FILES) + "/right-half.exr");
+  ASSERT_EQ(left.width, 8);
+  ASSERT_EQ(right.width, 8);
+  ASSERT_EQ(left.pixels.size(), right.pixels.size());
+  for (std::size_t i = 0; i < left.pixels.size(); ++i) {
+    const bool isLeft = i / left.channels.size() % 8 < 4;
+    EXPECT_EQ(left.pixels[i], isLeft ? 1 : 0) << i;
+    EXPECT_EQ(right.pixels[i], isLeft ? 0 : 1) << i;
+  }
 }
 
 using Transfer = Encoding::Transfer;

@@ -477,6 +477,8 @@ TEST(ReadGltf, ReadsMaterials) {
   gltf.document["images"] = {{{"uri", "nowhere.png"}}};
   const SourceScene noted = readGlb(gltf);
   EXPECT_TRUE(noted.materials[1].isThinWalled);
+  EXPECT_TRUE(noted.materials[1].isDoubleSided);
+  EXPECT_FALSE(noted.materials[0].isDoubleSided);
   EXPECT_TRUE(hasNote(noted, "alpha coverage"));
   EXPECT_TRUE(hasNote(noted, "textures"));
 }

@@ -97,6 +97,16 @@ Encoding readEncoding(png_structp png, png_infop info) {
   return encoding;
 }
 
+// Uncompressed and compressed text under its keyword; "Description" is the ImageDescription of other formats.
+void readText(png_structp png, png_infop info, Image& image) {
+  png_textp texts = nullptr;
+  const int count = png_get_text(png, info, &texts, nullptr);
+  for (int i = 0; i < count; ++i) {
+    const std::string key = texts[i].key;
+    image.attributes.emplace_back(key == "Description" ? "ImageDescription" : key, std::string(texts[i].text));
+  }
+}
+
 template <typename Sample>
 void convert(Decoded& decoded, Image& image) {
   const auto* data = reinterpret_cast<const Sample*>(decoded.samples.data());
@@ -121,6 +131,7 @@ std::string decode(png_structp png, png_infop info, const std::string& error, Im
   if (!readRows(png, decoded)) return error;
   constexpr const char* kNames[] = {"Y", "A", "R", "G", "B"};
   image.encoding = readEncoding(png, info);
+  readText(png, info, image);
   image.width = decoded.width;
   image.height = decoded.height;
   if (decoded.channels < 3)

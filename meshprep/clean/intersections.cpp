@@ -184,7 +184,7 @@ class Search {
   }
 
   // Tests the triangles of two lists whose boxes overlap, except pairs with the hub as a common corner. Without a hub,
-  // `a` is part of `b`, and each pair is tested once.
+  // `a` is the end of `b`, and each pair is tested once.
   void searchBetween(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b, std::uint32_t hub) {
     if (a.empty() || b.empty() || !result_.complete) return;
     const auto take = [&](std::span<const std::uint32_t> list) {
@@ -193,7 +193,12 @@ class Search {
       for (const std::uint32_t i : list) boxes.push_back(boxes_[i]);
       return boxes;
     };
-    result_.complete = forOverlappingBoxes(take(a), take(b), mostCost(a.size() + b.size()),
+    std::vector<Box> boxesOfA, boxesOfB;
+    if (b.size() < boxes_.size()) boxesOfB = take(b);
+    const std::span<const Box> inB = boxesOfB.empty() ? boxes_ : boxesOfB;
+    if (hub != kNoSource) boxesOfA = take(a);
+    const std::span<const Box> inA = hub == kNoSource ? inB.last(a.size()) : boxesOfA;
+    result_.complete = forOverlappingBoxes(inA, inB, mostCost(a.size() + b.size()),
                                            [&](std::uint32_t k, std::uint32_t l) -> std::uint32_t {
                                              const std::uint32_t i = a[k], j = b[l];
                                              if (hub == kNoSource ? j >= i : hasCorner(i, hub)) return 0;

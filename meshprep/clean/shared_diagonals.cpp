@@ -171,6 +171,7 @@ class Recutter {
     const auto n = static_cast<std::uint32_t>(kept.size());
     const auto corners = polygons_.face(face);
     std::vector<glm::dvec3> points;
+    points.reserve(kept.size());
     for (const std::uint32_t c : kept) points.push_back(polygons_.positions[corners[c]]);
     const FlatPolygon flat = flatten(points);
     const auto conflict = [&](std::uint32_t i, std::uint32_t j) {

@@ -11,7 +11,7 @@ namespace malus {
 class Error : public std::runtime_error {
  public:
   // what() is "LOCATION: PROBLEM; expected EXPECTED, found FOUND"; an empty argument is left out with its separator
-  // ("LOCATION: PROBLEM; found FOUND"). Control characters become spaces, so the text is always one line.
+  // ("LOCATION: PROBLEM; found FOUND"). Control characters are escaped, so the text is always one line.
   //
   // location: "FILE", "FILE:LINE", "FILE, byte N", a key of a document, or the option ("--depth").
   // problem: clause without a full stop ("is not a regular file", "unknown key 'colour'").

@@ -54,8 +54,7 @@ void requireAxisInPlane(const pack::Mesh& mesh, const pack::Material& material, 
   if (material.axis == glm::dvec3(0.0)) return;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& t = mesh.triangles[i];
-    const glm::dvec3 p0(mesh.positions[t.x]),
-        across = glm::cross(glm::dvec3(mesh.positions[t.y]) - p0, glm::dvec3(mesh.positions[t.z]) - p0);
+    const glm::dvec3 p0 = mesh.positions[t.x], across = glm::cross(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0);
     const double length = glm::length(across);
     if (length > 0 && std::abs(glm::dot(across / length, material.axis)) > 1 - 1e-6)
       throw Error(file.string(),
@@ -150,15 +149,12 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   for (const PlacedMesh& mesh : placed.meshes)
     for (const glm::dvec3& p : mesh.world.positions) low = glm::min(low, p), high = glm::max(high, p);
 
-  // Make positions relative to the origin, then round them to float.
+  // Make positions relative to the origin. Writing the pack rounds them to a grid.
   scene.origin = d.origin.value_or((low + high) * 0.5);
   for (PlacedMesh& source : placed.meshes) {
     pack::Mesh& mesh = scene.meshes.emplace_back(std::move(source.packed));
-    for (const glm::dvec3& p : source.world.positions) {
-      const glm::dvec3 local = p - scene.origin;
-      mesh.positions.emplace_back(local);
-      baked.moved = std::max(baked.moved, glm::distance(local, glm::dvec3(mesh.positions.back())));
-    }
+    mesh.positions = std::move(source.world.positions);
+    for (glm::dvec3& p : mesh.positions) p -= scene.origin;
     mesh.normals = std::move(source.world.normals);
     mesh.triangles = std::move(source.world.triangles);
     requireAxisInPlane(mesh, scene.materials[mesh.material], d.file);

@@ -26,7 +26,6 @@ struct Baked {
   pack::Scene scene;
   std::vector<prep::Report> reports;  // per mesh of the description, then per part of an import
   std::vector<std::string> notes;     // left out contents of files, meshes not simplified, glass not certified
-  double moved = 0;                   // metres; largest distance that rounding to float moves a vertex
   std::optional<DepthProbe> probe;    // measured by the caller
 };
 

@@ -26,7 +26,7 @@ Totals addUp(const Baked& baked, const pack::Written& written) {
   for (const pack::MeshCompression& m : written.meshes) {
     totals.geometryBytes += m.sizeBytes;
     totals.reencoded += m.reused ? 0 : 1;
-    totals.worst.positionMax = std::max(totals.worst.positionMax, m.deviation.positionMax + baked.moved);
+    totals.worst.positionMax = std::max(totals.worst.positionMax, m.deviation.positionMax);
     totals.worst.normalMaxDegrees = std::max(totals.worst.normalMaxDegrees, m.deviation.normalMaxDegrees);
     totals.worst.tiltMaxDegrees = std::max(totals.worst.tiltMaxDegrees, m.deviation.tiltMaxDegrees);
   }
@@ -55,14 +55,17 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
                       {"triangles", mesh.triangles.size()},
                       {"sizeBytes", m.sizeBytes},
                       {"bytesPerTriangle", perTriangle(m.sizeBytes, mesh.triangles.size())},
+                      {"positionBits", m.positionBits},
                       {"normalBits", m.normalBits},
                       {"reused", m.reused},
                       {"encodeMs", m.encodeMs},
                       {"decodeMs", m.decodeMs},
                       {"errors",
-                       {{"positionMax", m.deviation.positionMax + baked.moved},
+                       {{"positionMax", m.deviation.positionMax},
                         {"normalMaxDegrees", m.deviation.normalMaxDegrees},
                         {"tiltMaxDegrees", m.deviation.tiltMaxDegrees},
+                        {"tilted", m.deviation.tilted},
+                        {"tiltedArea", m.deviation.tiltedArea},
                         {"flipped", m.deviation.flipped},
                         {"degenerate", m.deviation.newDegenerate}}}});
   }
@@ -75,7 +78,7 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
           {"vertices", baked.scene.vertexCount()},
           {"triangles", baked.scene.triangleCount()},
           {"bytesPerTriangle", perTriangle(totals.geometryBytes, baked.scene.triangleCount())},
-          {"positionBits", written.grid.positionBits},
+          {"positionBits", written.positionBits},
           {"reencoded", totals.reencoded},
           {"fullRebakeReason", written.fullRebakeReason},
           {"meshes", meshes},
@@ -98,7 +101,7 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
       "degrees)\n",
       baked.scene.name, baked.scene.meshes.size(), baked.scene.vertexCount(), baked.scene.triangleCount(),
       printable(output), written.bytes.size(), perTriangle(totals.geometryBytes, baked.scene.triangleCount()),
-      written.grid.positionBits, totals.worst.positionMax, totals.worst.normalMaxDegrees, totals.worst.tiltMaxDegrees);
+      written.positionBits, totals.worst.positionMax, totals.worst.normalMaxDegrees, totals.worst.tiltMaxDegrees);
   if (rebaked)
     text += fmt::format("  {} of {} meshes re-encoded{}{}\n", totals.reencoded, written.meshes.size(),
                         written.fullRebakeReason.empty() ? "" : ": ", written.fullRebakeReason);
@@ -111,8 +114,8 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
     const pack::Mesh& mesh = baked.scene.meshes[i];
     text += fmt::format("  {:<24}{:>10}{:>12.2f}{:>6}{:>11.2g}{:>11.2g}{:>11.2g}{:>10.1f}{:>10.1f}  {}{}{}{}\n",
                         printable(mesh.name), mesh.triangles.size(), perTriangle(m.sizeBytes, mesh.triangles.size()),
-                        m.normalBits, m.deviation.positionMax + baked.moved, m.deviation.normalMaxDegrees,
-                        m.deviation.tiltMaxDegrees, m.encodeMs, m.decodeMs, m.method, m.reused ? ", reused" : "",
+                        m.normalBits, m.deviation.positionMax, m.deviation.normalMaxDegrees, m.deviation.tiltMaxDegrees,
+                        m.encodeMs, m.decodeMs, m.method, m.reused ? ", reused" : "",
                         m.sequentialReason.empty() ? "" : ": ", m.sequentialReason);
   }
 

@@ -89,7 +89,6 @@ void runBake(const BakeArguments& arguments, const MeasureDepth& measure) {
   }
   console::progress("compressing");
   pack::WriteSettings settings = arguments.settings;
-  settings.conversionError = baked.moved;
   settings.provenance = [&](std::vector<std::string> warnings) {
     warnings.insert(warnings.begin(), baked.notes.begin(), baked.notes.end());
     return withWarnings(baked.scene.provenance, std::move(warnings));

@@ -81,7 +81,7 @@ void compareGeometry(const pack::Scene& a, const pack::Scene& b, json& changes) 
                          {"b", fmt::format("{:016x}", hashMesh(*other))}});
       continue;
     }
-    float farthest = 0;
+    double farthest = 0;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
       farthest = std::max(farthest, glm::distance(mesh.positions[i], other->positions[i]));
     changes.push_back({{"where", where},

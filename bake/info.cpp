@@ -42,7 +42,7 @@ std::string encodingText(const pack::Pack& pack) {
     text += fmt::format(
         "  positions of {} bits within {:.3g} m, normals within {:.3g} degrees, faces tilted by at most {:.3g} "
         "degrees\n",
-        pack.encodings.grid.positionBits, worst.positionMax, worst.normalMaxDegrees, worst.tiltMaxDegrees);
+        pack.encodings.positionBits(), worst.positionMax, worst.normalMaxDegrees, worst.tiltMaxDegrees);
   }
   if (pack.hasSourceMap()) text += "  the map to the source's vertices and faces is kept\n";
   return text;
@@ -73,6 +73,8 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                       {"material", scene.materials[m.material].name},
                       {"openSurface", m.openSurface},
                       {"encoding", pack.compression[i]},
+                      {"positionBits", pack.encodings.known() ? json(pack.encodings.meshes[i].positionBits) : json()},
+                      {"origin", {m.origin.x, m.origin.y, m.origin.z}},
                       {"normalBits", pack.encodings.known() ? json(pack.encodings.meshes[i].normalBits) : json()},
                       {"errors", pack.encodings.known() ? errorsJson(pack.encodings.meshes[i].deviation) : json()}});
   }
@@ -94,7 +96,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
           {"vertices", scene.vertexCount()},
           {"triangles", scene.triangleCount()},
           {"geometryHash", hex(pack::canonicalGeometryHash(scene))},
-          {"positionBits", pack.encodings.known() ? json(pack.encodings.grid.positionBits) : json()},
+          {"positionBits", pack.encodings.known() ? json(pack.encodings.positionBits()) : json()},
           {"sourceMap", pack.hasSourceMap()},
           {"meshes", meshes},
           {"materials", materials},

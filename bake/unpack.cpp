@@ -1,5 +1,6 @@
 #include "bake/unpack.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <regex>
@@ -13,6 +14,7 @@
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/image.h"
+#include "meshprep/compress/grid_rounding.h"
 #include "meshprep/json_text.h"
 
 namespace malus::bake {
@@ -23,11 +25,14 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the PLY files are written as little-endian");
 
-// Polygon File Format, binary little-endian: float x y z (nx ny nz), faces as lists of int.
+// Polygon File Format, binary little-endian: x y z (float if no digit is lost, else double), float nx ny nz, faces as
+// lists of int.
 std::string plyText(const pack::Mesh& mesh) {
+  const bool floats = std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                                  [](const glm::dvec3& p) { return compress::isFloat(p); });
   std::string text = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n",
-      mesh.positions.size());
+      "ply\nformat binary_little_endian 1.0\nelement vertex {0}\nproperty {1} x\nproperty {1} y\nproperty {1} z\n",
+      mesh.positions.size(), floats ? "float" : "double");
   if (!mesh.normals.empty()) text += "property float nx\nproperty float ny\nproperty float nz\n";
   text += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size());
   const auto append = [&](const auto& value) {
@@ -36,7 +41,10 @@ std::string plyText(const pack::Mesh& mesh) {
     text.append(bytes, sizeof value);
   };
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    append(mesh.positions[i]);
+    if (floats)
+      append(glm::vec3(mesh.positions[i]));
+    else
+      append(mesh.positions[i]);
     if (!mesh.normals.empty()) append(mesh.normals[i]);
   }
   for (const glm::uvec3& triangle : mesh.triangles) {

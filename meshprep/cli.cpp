@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "meshprep/base/atomic_file.h"
@@ -19,6 +18,8 @@
 #include "meshprep/base/output_files.h"
 #include "meshprep/compress/bounds.h"
 #include "meshprep/compress/draco_mesh.h"
+#include "meshprep/compress/mesh_file.h"
+#include "meshprep/compress/rounding.h"
 #include "meshprep/deprecated_option.h"
 #include "meshprep/json_text.h"
 #include "meshprep/number_option.h"
@@ -47,19 +48,6 @@ struct Arguments {
   compress::Bounds bounds;
   std::string mapFile;
 };
-
-// Converts positions to float for compression. Returns the largest distance that a position moves, in metres.
-double convertToFloat(const Mesh& mesh, compress::TriangleMesh& result) {
-  double moved = 0;
-  result.positions.reserve(mesh.positions.size());
-  for (const glm::dvec3& p : mesh.positions) {
-    result.positions.emplace_back(p);
-    moved = std::max(moved, glm::distance(p, glm::dvec3(result.positions.back())));
-  }
-  result.normals = mesh.normals;
-  result.triangles = mesh.triangles;
-  return moved;
-}
 
 void printReport(const Arguments& arguments, const Report& report) {
   const std::string json = jsonText(toJson(report)) + "\n";
@@ -106,6 +94,16 @@ void checkFiles(const Arguments& arguments) {
   files.check();
 }
 
+void setErrors(const compress::Deviation& deviation, Report& report) {
+  report.errors.positionMax = deviation.positionMax;
+  report.errors.normalMaxDegrees = deviation.normalMaxDegrees;
+  report.errors.tiltMaxDegrees = deviation.tiltMaxDegrees;
+  report.errors.tilted = deviation.tilted;
+  report.errors.tiltedArea = deviation.tiltedArea;
+  report.errors.flipped = deviation.flipped;
+  report.errors.degenerate = deviation.newDegenerate;
+}
+
 void runPrep(const Arguments& arguments) {
   checkFiles(arguments);
   // Clean.
@@ -120,26 +118,28 @@ void runPrep(const Arguments& arguments) {
   requireCertificate(arguments, report);
 
   // Compress on a grid around the mesh.
-  compress::TriangleMesh source;
-  const double moved = convertToFloat(mesh, source);
-  const compress::MeshView view = source;
-  const compress::Bits bits = compress::chooseBits({&view, 1}, arguments.bounds, moved);
-  const compress::Settings settings{bits.grid, bits.normalBits.front()};
-  const compress::Encoded encoded = compress::encode(source, settings);
+  const compress::MeshView view(mesh.positions, mesh.normals, mesh.triangles);
+  const compress::RoundedMesh rounded =
+      std::move(compress::roundMeshes({&view, 1}, arguments.bounds, compress::Precision::doubles).front());
+  const compress::Settings settings{rounded.grid, rounded.normalBits};
+  const compress::Encoded encoded = compress::encode(view, rounded.positions, settings);
+  const bool glass = arguments.certify == "glass";
   report.compression.warnings =
-      compress::checkBounds(encoded.deviation, settings, arguments.bounds, arguments.input, moved);
-  report.errors = {moved + encoded.deviation.positionMax, encoded.deviation.normalMaxDegrees,
-                   encoded.deviation.tiltMaxDegrees, encoded.deviation.flipped, encoded.deviation.newDegenerate};
+      compress::checkBounds(encoded.deviation, settings, arguments.bounds, glass, arguments.input);
+  setErrors(encoded.deviation, report);
   report.compression.method = encoded.method;
-  report.compression.bytes = encoded.bytes.size();
+  const std::vector<std::byte> file = compress::meshFileBytes(encoded.bytes, settings.grid);
+  report.compression.bytes = file.size();
   report.compression.sequentialReason = encoded.sequentialReason;
   report.compression.positionBits = settings.grid.positionBits;
-  report.compression.normalBits = source.normals.empty() ? 0 : settings.normalBits;
+  report.compression.normalBits = mesh.normals.empty() ? 0 : settings.normalBits;
+  report.compression.origin = settings.grid.origin;
+  report.compression.step = settings.grid.step;
   report.compression.encodeMs = encoded.encodeMs;
   report.compression.decodeMs = encoded.decodeMs;
 
   // Write the files, then print the report.
-  writeFile(arguments.output, encoded.bytes);
+  writeFile(arguments.output, file);
   if (!arguments.mapFile.empty()) writeFile(arguments.mapFile, std::string_view(mapJson(mesh, encoded)));
   printReport(arguments, report);
 }

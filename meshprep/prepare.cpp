@@ -18,6 +18,7 @@
 #include "meshprep/clean/junctions.h"
 #include "meshprep/clean/select.h"
 #include "meshprep/clean/triangulate.h"
+#include "meshprep/compress/draco_mesh.h"
 #include "meshprep/normals/authored_normals.h"
 #include "meshprep/normals/crease_normals.h"
 #include "meshprep/normals/smoothing_normals.h"
@@ -311,6 +312,10 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
   } catch (const Error& error) {  // names only the face
     throw Error(source, error.what());
   }
+  std::vector<glm::dvec3> used;
+  for (const glm::uvec3& t : mesh.triangles)
+    used.insert(used.end(), {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]});
+  compress::requireAcceptedSize(used, source);
   report.steps.push_back({"polygons-triangulated", counts.polygons, {}});
   report.steps.push_back({"polygons-concave", counts.concave, {}});
   report.steps.push_back({"polygons-non-planar", counts.nonPlanar, {}});

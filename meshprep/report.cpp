@@ -75,20 +75,23 @@ nlohmann::json toJson(const Report& report) {
           {{"component", p.component}, {"what", p.what}, {"where", p.where}, {"repair", p.repair}});
   }
   if (report.compression.bytes > 0) {
-    json["errors"] = {{"positionMax", report.errors.positionMax},
-                      {"normalMaxDegrees", report.errors.normalMaxDegrees},
-                      {"tiltMaxDegrees", report.errors.tiltMaxDegrees},
-                      {"flipped", report.errors.flipped},
-                      {"degenerate", report.errors.degenerate}};
-    json["compression"] = {{"method", report.compression.method},
-                           {"sequentialReason", report.compression.sequentialReason},
-                           {"bytes", report.compression.bytes},
-                           {"bytesPerTriangle", bytesPerTriangle(report)},
-                           {"positionBits", report.compression.positionBits},
-                           {"normalBits", report.compression.normalBits},
-                           {"encodeMs", report.compression.encodeMs},
-                           {"decodeMs", report.compression.decodeMs},
-                           {"warnings", report.compression.warnings}};
+    json["errors"] = {
+        {"positionMax", report.errors.positionMax},       {"normalMaxDegrees", report.errors.normalMaxDegrees},
+        {"tiltMaxDegrees", report.errors.tiltMaxDegrees}, {"tilted", report.errors.tilted},
+        {"tiltedArea", report.errors.tiltedArea},         {"flipped", report.errors.flipped},
+        {"degenerate", report.errors.degenerate}};
+    json["compression"] = {
+        {"method", report.compression.method},
+        {"sequentialReason", report.compression.sequentialReason},
+        {"bytes", report.compression.bytes},
+        {"bytesPerTriangle", bytesPerTriangle(report)},
+        {"positionBits", report.compression.positionBits},
+        {"origin", {report.compression.origin.x, report.compression.origin.y, report.compression.origin.z}},
+        {"step", report.compression.step},
+        {"normalBits", report.compression.normalBits},
+        {"encodeMs", report.compression.encodeMs},
+        {"decodeMs", report.compression.decodeMs},
+        {"warnings", report.compression.warnings}};
   }
   return json;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include "meshprep/certify/certificate.h"
@@ -52,6 +53,8 @@ struct Report {
     double positionMax = 0;        // metres
     double normalMaxDegrees = 0;   // degrees
     double tiltMaxDegrees = 0;     // of faces with area
+    std::uint64_t tilted = 0;      // faces tilted by more than 0.1 degrees
+    double tiltedArea = 0;         // their area, square metres
     std::uint64_t flipped = 0;     // faces tilted by more than 90 degrees
     std::uint64_t degenerate = 0;  // faces that lost their area
   } errors;
@@ -60,6 +63,8 @@ struct Report {
     std::uint64_t bytes = 0;
     std::string sequentialReason;  // reason against edgebreaker; empty if it is used
     int positionBits = 0;
+    glm::dvec3 origin{0};  // position = origin + step * integer, metres
+    double step = 0;
     int normalBits = 0;                 // 0 without normals
     double encodeMs = 0, decodeMs = 0;  // wall-clock time
     std::vector<std::string> warnings;  // exceeded default bounds
@@ -74,9 +79,10 @@ struct Report {
 //  components[{triangles, closed, orientable, flipped, signedVolume, hasVolume, at, firstFace}],
 //  simplification{trianglesBefore, trianglesAfter, maxDeviation, maxNormalDegrees, warnings},
 //  certificate{granted, problems[{component, what, where, repair}]}, errors{positionMax, normalMaxDegrees,
-//  tiltMaxDegrees, flipped, degenerate}, compression{method, sequentialReason, bytes, bytesPerTriangle, positionBits,
-//  normalBits, encodeMs, decodeMs, warnings}}; simplification and certificate only if requested, errors and
-//  compression only if the mesh was compressed, findings and their members only if they are not empty.
+//  tiltMaxDegrees, tilted, tiltedArea, flipped, degenerate}, compression{method, sequentialReason, bytes,
+//  bytesPerTriangle, positionBits, origin, step, normalBits, encodeMs, decodeMs, warnings}}; simplification and
+//  certificate only if requested, errors and compression only if the mesh was compressed, findings and their members
+//  only if they are not empty.
 nlohmann::json toJson(const Report& report);
 
 // Returns a table for a terminal, which ends with a newline. Contains the steps with findings, and the first of each.

@@ -22,10 +22,10 @@ bool isInterface(const pack::Scene& scene, const pack::Mesh& mesh) {
 bool allClosed(const pack::Scene& scene) {
   for (const pack::Mesh& mesh : scene.meshes) {
     if (!isInterface(scene, mesh)) continue;
-    std::map<std::array<float, 3>, int> positionIds;
+    std::map<std::array<double, 3>, int> positionIds;
     const auto positionId = [&](std::uint32_t corner) {
-      const glm::vec3& p = mesh.positions[corner];
-      return positionIds.emplace(std::array<float, 3>{p.x, p.y, p.z}, static_cast<int>(positionIds.size()))
+      const glm::dvec3& p = mesh.positions[corner];
+      return positionIds.emplace(std::array<double, 3>{p.x, p.y, p.z}, static_cast<int>(positionIds.size()))
           .first->second;
     };
     std::map<std::pair<int, int>, int> edges;
@@ -44,10 +44,10 @@ bool allClosed(const pack::Scene& scene) {
 }  // namespace
 
 double flatness(const pack::Scene& scene) {
-  glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+  glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const pack::Mesh& mesh : scene.meshes)
-    for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  const glm::dvec3 extent = glm::dvec3(high) - glm::dvec3(low), far = glm::max(glm::abs(low), glm::abs(high));
+    for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  const glm::dvec3 extent = high - low, far = glm::max(glm::abs(low), glm::abs(high));
   return 2e-6 * std::max({0.0, extent.x, extent.y, extent.z}) + 2.5e-7 * std::max({0.0, far.x, far.y, far.z});
 }
 
@@ -68,8 +68,7 @@ bool interfacesMutuallyVisible(const pack::Scene& scene) {
       corners.emplace_back(mesh.positions[i]);
     }
     for (const glm::uvec3& t : mesh.triangles) {
-      const glm::dvec3 p0(mesh.positions[t.x]),
-          n = glm::cross(glm::dvec3(mesh.positions[t.y]) - p0, glm::dvec3(mesh.positions[t.z]) - p0);
+      const glm::dvec3 p0 = mesh.positions[t.x], n = glm::cross(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0);
       if (glm::length(n) > 0) faces.push_back({p0, glm::normalize(n)});
     }
   }

@@ -2,6 +2,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <utility>
@@ -40,16 +41,24 @@ class Hash {
 
 }  // namespace
 
-std::uint64_t inputHash(const Mesh& mesh, const compress::Settings& settings, bool keepMap) {
+std::uint32_t Encodings::positionBits() const {
+  std::uint32_t most = 0;
+  for (const MeshEncoding& m : meshes) most = std::max(most, m.positionBits);
+  return most;
+}
+
+std::uint64_t inputHash(const Mesh& mesh, const compress::RoundedMesh& rounded, bool keepMap) {
   ByteWriter codec;
-  for (int axis = 0; axis < 3; ++axis) codec.f32(settings.grid.origin[axis]);
-  codec.f32(settings.grid.range);
-  codec.u32(static_cast<std::uint32_t>(settings.grid.positionBits));
-  codec.u32(static_cast<std::uint32_t>(settings.normalBits));
+  codec.dvec3(rounded.grid.origin);
+  codec.f64(rounded.grid.step);
+  codec.u32(static_cast<std::uint32_t>(rounded.grid.positionBits));
+  codec.dvec3(rounded.origin);
+  codec.u32(static_cast<std::uint32_t>(rounded.normalBits));
   codec.u32(keepMap ? 1 : 0);
   Hash hash;
   hash.add(codec.take());
   hash.add(mesh.positions);
+  hash.add(rounded.positions);
   hash.add(mesh.normals);
   hash.add(mesh.triangles);
   if (keepMap) hash.add(mesh.sourceVertices), hash.add(mesh.sourceFaces);
@@ -58,23 +67,26 @@ std::uint64_t inputHash(const Mesh& mesh, const compress::Settings& settings, bo
 
 std::vector<std::byte> encodingBytes(const Encodings& encodings) {
   ByteWriter w;
-  visitGrid(FieldWriter(w), encodings.grid);
   w.u32(static_cast<std::uint32_t>(encodings.meshes.size()));
-  for (const MeshEncoding& m : encodings.meshes) visitMeshEncoding(FieldWriter(w), m);
+  for (const MeshEncoding& m : encodings.meshes) visitMeshEncoding(FieldWriter(w, {kEncodings, kNewestEncodings}), m);
   return w.take();
 }
 
-Encodings readEncodings(ByteReader r, std::size_t meshes) {
+Encodings readEncodings(ByteReader r, std::uint32_t version, std::size_t meshes) {
   Encodings encodings;
-  visitGrid(FieldReader(r), encodings.grid);
-  FieldSizes sizes;
+  SharedGrid shared;
+  if (version == 1) visitSharedGrid(FieldReader(r), shared);
+  FieldSizes sizes({kEncodings, version});
   const MeshEncoding any{};
   visitMeshEncoding(sizes, any);
   const std::uint32_t count = r.count(sizes.bytes(), kMaxMeshes, "number of encodings");
   if (count != meshes)
     r.fail("number of encodings", fmt::format("{}, the number of meshes", meshes), fmt::format("{}", count));
   encodings.meshes.resize(count);
-  for (MeshEncoding& m : encodings.meshes) visitMeshEncoding(FieldReader(r), m);
+  for (MeshEncoding& m : encodings.meshes) {
+    m.positionBits = shared.positionBits;
+    visitMeshEncoding(FieldReader(r, {kEncodings, version}), m);
+  }
   r.end();
   return encodings;
 }

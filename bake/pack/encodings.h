@@ -18,14 +18,15 @@ struct DracoData {
 
 struct MeshEncoding {
   std::uint64_t inputHash = 0;  // of every input of the encoder
+  std::uint32_t positionBits = 0;
   std::uint32_t normalBits = 0;
   compress::Deviation deviation;
   std::string sequentialReason;  // empty for edgebreaker
 };
 
 struct Encodings {
-  compress::Grid grid;
-  std::vector<MeshEncoding> meshes;  // per mesh; empty if the pack has no section ENCD
+  std::vector<MeshEncoding> meshes;    // per mesh; empty if the pack has no section ENCD
+  std::uint32_t positionBits() const;  // the largest of the meshes
   bool known() const { return !meshes.empty(); }
 };
 

@@ -10,6 +10,7 @@
 #include "bake/pack/record_fields.h"
 #include "meshprep/base/error.h"
 #include "meshprep/compress/draco_mesh.h"
+#include "meshprep/compress/grid_rounding.h"
 
 namespace malus::pack {
 
@@ -29,24 +30,39 @@ void checkEntry(const ByteReader& r, const MeshEntry& entry, std::size_t materia
            fmt::format("offset {}, size {}", entry.offset, entry.sizeBytes));
 }
 
-Mesh decodeMesh(const ByteReader& r, const MeshEntry& entry, std::span<const std::byte> bytes, std::string_view where) {
-  compress::TriangleMesh decoded =
-      compress::decode(bytes, {entry.vertices, entry.triangles}, fmt::format("{}, mesh '{}'", where, entry.name));
+// version: that of the section MESH; in version 1, positions are floats.
+compress::TriangleMesh decodeGeometry(const MeshEntry& entry, std::uint32_t version, std::span<const std::byte> bytes,
+                                      std::string_view where) {
+  const std::string location = fmt::format("{}, mesh '{}'", where, entry.name);
+  const compress::Limits limits{entry.vertices, entry.triangles};
+  if (version == 1) return compress::decodeFloats(bytes, limits, location);
+  return compress::decode(bytes, limits, {entry.gridOrigin, entry.gridStep, compress::kMaxPositionBits}, location);
+}
+
+Mesh decodeMesh(const ByteReader& r, const MeshEntry& entry, std::uint32_t version, std::span<const std::byte> bytes,
+                std::string_view where) {
+  compress::TriangleMesh decoded = decodeGeometry(entry, version, bytes, where);
   const bool hasNormals = (entry.flags & kNormalsFlag) != 0;
   if (decoded.normals.empty() == hasNormals)
     r.fail(fmt::format("normals of mesh '{}'", entry.name), hasNormals ? "normals, by its flags" : "none, by its flags",
            hasNormals ? "none" : "normals");
-  for (const glm::vec3& p : decoded.positions) {
-    const float farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    if (farthest > static_cast<float>(kMaxCoordinate))
+  if (!compress::isFloat(entry.origin))
+    r.fail(fmt::format("origin of mesh '{}'", entry.name), "coordinates that are floats", "more digits");
+  for (const glm::dvec3& p : decoded.positions) {
+    const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (farthest > kMaxCoordinate)
       r.fail(fmt::format("positions of mesh '{}'", entry.name),
              fmt::format("coordinates within {:g} m of the scene's origin", kMaxCoordinate),
              fmt::format("{:g} m", farthest));
+    if (!compress::isFloat(p - entry.origin))
+      r.fail(fmt::format("positions of mesh '{}'", entry.name), "floats, relative to the origin of the mesh",
+             "more digits");
   }
   Mesh mesh;
   mesh.name = entry.name;
   mesh.material = entry.material;
   mesh.openSurface = (entry.flags & kOpenSurfaceFlag) != 0;
+  mesh.origin = entry.origin;
   mesh.positions = std::move(decoded.positions);
   mesh.normals = std::move(decoded.normals);
   mesh.triangles = std::move(decoded.triangles);
@@ -55,9 +71,9 @@ Mesh decodeMesh(const ByteReader& r, const MeshEntry& entry, std::span<const std
 
 }  // namespace
 
-void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::uint64_t geometryOffset, std::string_view where,
-                Pack& pack) {
-  FieldSizes sizes;
+void readMeshes(ByteReader r, std::uint32_t version, std::span<const std::byte> geometry, std::uint64_t geometryOffset,
+                std::string_view where, Pack& pack) {
+  FieldSizes sizes({kMeshes, version});
   const MeshEntry any{};
   visitMeshEntry(sizes, any);
   const std::uint32_t count = r.count(sizes.bytes(), kMaxMeshes, "number of meshes");
@@ -65,7 +81,7 @@ void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::uint64_t
   std::uint64_t vertices = 0, triangles = 0, end = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     MeshEntry entry;
-    visitMeshEntry(FieldReader(r), entry);
+    visitMeshEntry(FieldReader(r, {kMeshes, version}), entry);
     checkEntry(r, entry, pack.scene.materials.size(), geometry.size(), end);
     end = entry.offset + entry.sizeBytes;
     vertices += entry.vertices;
@@ -75,7 +91,7 @@ void readMeshes(ByteReader r, std::span<const std::byte> geometry, std::uint64_t
              fmt::format("{} vertices and {} triangles", vertices, triangles));
     const auto bytes =
         geometry.subspan(static_cast<std::size_t>(entry.offset), static_cast<std::size_t>(entry.sizeBytes));
-    pack.scene.meshes.push_back(decodeMesh(r, entry, bytes, where));
+    pack.scene.meshes.push_back(decodeMesh(r, entry, version, bytes, where));
     pack.geometry.push_back({geometryOffset + entry.offset, entry.sizeBytes});
     pack.compression.emplace_back(entry.isEdgebreaker == 1 ? "edgebreaker" : "sequential");
   }

@@ -12,10 +12,10 @@
 
 namespace malus::pack {
 
-// table: contents of MESH; geometry: those of GEOM, at geometryOffset in the file. Fills meshes, compression and
-// geometry of the pack, whose materials must have been read. Throws Error.
-void readMeshes(ByteReader table, std::span<const std::byte> geometry, std::uint64_t geometryOffset,
-                std::string_view where, Pack& pack);
+// table: contents of MESH, of this version; geometry: those of GEOM, at geometryOffset in the file. Fills meshes,
+// compression and geometry of the pack, whose materials must have been read. Throws Error.
+void readMeshes(ByteReader table, std::uint32_t version, std::span<const std::byte> geometry,
+                std::uint64_t geometryOffset, std::string_view where, Pack& pack);
 
 // Fills the meshes' maps to their sources. Throws Error.
 void readSourceMap(ByteReader reader, std::vector<Mesh>& meshes);

@@ -12,6 +12,7 @@
 #include "bake/pack/record_fields.h"
 #include "meshprep/base/error.h"
 #include "meshprep/compress/bounds.h"
+#include "meshprep/compress/rounding.h"
 
 namespace malus::pack {
 
@@ -67,65 +68,71 @@ std::vector<std::uint32_t> composed(const std::vector<std::uint32_t>& order, con
   return result;
 }
 
-// Reason for reusing no mesh of the previous pack if the grid, which all meshes share, changed; else empty.
-std::string gridChange(const compress::Grid& before, const compress::Grid& after) {
-  if (before.origin != after.origin || before.range != after.range)
-    return fmt::format(
-        "the grid that all meshes share moved: its corner was ({:g}, {:g}, {:g}) and its side {:g} m, now "
-        "({:g}, {:g}, {:g}) and {:g} m",
-        before.origin.x, before.origin.y, before.origin.z, before.range, after.origin.x, after.origin.y, after.origin.z,
-        after.range);
-  if (before.positionBits != after.positionBits)
-    return fmt::format("positions have {} bits instead of {}", after.positionBits, before.positionBits);
+// Reason for reusing no mesh of the previous pack if the grids of all meshes changed; else empty.
+std::string gridChange(const Scene& before, const Scene& after, std::uint32_t bitsBefore, std::uint32_t bitsAfter) {
+  if (before.origin != after.origin)
+    return fmt::format("the grids moved: the scene's origin was ({:g}, {:g}, {:g}), now ({:g}, {:g}, {:g})",
+                       before.origin.x, before.origin.y, before.origin.z, after.origin.x, after.origin.y,
+                       after.origin.z);
+  if (bitsBefore != bitsAfter) return fmt::format("positions have {} bits instead of {}", bitsAfter, bitsBefore);
   return {};
+}
+
+// Encodes a mesh and fills its encoding and its report.
+compress::Encoded encodeMesh(const Mesh& mesh, const compress::RoundedMesh& rounded, const compress::Settings& codec,
+                             MeshEncoding& encoding, MeshCompression& report) {
+  compress::Encoded encoded;
+  try {
+    encoded = compress::encode({mesh.positions, mesh.normals, mesh.triangles}, rounded.positions, codec);
+  } catch (const Error& error) {
+    throw Error(fmt::format("mesh '{}'", mesh.name), error.what());
+  }
+  encoding.positionBits = static_cast<std::uint32_t>(codec.grid.positionBits);
+  encoding.normalBits = mesh.normals.empty() ? 0u : static_cast<std::uint32_t>(codec.normalBits);
+  encoding.deviation = encoded.deviation;
+  encoding.sequentialReason = encoded.sequentialReason;
+  report.method = encoded.method;
+  report.encodeMs = encoded.encodeMs;
+  report.decodeMs = encoded.decodeMs;
+  return encoded;
 }
 
 }  // namespace
 
 EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const PreviousPack* previous) {
-  // Choose the bits.
+  // Round the meshes.
   std::vector<compress::MeshView> views;
   for (const Mesh& mesh : scene.meshes) views.emplace_back(mesh.positions, mesh.normals, mesh.triangles);
-  const compress::Bits bits = compress::chooseBits(views, settings.bounds, settings.conversionError);
+  const std::vector<compress::RoundedMesh> rounded =
+      compress::roundMeshes(views, settings.bounds, compress::Precision::floats);
   EncodedMeshes all;
-  all.encodings.grid = bits.grid;
   const ReusableMeshes reusable(previous);
-  if (previous != nullptr && previous->pack->encodings.known())
-    all.fullRebakeReason = gridChange(previous->pack->encodings.grid, bits.grid);
 
   // Encode or reuse each mesh.
   ByteWriter table, geometry, map;
   table.u32(static_cast<std::uint32_t>(scene.meshes.size()));
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
-    const std::string where = fmt::format("mesh '{}'", mesh.name);
-    const compress::Settings codec{bits.grid, bits.normalBits[i]};
-    const std::uint64_t hash = inputHash(mesh, codec, settings.keepMap);
+    const compress::Settings codec{rounded[i].grid, rounded[i].normalBits, compress::kLeastFloatCross};
     MeshCompression report;
     MeshEncoding encoding;
     compress::Encoded encoded;
     Result result;
+    const std::uint64_t hash = inputHash(mesh, rounded[i], settings.keepMap);
     if (const auto at = reusable.find(hash, mesh, settings.keepMap)) {
       result = reusable.take(*at, encoding, report);
     } else {
-      try {
-        encoded = compress::encode(views[i], codec);
-      } catch (const Error& error) {
-        throw Error(where, error.what());
-      }
-      encoding = {hash, mesh.normals.empty() ? 0u : static_cast<std::uint32_t>(codec.normalBits), encoded.deviation,
-                  encoded.sequentialReason};
-      report.method = encoded.method;
-      report.encodeMs = encoded.encodeMs;
-      report.decodeMs = encoded.decodeMs;
+      encoded = encodeMesh(mesh, rounded[i], codec, encoding, report);
+      encoding.inputHash = hash;
       result = {encoded.bytes, encoded.decoded.positions.size(), encoded.decoded.triangles.size(), {}, {}};
       if (settings.keepMap) {
         result.sourceVertices = composed(encoded.sourceVertices, mesh.sourceVertices);
         result.sourceFaces = composed(encoded.sourceTriangles, mesh.sourceFaces);
       }
     }
+    const bool glass = mesh.material < scene.materials.size() && hasInside(scene.materials[mesh.material].kind);
     for (std::string& warning :
-         compress::checkBounds(encoding.deviation, codec, settings.bounds, where, settings.conversionError))
+         compress::checkBounds(encoding.deviation, codec, settings.bounds, glass, fmt::format("mesh '{}'", mesh.name)))
       all.warnings.push_back(std::move(warning));
 
     // Write its entry, its bytes and its map.
@@ -137,18 +144,25 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
                           static_cast<std::uint32_t>(result.triangles),
                           report.method == "edgebreaker" ? 1u : 0u,
                           geometry.size(),
-                          result.bytes.size()};
-    visitMeshEntry(FieldWriter(table), entry);
+                          result.bytes.size(),
+                          codec.grid.origin,
+                          codec.grid.step,
+                          rounded[i].origin};
+    visitMeshEntry(FieldWriter(table, {kMeshes, kNewestMeshes}), entry);
     geometry.raw(result.bytes);
     for (const std::uint32_t v : result.sourceVertices) map.u32(v);
     for (const std::uint32_t f : result.sourceFaces) map.u32(f);
     report.sequentialReason = encoding.sequentialReason;
     report.sizeBytes = result.bytes.size();
+    report.positionBits = static_cast<int>(encoding.positionBits);
     report.normalBits = static_cast<int>(encoding.normalBits);
     report.deviation = encoding.deviation;
     all.report.push_back(std::move(report));
     all.encodings.meshes.push_back(std::move(encoding));
   }
+  if (previous != nullptr && previous->pack->encodings.known())
+    all.fullRebakeReason = gridChange(previous->pack->scene, scene, previous->pack->encodings.positionBits(),
+                                      all.encodings.positionBits());
   all.table = table.take();
   all.geometry = geometry.take();
   all.map = map.take();

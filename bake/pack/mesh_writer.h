@@ -1,9 +1,10 @@
-// Encodes the geometry of a scene pack: one grid for all meshes, every mesh checked by decoding, unchanged meshes
-// reused from a previous pack.
+// Encodes the geometry of a scene pack: a grid for each mesh, every mesh checked by decoding, unchanged meshes reused
+// from a previous pack.
 //
-// A mesh is reused if the hash of the encoder's whole input is the same: positions, normals and triangles as floats,
-// grid, bits, and the map to the source if it is kept. One version of the codec gives equal bytes for equal inputs, so
-// the result is that of encoding again, bit by bit. The caller ensures that the previous pack is of the same versions.
+// A mesh is reused if the hash of the encoder's whole input is the same: positions before and after rounding, normals
+// and triangles, grid, origin, bits, and the map to the source if it is kept. One version of the codec gives equal
+// bytes for equal inputs, so the result is that of encoding again, bit by bit. The caller ensures that the previous
+// pack is of the same versions.
 #pragma once
 
 #include <cstddef>

@@ -156,8 +156,10 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
       throw Error(where, fmt::format("section {} is missing", kSurfaces), fmt::format("the axis of '{}'", m.name));
   if (const Section* at = find(kSky)) readSky(reader(*at), scene.environment);
   const Section& geometry = *find(kGeometry);
-  readMeshes(reader(*find(kMeshes)), body(geometry), geometry.offset, where, pack);
-  if (const Section* at = find(kEncodings)) pack.encodings = readEncodings(reader(*at), scene.meshes.size());
+  const Section& meshes = *find(kMeshes);
+  readMeshes(reader(meshes), meshes.version, body(geometry), geometry.offset, where, pack);
+  if (const Section* at = find(kEncodings))
+    pack.encodings = readEncodings(reader(*at), at->version, scene.meshes.size());
   if (const Section* at = find(kSourceMap)) readSourceMap(reader(*at), scene.meshes);
   if (const Section* at = find(kEffects)) readEffects(reader(*at), scene.effects);
   if (const Section* at = find(kBeyond)) readLightBeyond(reader(*at), scene.lightBeyond);
@@ -176,7 +178,9 @@ std::uint64_t canonicalGeometryHash(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     w.u32(static_cast<std::uint32_t>(mesh.positions.size()));
     w.u32(static_cast<std::uint32_t>(mesh.triangles.size()));
-    for (const glm::vec3& p : mesh.positions) w.f32(p.x), w.f32(p.y), w.f32(p.z);
+    if (mesh.origin != glm::dvec3(0.0)) w.dvec3(mesh.origin);
+    for (const glm::dvec3& p : mesh.positions)
+      for (int axis = 0; axis < 3; ++axis) w.f32(static_cast<float>(p[axis] - mesh.origin[axis]));
     for (const glm::vec3& n : mesh.normals) w.f32(n.x), w.f32(n.y), w.f32(n.z);
     for (const glm::uvec3& t : mesh.triangles) w.u32(t.x), w.u32(t.y), w.u32(t.z);
   }

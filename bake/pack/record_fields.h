@@ -137,36 +137,74 @@ struct MeshEntry {
   std::uint32_t vertices = 0, triangles = 0;
   std::uint32_t isEdgebreaker = 0;
   std::uint64_t offset = 0, sizeBytes = 0;  // in GEOM
+  glm::dvec3 gridOrigin{0.0};               // from version 2 on
+  double gridStep = 0;
+  glm::dvec3 origin{0.0};
 };
 inline constexpr std::uint32_t kOpenSurfaceFlag = 1, kNormalsFlag = 2;
 
 template <class Visitor, class... Entries>
 void visitMeshEntry(Visitor&& visit, Entries&... m) {
-  visit(Field{.name = "name", .text = "name"}, m.name...);
-  visit(Field{.name = "material", .high = kMaxMaterials - 1, .text = "index into MATL"}, m.material...);
+  visit(Field{.name = "name", .text = "name", .section = kMeshes}, m.name...);
+  visit(Field{.name = "material", .high = kMaxMaterials - 1, .text = "index into MATL", .section = kMeshes},
+        m.material...);
   visit(Field{.name = "flags",
               .high = kOpenSurfaceFlag | kNormalsFlag,
-              .text = "bit 0: open surface that may transmit; bit 1: has normals"},
+              .text = "bit 0: open surface that may transmit; bit 1: has normals",
+              .section = kMeshes},
         m.flags...);
-  visit(Field{.name = "vertices", .high = kMaxVertices, .text = "at most 2^28 over all meshes"}, m.vertices...);
-  visit(Field{.name = "triangles", .high = kMaxTriangles, .text = "at most 2^28 over all meshes"}, m.triangles...);
-  visit(Field{.name = "encoding", .high = 1, .text = "for information: 0 sequential, 1 edgebreaker"},
-        m.isEdgebreaker...);
+  visit(Field{.name = "vertices", .high = kMaxVertices, .text = "at most 2^28 over all meshes", .section = kMeshes},
+        m.vertices...);
+  visit(Field{.name = "triangles", .high = kMaxTriangles, .text = "at most 2^28 over all meshes", .section = kMeshes},
+        m.triangles...);
   visit(
-      Field{.name = "offset", .text = "of its Draco data in GEOM: a multiple of 16, past the data of the mesh before"},
-      m.offset...);
-  visit(Field{.name = "sizeBytes", .unit = "bytes", .text = "size of its Draco data"}, m.sizeBytes...);
+      Field{.name = "encoding", .high = 1, .text = "for information: 0 sequential, 1 edgebreaker", .section = kMeshes},
+      m.isEdgebreaker...);
+  visit(Field{.name = "offset",
+              .text = "of its Draco data in GEOM: a multiple of 16, past the data of the mesh before",
+              .section = kMeshes},
+        m.offset...);
+  visit(Field{.name = "sizeBytes", .unit = "bytes", .text = "size of its Draco data", .section = kMeshes},
+        m.sizeBytes...);
+  visit(Field{.name = "grid.origin",
+              .low = -kMaxCoordinate,
+              .high = kMaxCoordinate,
+              .unit = "m",
+              .text = "position of the integers (0, 0, 0), a whole number of steps, relative to the scene's origin",
+              .section = kMeshes,
+              .since = 2},
+        m.gridOrigin...);
+  visit(Field{.name = "grid.step",
+              .high = kMaxCoordinate,
+              .unit = "m",
+              .text = "distance of neighbouring integers, a power of two",
+              .section = kMeshes,
+              .since = 2},
+        m.gridStep...);
+  visit(Field{.name = "origin",
+              .low = -kMaxCoordinate,
+              .high = kMaxCoordinate,
+              .unit = "m",
+              .text = "of the positions that renderers use, relative to the scene's; its coordinates are floats",
+              .section = kMeshes,
+              .since = 2},
+        m.origin...);
 }
+inline constexpr std::uint32_t kNewestMeshes = 2;
 
-// ENCD: the grid, then the number of meshes
+// ENCD of version 1: the grid that all meshes shared, then the number of meshes
+struct SharedGrid {
+  glm::vec3 origin{0};
+  float range = 0;
+  std::uint32_t positionBits = 0;
+};
 template <class Visitor, class... Grids>
-void visitGrid(Visitor&& visit, Grids&... g) {
+void visitSharedGrid(Visitor&& visit, Grids&... g) {
   constexpr double kFar = std::numeric_limits<float>::max();
   visit(Field{.name = "grid.origin", .low = -kFar, .high = kFar, .unit = "m", .text = "corner of the grid, a float"},
         g.origin...);
   visit(Field{.name = "grid.range", .high = kFar, .unit = "m", .text = "side of the grid, a float"}, g.range...);
-  visit(Field{.name = "grid.positionBits", .high = compress::kMaxPositionBits, .text = "bits per coordinate"},
-        g.positionBits...);
+  visit(Field{.name = "grid.positionBits", .high = 26, .text = "bits per coordinate"}, g.positionBits...);
 }
 
 // ENCD, per mesh
@@ -174,30 +212,75 @@ template <class Visitor, class... Encoded>
 void visitMeshEncoding(Visitor&& visit, Encoded&... m) {
   constexpr double kMaxDistance = 1e30;
   visit(Field{.name = "inputHash",
-              .text = "XXH3 of all that the encoder was given: grid, bits, positions, normals and triangles as 32-bit "
-                      "numbers, and the map to the source if it is kept"},
+              .text = "XXH3 of all that the encoder was given: grid, bits, positions before and after rounding, "
+                      "normals, triangles, and the map to the source if it is kept",
+              .section = kEncodings},
         m.inputHash...);
-  visit(Field{.name = "normalBits", .high = compress::kMaxNormalBits, .text = "bits of a normal; 0 without normals"},
+  visit(Field{.name = "normalBits",
+              .high = compress::kMaxNormalBits,
+              .text = "bits of a normal; 0 without normals",
+              .section = kEncodings},
         m.normalBits...);
   visit(Field{.name = "positionMax",
               .high = kMaxDistance,
               .unit = "m",
-              .text = "largest distance of a vertex from its source"},
+              .text = "largest distance of a vertex from its source",
+              .section = kEncodings},
         m.deviation.positionMax...);
   visit(Field{.name = "normalMaxDegrees",
               .high = 180,
               .unit = "degrees",
-              .text = "largest angle between a normal and its source"},
+              .text = "largest angle between a normal and its source",
+              .section = kEncodings},
         m.deviation.normalMaxDegrees...);
-  visit(Field{.name = "tiltMaxDegrees", .high = 180, .unit = "degrees", .text = "largest tilt of a face that has area"},
+  visit(Field{.name = "tiltMaxDegrees",
+              .high = 180,
+              .unit = "degrees",
+              .text = "largest tilt of a face that has area",
+              .section = kEncodings},
         m.deviation.tiltMaxDegrees...);
-  visit(Field{.name = "tiltFace", .text = "the face with that tilt, counted as before encoding"},
+  visit(Field{.name = "tiltFace", .text = "the face with that tilt, counted as before encoding", .section = kEncodings},
         m.deviation.tiltFace...);
-  visit(Field{.name = "flipped", .text = "number of flipped faces"}, m.deviation.flipped...);
-  visit(Field{.name = "newDegenerate", .text = "number of faces that lost their area"}, m.deviation.newDegenerate...);
-  visit(Field{.name = "degenerateFace", .text = "the first of them"}, m.deviation.degenerateFace...);
-  visit(Field{.name = "sequentialReason", .text = "reason for the sequential encoding; empty for edgebreaker"},
+  visit(Field{.name = "flipped", .text = "number of flipped faces", .section = kEncodings}, m.deviation.flipped...);
+  visit(Field{.name = "newDegenerate", .text = "number of faces that lost their area", .section = kEncodings},
+        m.deviation.newDegenerate...);
+  visit(Field{.name = "degenerateFace", .text = "the first of them", .section = kEncodings},
+        m.deviation.degenerateFace...);
+  visit(Field{.name = "sequentialReason",
+              .text = "reason for the sequential encoding; empty for edgebreaker",
+              .section = kEncodings},
         m.sequentialReason...);
+  visit(Field{.name = "positionBits",
+              .high = compress::kMaxPositionBits,
+              .text = "bits of a coordinate",
+              .section = kEncodings,
+              .since = 2},
+        m.positionBits...);
+  visit(
+      Field{.name = "faces", .text = "number of faces of the source that have area", .section = kEncodings, .since = 2},
+      m.deviation.faces...);
+  visit(Field{.name = "tilted",
+              .text = "number of faces tilted by more than 0.1 degrees",
+              .section = kEncodings,
+              .since = 2},
+        m.deviation.tilted...);
+  visit(Field{.name = "tiltedArea",
+              .high = kMaxDistance,
+              .unit = "m^2",
+              .text = "their area in the source",
+              .section = kEncodings,
+              .since = 2},
+        m.deviation.tiltedArea...);
+  visit(Field{.name = "flippedFace", .text = "the first flipped face", .section = kEncodings, .since = 2},
+        m.deviation.flippedFace...);
+  visit(Field{.name = "degenerateArea",
+              .high = kMaxDistance,
+              .unit = "m^2",
+              .text = "area in the source of the faces that lost theirs",
+              .section = kEncodings,
+              .since = 2},
+        m.deviation.degenerateArea...);
 }
+inline constexpr std::uint32_t kNewestEncodings = 2;
 
 }  // namespace malus::pack

@@ -105,7 +105,9 @@ struct Mesh {
   std::string name;
   std::uint32_t material = 0;  // index into materials
   bool openSurface = false;    // an open surface that may transmit
-  std::vector<glm::vec3> positions;
+  // Renderers use positions relative to the mesh's own origin, as floats. Meshes that share positions share an origin.
+  glm::dvec3 origin{0.0};             // relative to the scene's; its coordinates are floats
+  std::vector<glm::dvec3> positions;  // relative to the scene's origin
   std::vector<glm::vec3> normals;     // unit, one per position; empty: those of the faces
   std::vector<glm::uvec3> triangles;  // counter-clockwise seen from outside
 

@@ -26,7 +26,11 @@ std::uint32_t newestVersion(std::string_view id) {
   if (id == kSurfaces) return newestSurfaceVersion();
   NewestVersion newest;
   const Environment environment;
+  const MeshEntry mesh;
+  const MeshEncoding encoding;
   if (id == kEnvironment) visitEnvironment(newest, environment);
+  if (id == kMeshes) visitMeshEntry(newest, mesh);
+  if (id == kEncodings) visitMeshEncoding(newest, encoding);
   return newest.version;
 }
 

@@ -147,7 +147,7 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
   EncodedMeshes encoded = encodeMeshes(scene, settings, previous);
   Written written;
   written.meshes = std::move(encoded.report);
-  written.grid = encoded.encodings.grid;
+  written.positionBits = static_cast<int>(encoded.encodings.positionBits());
   written.warnings = std::move(encoded.warnings);
   written.fullRebakeReason = std::move(encoded.fullRebakeReason);
   std::vector<Body> bodies;
@@ -162,9 +162,9 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
     bodies.push_back({kSurfaces, materialBytes(scene.materials, {kSurfaces, version}), version});
   if (!scene.textures.empty()) bodies.push_back({kTextures, textureBytes(scene.textures)});
   if (scene.environment.hasSun()) bodies.push_back({kSky, skyBytes(scene.environment)});
-  bodies.push_back({kMeshes, std::move(encoded.table)});
+  bodies.push_back({kMeshes, std::move(encoded.table), kNewestMeshes});
   bodies.push_back({kGeometry, std::move(encoded.geometry)});
-  bodies.push_back({kEncodings, encodingBytes(encoded.encodings)});
+  bodies.push_back({kEncodings, encodingBytes(encoded.encodings), kNewestEncodings});
   if (settings.keepMap) bodies.push_back({kSourceMap, std::move(encoded.map)});
   bodies.push_back({kEffects, effectBytes(scene.effects)});
   if (!scene.lightBeyond.empty()) bodies.push_back({kBeyond, lightBeyondBytes(scene.lightBeyond)});

@@ -17,8 +17,7 @@ namespace malus::pack {
 
 struct WriteSettings {
   compress::Bounds bounds;
-  double conversionError = 0;  // metres; error that the positions have already, by rounding to float
-  bool keepMap = false;        // write the map from packed vertices and triangles to those of the source files
+  bool keepMap = false;  // write the map from packed vertices and triangles to those of the source files
   // Makes the provenance from Written::warnings; empty: the scene's is written.
   std::function<std::string(const std::vector<std::string>& warnings)> provenance;
 };
@@ -34,6 +33,7 @@ struct MeshCompression {
   std::string method;            // "edgebreaker" or "sequential"
   std::string sequentialReason;  // empty for edgebreaker
   std::size_t sizeBytes = 0;
+  int positionBits = 0;
   int normalBits = 0;  // 0 without normals
   compress::Deviation deviation;
   double encodeMs = 0, decodeMs = 0;  // wall clock; 0 if reused
@@ -43,9 +43,9 @@ struct MeshCompression {
 struct Written {
   std::vector<std::byte> bytes;
   std::vector<MeshCompression> meshes;
-  compress::Grid grid;                // shared by all meshes
+  int positionBits = 0;               // the most of all meshes
   std::vector<std::string> warnings;  // one line per default bound that is not kept
-  std::string fullRebakeReason;       // reason for reusing no mesh if the grid changed
+  std::string fullRebakeReason;       // reason for reusing no mesh if all grids changed
 };
 
 // Throws Error if the scene is outside the schema's bounds, the codec cannot represent a mesh, or a bound of the

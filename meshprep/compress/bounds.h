@@ -1,28 +1,21 @@
-// Choice of the numbers of bits: one for the positions of all meshes, which share a grid so that seams do not crack,
-// and one for the normals of each mesh.
-//
-// The numbers are raised until every mesh is within its bounds: distance of a vertex from its source, angle of a normal
-// from its source, tilt of a face; no face may lose its area or flip. chooseBits predicts the decoded values
-// (grid_rounding.h); checkBounds checks the values that were decoded.
+// Bounds of the deviation of an encoded mesh from its source. rounding.h chooses grids and numbers of bits by them;
+// checkBounds checks the values that were decoded.
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "meshprep/compress/deviation.h"
 #include "meshprep/compress/draco_mesh.h"
 
 namespace malus::compress {
 
-// Bounds that apply unless others are given. A mesh that exceeds them with the most bits gets a warning.
+// Bounds that apply unless others are given. The grid becomes finer until every face keeps the tilt. With the most bits
+// that is every face of a height above steps / tan(tilt) = 573 steps; lower ones are counted.
 inline constexpr double kDefaultNormalErrorDegrees = 0.05;
 inline constexpr double kDefaultTiltDegrees = 0.1;
-
-// First numbers of bits to try. If a bound is given, all numbers are tried.
-inline constexpr int kFirstPositionBits = 20;
-inline constexpr int kFirstNormalBits = 12;
 
 struct Bounds {
   std::optional<double> positionError;       // largest distance of a vertex from its source, metres, > 0
@@ -31,20 +24,16 @@ struct Bounds {
   std::optional<int> normalBits;             // exact number, kMinNormalBits to kMaxNormalBits
 };
 
-struct Bits {
-  Grid grid;                    // shared by all meshes
-  std::vector<int> normalBits;  // per mesh
-};
+// Throws Error: bits or bounds out of range.
+void requireValid(const Bounds& bounds);
 
-// Returns the smallest grid that encloses all meshes, and the smallest numbers of bits within the bounds, or the
-// largest numbers if none is. conversionError: distance in metres by which the conversion to float already moved
-// positions; it counts towards positionError. Throws Error: bits or bounds out of range, a position that is not finite,
-// an extent above the range of float.
-Bits chooseBits(std::span<const MeshView> meshes, const Bounds& bounds, double conversionError = 0);
+// Limits of positions, normals and faces that the bounds demand.
+DeviationLimits deviationLimits(const Bounds& bounds);
 
-// Checks an encoded mesh. Returns a warning for each exceeded default bound, with the value and the number of bits.
-// Throws Error if a bound that was given is exceeded. Both texts begin with `where`.
-std::vector<std::string> checkBounds(const Deviation& deviation, const Settings& used, const Bounds& bounds,
-                                     std::string_view where, double conversionError = 0);
+// Checks an encoded mesh. glass: light is refracted at its faces. Returns a warning for each exceeded default bound,
+// with the value and the number of bits. Throws Error if a bound that was given is exceeded or a face is upside down,
+// and for glass if a face is tilted by more than the default or lost its area. Texts begin with `where`.
+std::vector<std::string> checkBounds(const Deviation& deviation, const Settings& used, const Bounds& bounds, bool glass,
+                                     std::string_view where);
 
 }  // namespace malus::compress

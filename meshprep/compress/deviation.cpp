@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "meshprep/compress/bounds.h"
+
 namespace malus::compress {
 
 namespace {
@@ -52,37 +54,51 @@ std::optional<glm::dvec3> faceNormal(const glm::dvec3& a, const glm::dvec3& b, c
   return normal;
 }
 
-std::optional<glm::dvec3> faceNormal(std::span<const glm::vec3> positions, const glm::uvec3& t) {
+double area(std::span<const glm::dvec3> positions, const glm::uvec3& t) {
+  return 0.5 * glm::length(glm::cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x]));
+}
+
+std::optional<glm::dvec3> faceNormal(std::span<const glm::dvec3> positions, const glm::uvec3& t,
+                                     double leastCross = 0) {
+  if (leastCross > 0 && !(2 * area(positions, t) > leastCross)) return std::nullopt;
   return faceNormal(positions[t.x], positions[t.y], positions[t.z]);
 }
 
 }  // namespace
 
-bool hasArea(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) { return faceNormal(a, b, c).has_value(); }
+bool hasArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { return faceNormal(a, b, c).has_value(); }
 
-Deviation measureDeviation(const MeshView& source, std::span<const glm::vec3> positions,
-                           std::span<const glm::vec3> normals) {
+Deviation measureDeviation(const MeshView& source, std::span<const glm::dvec3> positions,
+                           std::span<const glm::vec3> normals, double leastCross) {
   Deviation deviation;
 
   // Compare vertices.
   double farthest = 0;
   LargestAngle normalAngle;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    farthest = std::max(farthest, glm::distance(glm::dvec3(positions[i]), glm::dvec3(source.positions[i])));
+    farthest = std::max(farthest, glm::distance(positions[i], source.positions[i]));
   for (std::size_t i = 0; i < normals.size(); ++i) normalAngle.add(source.normals[i], normals[i]);
 
   // Compare the faces that have area.
+  const double tangent = std::tan(glm::radians(kDefaultTiltDegrees));
   LargestAngle tilt;
   for (std::size_t i = 0; i < source.triangles.size(); ++i) {
     const std::optional<glm::dvec3> before = faceNormal(source.positions, source.triangles[i]);
     if (!before) continue;
-    const std::optional<glm::dvec3> after = faceNormal(positions, source.triangles[i]);
+    ++deviation.faces;
+    const std::optional<glm::dvec3> after = faceNormal(positions, source.triangles[i], leastCross);
     if (!after) {
       if (deviation.newDegenerate++ == 0) deviation.degenerateFace = static_cast<std::uint32_t>(i);
+      deviation.degenerateArea += area(source.positions, source.triangles[i]);
       continue;
     }
     if (tilt.add(*before, *after)) deviation.tiltFace = static_cast<std::uint32_t>(i);
-    if (glm::dot(*before, *after) < 0) ++deviation.flipped;
+    const glm::dvec3 cross = glm::cross(*before, *after);
+    const double dot = glm::dot(*before, *after);
+    if (dot > 0 && glm::dot(cross, cross) <= tangent * tangent * dot * dot) continue;
+    ++deviation.tilted;
+    deviation.tiltedArea += area(source.positions, source.triangles[i]);
+    if (dot < 0 && deviation.flipped++ == 0) deviation.flippedFace = static_cast<std::uint32_t>(i);
   }
   deviation.positionMax = farthest;
   deviation.normalMaxDegrees = normalAngle.degrees();
@@ -90,14 +106,14 @@ Deviation measureDeviation(const MeshView& source, std::span<const glm::vec3> po
   return deviation;
 }
 
-bool positionsWithin(const MeshView& source, std::span<const glm::vec3> positions, const DeviationLimits& limits) {
+bool positionsWithin(const MeshView& source, std::span<const glm::dvec3> positions, const DeviationLimits& limits) {
   for (std::size_t i = 0; i < positions.size(); ++i)
-    if (glm::distance(glm::dvec3(positions[i]), glm::dvec3(source.positions[i])) > limits.position) return false;
+    if (glm::distance(positions[i], source.positions[i]) > limits.position) return false;
   const double cosine = std::cos(glm::radians(limits.tiltDegrees));
   for (const glm::uvec3& t : source.triangles) {
     const std::optional<glm::dvec3> before = faceNormal(source.positions, t);
     if (!before) continue;
-    const std::optional<glm::dvec3> after = faceNormal(positions, t);
+    const std::optional<glm::dvec3> after = faceNormal(positions, t, limits.leastCross);
     if (!after && !limits.newDegenerate) return false;
     if (!after) continue;
     // Accept clear cases by the cosine, which cannot resolve small angles.

@@ -24,17 +24,21 @@ namespace {
 
 constexpr const char* kExpected = "data as malus writes it; bake or prepare the mesh again";
 
-bool isPlainFloat3(const draco::PointAttribute& attribute) {
-  return attribute.num_components() == 3 && attribute.data_type() == draco::DT_FLOAT32;
+// Type of the position attribute: integers of a grid, or floats in packs of format version 1.
+bool hasType(const draco::PointAttribute& attribute, draco::DataType type) {
+  return attribute.num_components() == 3 && attribute.data_type() == type;
 }
 
-// Returns true if the attributes are one float position and at most one float normal.
-bool hasExpectedAttributes(const draco::PointCloud& cloud) {
+// Returns true if the attributes are one position of the given type and at most one float normal.
+bool hasExpectedAttributes(const draco::PointCloud& cloud, draco::DataType positionType) {
   if (cloud.NumNamedAttributes(draco::GeometryAttribute::POSITION) != 1) return false;
   const int normals = cloud.NumNamedAttributes(draco::GeometryAttribute::NORMAL);
   if (normals > 1 || cloud.num_attributes() != 1 + normals) return false;
-  for (int i = 0; i < cloud.num_attributes(); ++i)
-    if (!isPlainFloat3(*cloud.attribute(i))) return false;
+  for (int i = 0; i < cloud.num_attributes(); ++i) {
+    const draco::PointAttribute& attribute = *cloud.attribute(i);
+    const bool isPosition = attribute.attribute_type() == draco::GeometryAttribute::POSITION;
+    if (!hasType(attribute, isPosition ? positionType : draco::DT_FLOAT32)) return false;
+  }
   return true;
 }
 
@@ -43,7 +47,7 @@ bool hasExpectedAttributes(const draco::PointCloud& cloud) {
 template <class Base>
 class CheckedDecoder : public Base {
  public:
-  explicit CheckedDecoder(const Limits& limits) : limits_(limits) {}
+  CheckedDecoder(const Limits& limits, draco::DataType positionType) : limits_(limits), positionType_(positionType) {}
 
  protected:
   bool DecodeConnectivity() override {
@@ -51,16 +55,18 @@ class CheckedDecoder : public Base {
            this->mesh()->num_faces() == limits_.triangles;
   }
   bool DecodeAllAttributes() override {
-    return hasExpectedAttributes(*this->point_cloud()) && Base::DecodeAllAttributes();
+    return hasExpectedAttributes(*this->point_cloud(), positionType_) && Base::DecodeAllAttributes();
   }
 
  private:
   Limits limits_;
+  draco::DataType positionType_;
 };
 
 template <class Base>
-void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, draco::Mesh& mesh, std::string_view where) {
-  CheckedDecoder<Base> decoder(limits);
+void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, draco::DataType positionType, draco::Mesh& mesh,
+                std::string_view where) {
+  CheckedDecoder<Base> decoder(limits, positionType);
   const draco::DecoderOptions options;
   draco::Status status;
   try {
@@ -71,17 +77,18 @@ void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, draco::Mesh&
   if (!status.ok()) throw Error(where, fmt::format("Draco data is corrupt: {}", status.error_msg_string()), kExpected);
 }
 
-// Returns the values of an attribute, one per vertex.
-std::vector<glm::vec3> attributeValues(const draco::PointAttribute& attribute, std::uint32_t vertices,
-                                       std::string_view what, std::string_view where) {
-  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-  std::vector<glm::vec3> values(vertices);
-  const std::size_t available = attribute.buffer() == nullptr ? 0 : attribute.buffer()->data_size() / sizeof(glm::vec3);
+// Returns the values of an attribute, one per vertex. Vector: three values of the attribute's type.
+template <class Vector>
+std::vector<Vector> attributeValues(const draco::PointAttribute& attribute, std::uint32_t vertices,
+                                    std::string_view what, std::string_view where) {
+  static_assert(sizeof(Vector) == 12);
+  std::vector<Vector> values(vertices);
+  const std::size_t available = attribute.buffer() == nullptr ? 0 : attribute.buffer()->data_size() / sizeof(Vector);
   // Copy at once if values are contiguous and in vertex order, as in files by encode().
-  const bool plain = attribute.is_mapping_identity() && attribute.byte_stride() == sizeof(glm::vec3) &&
+  const bool plain = attribute.is_mapping_identity() && attribute.byte_stride() == sizeof(Vector) &&
                      attribute.byte_offset() == 0 && attribute.size() >= vertices && available >= vertices;
   if (plain) {
-    std::memcpy(values.data(), attribute.buffer()->data(), vertices * sizeof(glm::vec3));
+    std::memcpy(values.data(), attribute.buffer()->data(), vertices * sizeof(Vector));
   } else {
     for (std::uint32_t i = 0; i < vertices; ++i) {
       const draco::AttributeValueIndex index = attribute.mapped_index(draco::PointIndex(i));
@@ -90,22 +97,35 @@ std::vector<glm::vec3> attributeValues(const draco::PointAttribute& attribute, s
       attribute.GetValue(index, &values[i]);
     }
   }
+  return values;
+}
+
+std::vector<glm::vec3> finiteValues(const draco::PointAttribute& attribute, std::uint32_t vertices,
+                                    std::string_view what, std::string_view where) {
+  std::vector<glm::vec3> values = attributeValues<glm::vec3>(attribute, vertices, what, where);
   for (std::uint32_t i = 0; i < vertices; ++i)
     if (!std::isfinite(values[i].x) || !std::isfinite(values[i].y) || !std::isfinite(values[i].z))
       throw Error(where, fmt::format("{} of vertex {} is not finite", what, i), kExpected);
   return values;
 }
 
-}  // namespace
-
-Limits declaredCounts(std::span<const std::byte> bytes, std::string_view where) {
-  const DracoHeader header = parseHeader(bytes, where);
-  return {header.vertices, header.triangles};
+// Returns the positions of integers on the grid.
+std::vector<glm::dvec3> gridPositions(const draco::PointAttribute& attribute, std::uint32_t vertices, const Grid& grid,
+                                      std::string_view where) {
+  const std::int32_t most = static_cast<std::int32_t>((1u << static_cast<unsigned>(grid.positionBits)) - 1u);
+  std::vector<glm::dvec3> positions;
+  positions.reserve(vertices);
+  for (const glm::ivec3& k : attributeValues<glm::ivec3>(attribute, vertices, "position", where)) {
+    if (std::min({k.x, k.y, k.z}) < 0 || std::max({k.x, k.y, k.z}) > most)
+      throw Error(where, fmt::format("position of vertex {} is outside of its grid", positions.size()),
+                  fmt::format("0 to {} steps", most), fmt::format("({}, {}, {})", k.x, k.y, k.z));
+    positions.push_back(grid.origin + glm::dvec3(k) * grid.step);
+  }
+  return positions;
 }
 
-TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std::string_view where) {
-  // Check the declared counts.
-  const DracoHeader header = parseHeader(bytes, where);
+// Throws Error unless the header declares the expected counts, and not more than the bytes may contain.
+void checkCounts(const DracoHeader& header, std::size_t size, const Limits& limits, std::string_view where) {
   if (header.vertices != limits.vertices || header.triangles != limits.triangles)
     throw Error(where, "Draco data has unexpected counts",
                 fmt::format("{} vertices and {} triangles", limits.vertices, limits.triangles),
@@ -115,20 +135,28 @@ TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std:
                 fmt::format("1 to {} vertices and triangles", kMaxTriangles),
                 fmt::format("{} and {}", limits.vertices, limits.triangles));
 
-  const std::uint64_t most = kMaxPerByte * bytes.size();
+  const std::uint64_t most = kMaxPerByte * size;
   if (limits.triangles > most || limits.vertices > most)
     throw Error(where, "Draco data is too small for its declared counts",
-                fmt::format("at most {} vertices and triangles in {} bytes", most, bytes.size()),
+                fmt::format("at most {} vertices and triangles in {} bytes", most, size),
                 fmt::format("{} and {}", limits.vertices, limits.triangles));
+}
+
+// grid: of integer positions; nullptr: positions are floats.
+TriangleMesh decodeMesh(std::span<const std::byte> bytes, const Limits& limits, const Grid* grid,
+                        std::string_view where) {
+  const DracoHeader header = parseHeader(bytes, where);
+  checkCounts(header, bytes.size(), limits, where);
 
   // Decode.
+  const draco::DataType positionType = grid != nullptr ? draco::DT_INT32 : draco::DT_FLOAT32;
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Mesh mesh;
   if (header.method == Method::kSequential) {
-    runDecoder<draco::MeshSequentialDecoder>(buffer, limits, mesh, where);
+    runDecoder<draco::MeshSequentialDecoder>(buffer, limits, positionType, mesh, where);
   } else {
-    runDecoder<draco::MeshEdgebreakerDecoder>(buffer, limits, mesh, where);
+    runDecoder<draco::MeshEdgebreakerDecoder>(buffer, limits, positionType, mesh, where);
   }
   if (mesh.num_points() != limits.vertices || mesh.num_faces() != limits.triangles)
     throw Error(where, "Draco data decodes to unexpected counts",
@@ -137,10 +165,15 @@ TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std:
 
   // Copy and check all values.
   TriangleMesh result;
-  result.positions =
-      attributeValues(*mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION), limits.vertices, "position", where);
+  const draco::PointAttribute& positions = *mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
+  if (grid != nullptr) {
+    result.positions = gridPositions(positions, limits.vertices, *grid, where);
+  } else {
+    for (const glm::vec3& p : finiteValues(positions, limits.vertices, "position", where))
+      result.positions.emplace_back(p);
+  }
   if (const auto* normals = mesh.GetNamedAttribute(draco::GeometryAttribute::NORMAL); normals != nullptr) {
-    result.normals = attributeValues(*normals, limits.vertices, "normal", where);
+    result.normals = finiteValues(*normals, limits.vertices, "normal", where);
     for (std::size_t i = 0; i < result.normals.size(); ++i) {
       const float length = glm::length(result.normals[i]);
       if (!(length > 0.5f && length < 2.0f))
@@ -157,6 +190,22 @@ TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std:
                   fmt::format("an index below {}", limits.vertices));
   }
   return result;
+}
+
+}  // namespace
+
+Limits declaredCounts(std::span<const std::byte> bytes, std::string_view where) {
+  const DracoHeader header = parseHeader(bytes, where);
+  return {header.vertices, header.triangles};
+}
+
+TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, const Grid& grid, std::string_view where) {
+  requireValid(grid, where);
+  return decodeMesh(bytes, limits, &grid, where);
+}
+
+TriangleMesh decodeFloats(std::span<const std::byte> bytes, const Limits& limits, std::string_view where) {
+  return decodeMesh(bytes, limits, nullptr, where);
 }
 
 }  // namespace malus::compress

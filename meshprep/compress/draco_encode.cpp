@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -17,24 +16,17 @@
 #include "meshprep/compress/deviation.h"
 #include "meshprep/compress/draco_mesh.h"
 #include "meshprep/compress/draco_write.h"
+#include "meshprep/compress/grid_rounding.h"
 #include "meshprep/compress/reordering.h"
 
 namespace malus::compress {
 
 namespace {
 
-constexpr float kMinExtent = 1e-30f;  // smallest extent of a mesh: the inverse of a step must be in the range of float
 constexpr std::string_view kLocation = "mesh to compress";
 
 bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-// Returns the largest error of a coordinate: half a step of the grid, and rounding to float.
-float axisTolerance(const Grid& grid) {
-  const float step = grid.range / static_cast<float>((1u << static_cast<unsigned>(grid.positionBits)) - 1u);
-  const float farthest =
-      std::max({std::abs(grid.origin.x), std::abs(grid.origin.y), std::abs(grid.origin.z)}) + grid.range;
-  return 0.5f * step + 4 * std::numeric_limits<float>::epsilon() * farthest;
-}
+bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // Returns an upper bound of the error of octahedral quantization in degrees: twice the measured 0.90 degrees at 8 bits,
 // halved by each further bit, and 0.05 degrees for rounding to float.
@@ -42,15 +34,10 @@ double normalTolerance(int normalBits) { return 2.0 * 0.9 * std::pow(2.0, 8 - no
 
 void checkInput(const MeshView& mesh, const Settings& settings) {
   // Check the settings.
-  const Grid& grid = settings.grid;
-  if (grid.positionBits < 1 || grid.positionBits > kMaxPositionBits)
-    throw Error(kLocation, "number of position bits out of range", fmt::format("1 to {}", kMaxPositionBits),
-                fmt::to_string(grid.positionBits));
+  requireValid(settings.grid, kLocation);
   if (settings.normalBits < kMinNormalBits || settings.normalBits > kMaxNormalBits)
     throw Error(kLocation, "number of normal bits out of range",
                 fmt::format("{} to {}", kMinNormalBits, kMaxNormalBits), fmt::to_string(settings.normalBits));
-  if (!isFinite(grid.origin) || !std::isfinite(grid.range) || !(grid.range > 0) || !isFinite(grid.origin + grid.range))
-    throw Error(kLocation, "invalid grid", "a finite origin and a positive range");
 
   // Check the sizes.
   if (mesh.positions.empty() || mesh.triangles.empty()) throw Error(kLocation, "the mesh is empty");
@@ -60,17 +47,7 @@ void checkInput(const MeshView& mesh, const Settings& settings) {
     throw Error(kLocation, "wrong number of normals", fmt::to_string(mesh.positions.size()),
                 fmt::to_string(mesh.normals.size()));
 
-  // Check the values. The tolerance at the far side covers the rounding of origin + range.
-  const float room = 2 * std::numeric_limits<float>::epsilon() * (std::abs(grid.range) + glm::length(grid.origin));
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const glm::vec3 p = mesh.positions[i];
-    if (!isFinite(p)) throw Error(kLocation, fmt::format("position {} is not finite", i));
-    const glm::vec3 local = p - grid.origin;
-    if (glm::any(glm::lessThan(local, glm::vec3(0))) || glm::any(glm::greaterThan(local, glm::vec3(grid.range + room))))
-      throw Error(kLocation, fmt::format("position {} is outside of the grid", i),
-                  fmt::format("within {} of ({}, {}, {})", grid.range, grid.origin.x, grid.origin.y, grid.origin.z),
-                  fmt::format("({}, {}, {})", p.x, p.y, p.z));
-  }
+  // Check the values.
   for (std::size_t i = 0; i < mesh.normals.size(); ++i)
     if (!isFinite(mesh.normals[i]) || std::abs(glm::length(mesh.normals[i]) - 1) > 1e-3f)
       throw Error(kLocation, fmt::format("normal {} does not have unit length", i));
@@ -82,20 +59,38 @@ void checkInput(const MeshView& mesh, const Settings& settings) {
   }
 }
 
-// Requires the sequential result to have the triangles of the input, and vertices within the tolerances.
-void compareWithSource(const MeshView& mesh, const Settings& settings, Encoded& encoded) {
+// Returns the integers of positions on the grid. Throws Error if one is not on it.
+std::vector<glm::ivec3> gridIntegers(std::span<const glm::dvec3> rounded, const Grid& grid) {
+  const double most = std::ldexp(1.0, grid.positionBits) - 1;
+  std::vector<glm::ivec3> integers;
+  integers.reserve(rounded.size());
+  for (std::size_t i = 0; i < rounded.size(); ++i) {
+    const glm::dvec3 p = rounded[i];
+    if (!isFinite(p)) throw Error(kLocation, fmt::format("position {} is not finite", i));
+    const glm::dvec3 k = (p - grid.origin) / grid.step;
+    if (k != glm::round(k) || glm::any(glm::lessThan(k, glm::dvec3(0))) ||
+        glm::any(glm::greaterThan(k, glm::dvec3(most))))
+      throw Error(kLocation, fmt::format("position {} is outside of the grid", i),
+                  fmt::format("0 to {} steps of {:g} m from ({:g}, {:g}, {:g})", most, grid.step, grid.origin.x,
+                              grid.origin.y, grid.origin.z),
+                  fmt::format("({:.17g}, {:.17g}, {:.17g})", p.x, p.y, p.z));
+    integers.emplace_back(k);
+  }
+  return integers;
+}
+
+// Requires the sequential result to have the triangles and the rounded positions of the input, and measures it.
+void compareWithSource(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings,
+                       Encoded& encoded) {
   const TriangleMesh& decoded = encoded.decoded;
   if (!std::equal(decoded.triangles.begin(), decoded.triangles.end(), mesh.triangles.begin(), mesh.triangles.end()) ||
       decoded.positions.size() != mesh.positions.size() || decoded.normals.size() != mesh.normals.size())
     throw Error(kLocation, "Draco changed the triangles", "the indices of the input");
-  const float tolerance = axisTolerance(settings.grid);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const glm::vec3 error = glm::abs(decoded.positions[i] - mesh.positions[i]);
-    if (std::max({error.x, error.y, error.z}) > tolerance)
-      throw Error(kLocation, fmt::format("Draco moved position {} too far", i),
-                  fmt::format("at most {} m per axis", tolerance), fmt::format("{}", glm::length(error)));
-  }
-  encoded.deviation = measureDeviation(mesh, decoded.positions, decoded.normals);
+  for (std::size_t i = 0; i < rounded.size(); ++i)
+    if (decoded.positions[i] != rounded[i])
+      throw Error(kLocation, fmt::format("Draco moved position {}", i), "the integers of the input",
+                  fmt::format("{:g} m", glm::distance(decoded.positions[i], rounded[i])));
+  encoded.deviation = measureDeviation(mesh, decoded.positions, decoded.normals, settings.leastCross);
   if (!(encoded.deviation.normalMaxDegrees <= normalTolerance(settings.normalBits)))
     throw Error(kLocation, "Draco rotated a normal too far",
                 fmt::format("at most {} degrees", normalTolerance(settings.normalBits)),
@@ -116,10 +111,11 @@ std::vector<std::uint32_t> identity(std::size_t size) {
 
 // Replaces the sequential encoding by the edgebreaker one if that is smaller and equivalent. Otherwise returns the
 // reason.
-std::string tryEdgebreaker(const MeshView& mesh, const Settings& settings, const Limits& limits, Encoded& encoded) {
+std::string tryEdgebreaker(const MeshView& mesh, std::span<const glm::ivec3> integers, const Settings& settings,
+                           const Limits& limits, Encoded& encoded) {
   // Encode.
   const Clock::time_point start = Clock::now();
-  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kEdgebreaker, mesh, settings);
+  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kEdgebreaker, mesh, integers, settings.normalBits);
   const double encodeMs = millisecondsSince(start);
   if (!bytes) return "edgebreaker refuses the mesh";
   if (bytes->size() >= encoded.bytes.size()) return "edgebreaker is not smaller";
@@ -130,7 +126,7 @@ std::string tryEdgebreaker(const MeshView& mesh, const Settings& settings, const
   const Clock::time_point decoding = Clock::now();
   TriangleMesh decoded;
   try {
-    decoded = decode(*bytes, limits, kLocation);
+    decoded = decode(*bytes, limits, settings.grid, kLocation);
   } catch (const Error&) {
     return "edgebreaker changes the counts: faces that are degenerate or not manifold, or loose vertices";
   }
@@ -152,50 +148,89 @@ std::string tryEdgebreaker(const MeshView& mesh, const Settings& settings, const
 
 }  // namespace
 
-Grid gridFor(std::span<const glm::vec3> positions, int positionBits) {
+void requireValid(const Grid& grid, std::string_view where) {
+  if (grid.positionBits < 1 || grid.positionBits > kMaxPositionBits)
+    throw Error(where, "number of position bits out of range", fmt::format("1 to {}", kMaxPositionBits),
+                fmt::to_string(grid.positionBits));
+  int exponent = 0;
+  if (!(grid.step > 0) || !std::isfinite(grid.step) || std::frexp(grid.step, &exponent) != 0.5)
+    throw Error(where, "invalid grid", "a step that is a power of two", fmt::format("{:.17g} m", grid.step));
+  const glm::dvec3 steps = grid.origin / grid.step;
+  if (!isFinite(grid.origin) || steps != glm::round(steps) ||
+      glm::any(glm::greaterThan(glm::abs(steps), glm::dvec3(kMaxSteps))))
+    throw Error(where, "invalid grid", fmt::format("an origin of a whole number of steps, at most {:g}", kMaxSteps),
+                fmt::format("({:.17g}, {:.17g}, {:.17g}) m with steps of {:g} m", grid.origin.x, grid.origin.y,
+                            grid.origin.z, grid.step));
+}
+
+void requireAcceptedSize(std::span<const glm::dvec3> positions, std::string_view where) {
+  for (const glm::dvec3& p : positions)
+    if (!isFinite(p)) throw Error(where, "a position is not finite");
+  if (positions.empty()) return;
+  const Extent extent = extentOf(positions);
+  const double size = extent.largest(), farthest = extent.farthest();
+  if (!(size == 0 || size >= kMinExtent))
+    throw Error(where, "the mesh is too small", fmt::format("a size of {:g} to {:g} m", kMinExtent, kMaxExtent),
+                fmt::format("{:g} m", size));
+  if (!(size <= kMaxExtent) || (size == 0 && farthest > kMaxExtent))
+    throw Error(where, "the mesh is too large", fmt::format("a size of {:g} to {:g} m", kMinExtent, kMaxExtent),
+                fmt::format("{:g} m", std::max(size, farthest)));
+  if (size > 0 && farthest > kMaxDistance * size)
+    throw Error(where, "the mesh is too far from the origin of its coordinates, which double cannot resolve",
+                fmt::format("a distance of at most {:g} times its size of {:g} m", kMaxDistance, size),
+                fmt::format("{:g} m", farthest));
+}
+
+Grid gridWithStep(std::span<const glm::dvec3> positions, double step) {
   Grid grid;
-  grid.positionBits = positionBits;
+  grid.step = step;
+  grid.positionBits = 1;
   if (positions.empty()) return grid;
-  glm::vec3 low = positions.front(), high = positions.front();
-  for (const glm::vec3& p : positions) {
-    if (!isFinite(p)) throw Error(kLocation, "a position is not finite");
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const glm::vec3 extent = high - low;
-  const float largest = std::max({extent.x, extent.y, extent.z});
-  grid.origin = low;
-  if (largest > 0 && largest < kMinExtent)
-    throw Error(kLocation, "the mesh is too small", fmt::format("an extent of {} or more", kMinExtent),
-                fmt::to_string(largest));
-  if (largest > 0) grid.range = largest * (1 + 4 * std::numeric_limits<float>::epsilon());
-  if (!isFinite(grid.origin + grid.range))
-    throw Error(kLocation, "the mesh is too large", "an extent within the range of float");
+  const Extent extent = extentOf(positions);
+  grid.origin = extent.low;
+  const double most = extent.largest() / step;
+  if (most >= 1) grid.positionBits = std::ilogb(most) + 1;
+  return grid;
+}
+
+Grid gridFor(std::span<const glm::dvec3> positions, int positionBits, std::string_view where) {
+  requireAcceptedSize(positions, where);
+  if (positions.empty()) return {glm::dvec3(0), 1, positionBits};
+  Grid grid;
+  grid.step = std::ldexp(1.0, stepExponent(positions, positionBits));
+  grid.origin = roundToStep(extentOf(positions).low, grid.step);
+  grid.positionBits = positionBits;
   return grid;
 }
 
 Encoded encode(const MeshView& mesh, const Settings& settings) {
+  return encode(mesh, roundPositions(mesh.positions, settings.grid.step), settings);
+}
+
+Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings) {
   checkInput(mesh, settings);
+  if (rounded.size() != mesh.positions.size()) throw Error(kLocation, "wrong number of rounded positions");
+  const std::vector<glm::ivec3> integers = gridIntegers(rounded, settings.grid);
   const Limits limits{static_cast<std::uint32_t>(mesh.positions.size()),
                       static_cast<std::uint32_t>(mesh.triangles.size())};
 
   // Encode sequentially and compare with the input.
   Encoded encoded;
   const Clock::time_point start = Clock::now();
-  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kSequential, mesh, settings);
+  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kSequential, mesh, integers, settings.normalBits);
   encoded.encodeMs = millisecondsSince(start);
   if (!bytes) throw Error(kLocation, "Draco cannot encode the mesh");
   encoded.bytes = std::move(*bytes);
   encoded.method = "sequential";
   const Clock::time_point decoding = Clock::now();
-  encoded.decoded = decode(encoded.bytes, limits, kLocation);
+  encoded.decoded = decode(encoded.bytes, limits, settings.grid, kLocation);
   encoded.decodeMs = millisecondsSince(decoding);
-  compareWithSource(mesh, settings, encoded);
+  compareWithSource(mesh, rounded, settings, encoded);
   encoded.sourceVertices = identity(mesh.positions.size());
   encoded.sourceTriangles = identity(mesh.triangles.size());
 
   // Use edgebreaker if it is smaller and equivalent.
-  encoded.sequentialReason = tryEdgebreaker(mesh, settings, limits, encoded);
+  encoded.sequentialReason = tryEdgebreaker(mesh, integers, settings, limits, encoded);
   return encoded;
 }
 

@@ -1,17 +1,18 @@
 // Draco compression of one triangle mesh, verified by decoding the result.
 //
-// Positions are in metres, in the frame of the caller, and are rounded to the cubic grid that the caller gives. Equal
-// positions decode to equal floats in all meshes with the same grid, so a surface that is cut into several meshes does
-// not crack. Normals are unit vectors, encoded in octahedral coordinates. Triangles are counter-clockwise seen from
-// outside and keep their orientation.
+// Positions are in metres, in double, and are rounded to a grid: origin + step * integer, with a step that is a power
+// of two and an origin that is a multiple of it. Draco stores the integers, without a quantization of its own; origin
+// and step are stored beside its data. Every position of a grid is exact in double, so that grids with the same anchor
+// agree on all points that they share. Normals are unit vectors, encoded in octahedral coordinates. Triangles are
+// counter-clockwise seen from outside and keep their orientation.
 //
 // There are two encodings. Sequential encoding keeps counts and order, and its result is compared with the input.
 // Edgebreaker is smaller, but may reorder vertices and triangles, and silently changes non-manifold or degenerate
 // connectivity. It is used only if it decodes to a permutation of the sequential result: every vertex and every
-// oriented triangle once. bounds.h chooses the numbers of bits.
+// oriented triangle once. bounds.h and rounding.h choose the grid and the numbers of bits.
 //
-// The bytes are a plain Draco file (bitstream 2.2, no metadata), which draco_decoder reads. Equal meshes and settings
-// give equal bytes.
+// The bytes are a plain Draco file (bitstream 2.2, no metadata), which draco_decoder reads: its positions are the
+// integers. Equal meshes and settings give equal bytes.
 //
 // Source: J. Rossignac, "Edgebreaker: Connectivity compression for triangle meshes", IEEE TVCG 5(1), 1999;
 // Draco bitstream specification 2.2, https://google.github.io/draco/spec/.
@@ -29,18 +30,18 @@
 namespace malus::compress {
 
 struct TriangleMesh {
-  std::vector<glm::vec3> positions;
+  std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> normals;  // unit length, one per vertex; or empty
   std::vector<glm::uvec3> triangles;
 };
 
 // Reference to a mesh, which must outlive it.
 struct MeshView {
-  std::span<const glm::vec3> positions;
+  std::span<const glm::dvec3> positions;
   std::span<const glm::vec3> normals;
   std::span<const glm::uvec3> triangles;
 
-  MeshView(std::span<const glm::vec3> p, std::span<const glm::vec3> n, std::span<const glm::uvec3> t)
+  MeshView(std::span<const glm::dvec3> p, std::span<const glm::vec3> n, std::span<const glm::uvec3> t)
       : positions(p), normals(n), triangles(t) {}
   MeshView(const TriangleMesh& mesh)  // NOLINT(google-explicit-constructor): implicit, as std::span
       : positions(mesh.positions), normals(mesh.normals), triangles(mesh.triangles) {}
@@ -49,29 +50,42 @@ struct MeshView {
 // Limit of vertices and of triangles: Draco indexes corners by 32-bit signed integers.
 inline constexpr std::uint32_t kMaxTriangles = 0x7fffffffu / 3;
 
-// Largest useful number of bits, because Draco quantizes in float (24 bits). Measured for cubes of 1 to 5 m, largest
-// and mean error of a coordinate relative to the side: 20 bits 5.2e-7 and 2.4e-7; 22 bits 1.9e-7 and 6e-8; 23
-// bits 9.5e-8 and 2.8e-8; 24 bits 1.25e-7 and 3e-8 to 5e-8 (Draco adds 0.5, which is not representable there); 25 bits
-// 6e-8 and 5e-9 to 2e-8; 26 bits 6e-8 and 5e-10 to 2e-8, where most floats are reproduced exactly.
-inline constexpr int kMaxPositionBits = 26;
+// Draco's prediction of 32-bit integers needs two spare bits.
+inline constexpr int kMaxPositionBits = 30;
 inline constexpr int kMinNormalBits = 2;
 inline constexpr int kMaxNormalBits = 16;
 
-// Cube from origin to origin + range, metres, with 2^positionBits - 1 steps along each axis.
+// Positions are at most this number of steps from zero, so that they and their differences are exact in double.
+inline constexpr double kMaxSteps = 0x1p52;
+
+// Accepted sizes (largest extents along an axis) of a mesh, metres, and its distance from zero relative to its size.
+// Within them, areas and volumes neither overflow nor underflow, and double resolves a millionth of the size.
+inline constexpr double kMinExtent = 1e-40;
+inline constexpr double kMaxExtent = 1e40;
+inline constexpr double kMaxDistance = 1e9;
+
+// The positions origin + step * (i, j, k), with integers from 0 to 2^positionBits - 1.
 struct Grid {
-  glm::vec3 origin{0};
-  float range = 1;
+  glm::dvec3 origin{0};   // multiple of the step, metres; at most kMaxSteps steps
+  double step = 1;        // power of two, metres
   int positionBits = 20;  // 1 to kMaxPositionBits
 };
 
-// Returns the smallest cube that contains all positions, enlarged by a few rounding errors. The range is 1 if all
-// positions are equal. Throws Error if a position is not finite, or the extent is above the range of float or in
-// (0, 1e-30).
-Grid gridFor(std::span<const glm::vec3> positions, int positionBits);
+// Returns the grid of the smallest step for which this number of bits suffices. Throws Error if a position is not
+// finite, or the mesh is outside of the accepted range; `where` begins the message.
+Grid gridFor(std::span<const glm::dvec3> positions, int positionBits, std::string_view where = "mesh to compress");
+
+// Returns the grid of the given step around positions that are multiples of it. Its number of bits may exceed
+// kMaxPositionBits.
+Grid gridWithStep(std::span<const glm::dvec3> positions, double step);
+
+// Throws Error unless size and distance from zero are in the accepted range. Meshes of one point are accepted.
+void requireAcceptedSize(std::span<const glm::dvec3> positions, std::string_view where);
 
 struct Settings {
   Grid grid;
-  int normalBits = 12;  // kMinNormalBits to kMaxNormalBits
+  int normalBits = 12;    // kMinNormalBits to kMaxNormalBits
+  double leastCross = 0;  // faces below it count as having lost their area (deviation.h)
 };
 
 // Deviation of a decoded mesh from its source.
@@ -80,8 +94,13 @@ struct Deviation {
   double normalMaxDegrees = 0;       // largest angle between a normal and its source
   double tiltMaxDegrees = 0;         // largest angle between a face and its source, if both have area
   std::uint32_t tiltFace = 0;        // face of the source with this angle
+  std::uint64_t faces = 0;           // faces of the source that have area
+  std::uint64_t tilted = 0;          // faces tilted by more than kDefaultTiltDegrees (bounds.h)
+  double tiltedArea = 0;             // their area in the source, square metres
   std::uint64_t flipped = 0;         // faces tilted by more than 90 degrees
+  std::uint32_t flippedFace = 0;     // first of these faces
   std::uint64_t newDegenerate = 0;   // faces that lost their area
+  double degenerateArea = 0;         // their area in the source, square metres
   std::uint32_t degenerateFace = 0;  // first of these faces
 };
 
@@ -99,10 +118,14 @@ struct Encoded {
   double encodeMs = 0, decodeMs = 0;  // wall-clock time of the chosen encoding
 };
 
-// Throws Error: settings out of range, positions outside of the grid, values that are not finite, normals that do not
-// have unit length, indices out of range, no vertices or no triangles, more than kMaxTriangles of either, or a result
-// that does not decode to the input.
+// Rounds the positions to the grid. Throws Error: settings out of range, positions outside of the grid, values that are
+// not finite, normals that do not have unit length, indices out of range, no vertices or no triangles, more than
+// kMaxTriangles of either, or a result that does not decode to the input.
 Encoded encode(const MeshView& mesh, const Settings& settings);
+
+// The same for positions that the caller rounded: one point of the grid per vertex of mesh. The deviation is that from
+// mesh.
+Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings);
 
 // Largest number of vertices, and of triangles, per byte of a Draco file. Draco allocates its tables for the declared
 // counts before it reads the data; files that declare more are refused, so that memory is proportional to the file
@@ -121,9 +144,15 @@ struct Limits {
 // have one vertex per position. Throws Error (begins with `where`) if the bytes are not a Draco 2.2 triangle mesh.
 Limits declaredCounts(std::span<const std::byte> bytes, std::string_view where);
 
-// Decodes files by encode(): one position attribute and at most one normal attribute, both of floats. All values of
-// the result are finite, indices are below the number of vertices and normals have unit length. Throws Error (begins
-// with `where`). Corrupt bytes may decode to a different valid mesh: store a hash to detect them.
-TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, std::string_view where);
+// Decodes files by encode(): one attribute of positions, three integers of the grid, and at most one of normals, three
+// floats. All values of the result are finite, indices are below the number of vertices and normals have unit length.
+// Throws Error (begins with `where`). Corrupt bytes may decode to a different valid mesh: store a hash to detect them.
+TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, const Grid& grid, std::string_view where);
+
+// Decodes the files of packs of format version 1, whose positions are three floats that Draco quantized.
+TriangleMesh decodeFloats(std::span<const std::byte> bytes, const Limits& limits, std::string_view where);
+
+// Throws Error (begins with `where`) unless step, origin and bits are as Grid states.
+void requireValid(const Grid& grid, std::string_view where);
 
 }  // namespace malus::compress

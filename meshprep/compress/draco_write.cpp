@@ -19,12 +19,15 @@ namespace {
 // transferred. The scanned engine has 6.0 to 6.1 bytes per triangle with all of them.
 constexpr int kSpeed = 6;
 
-int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::span<const glm::vec3> values) {
+// T: float or std::int32_t, of the Draco type given.
+template <class T, class Vector>
+int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType dataType,
+                 std::span<const Vector> values) {
   draco::GeometryAttribute description;
-  description.Init(type, nullptr, 3, draco::DT_FLOAT32, false, 3 * sizeof(float), 0);
+  description.Init(type, nullptr, 3, dataType, false, 3 * sizeof(T), 0);
   const int id = mesh.AddAttribute(description, true, static_cast<std::uint32_t>(values.size()));
   for (std::uint32_t i = 0; i < values.size(); ++i) {
-    const std::array<float, 3> value{values[i].x, values[i].y, values[i].z};
+    const std::array<T, 3> value{values[i].x, values[i].y, values[i].z};
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), value.data());
   }
   return id;
@@ -56,21 +59,20 @@ void setTriangles(draco::Mesh& result, const MeshView& mesh) {
 
 }  // namespace
 
-std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView& mesh, const Settings& settings) {
+std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView& mesh,
+                                                  std::span<const glm::ivec3> positions, int normalBits) {
   draco::Mesh source;
   setTriangles(source, mesh);
-  const int positions = addAttribute(source, draco::GeometryAttribute::POSITION, mesh.positions);
-  const int normals = mesh.normals.empty() ? -1 : addAttribute(source, draco::GeometryAttribute::NORMAL, mesh.normals);
+  addAttribute<std::int32_t>(source, draco::GeometryAttribute::POSITION, draco::DT_INT32, positions);
+  const int normals = mesh.normals.empty() ? -1
+                                           : addAttribute<float>(source, draco::GeometryAttribute::NORMAL,
+                                                                 draco::DT_FLOAT32, mesh.normals);
 
   draco::ExpertEncoder encoder(source);
   encoder.SetSpeedOptions(kSpeed, kSpeed);
   encoder.SetEncodingMethod(method == Method::kSequential ? draco::MESH_SEQUENTIAL_ENCODING
                                                           : draco::MESH_EDGEBREAKER_ENCODING);
-  // Quantize to the given grid. By default, Draco fits a grid to each mesh.
-  const Grid& grid = settings.grid;
-  const std::array<float, 3> origin{grid.origin.x, grid.origin.y, grid.origin.z};
-  encoder.SetAttributeExplicitQuantization(positions, grid.positionBits, 3, origin.data(), grid.range);
-  if (normals >= 0) encoder.SetAttributeQuantization(normals, settings.normalBits);
+  if (normals >= 0) encoder.SetAttributeQuantization(normals, normalBits);
 
   draco::EncoderBuffer buffer;
   if (!encoder.EncodeToBuffer(&buffer).ok()) return std::nullopt;

@@ -1,28 +1,68 @@
 #include "meshprep/compress/grid_rounding.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
 #include <draco/compression/attributes/normal_compression_utils.h>
-#include <draco/core/quantization_utils.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace malus::compress {
 
-std::vector<glm::vec3> roundPositions(std::span<const glm::vec3> positions, const Grid& grid) {
-  const auto steps = static_cast<std::int32_t>((1u << static_cast<unsigned>(grid.positionBits)) - 1u);
-  draco::Quantizer quantizer;
-  draco::Dequantizer dequantizer;
-  quantizer.Init(grid.range, steps);
-  dequantizer.Init(grid.range, steps);
-  std::vector<glm::vec3> rounded(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      const float local = positions[i][axis] - grid.origin[axis];
-      rounded[i][axis] = dequantizer.DequantizeFloat(quantizer.QuantizeFloat(local)) + grid.origin[axis];
-    }
+glm::dvec3 roundToStep(const glm::dvec3& p, double step) {
+  return {std::nearbyint(p.x / step) * step, std::nearbyint(p.y / step) * step, std::nearbyint(p.z / step) * step};
+}
+
+std::vector<glm::dvec3> roundPositions(std::span<const glm::dvec3> positions, double step) {
+  std::vector<glm::dvec3> rounded;
+  rounded.reserve(positions.size());
+  for (const glm::dvec3& p : positions) rounded.push_back(roundToStep(p, step));
   return rounded;
+}
+
+glm::dvec3 roundToFloat(const glm::dvec3& p) {
+  constexpr int kFractionBits = 23;
+  glm::dvec3 rounded(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (p[axis] == 0) continue;
+    const double step = std::ldexp(1.0, std::ilogb(p[axis]) - kFractionBits);
+    rounded[axis] = std::nearbyint(p[axis] / step) * step;
+  }
+  return rounded;
+}
+
+double Extent::largest() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z}); }
+
+double Extent::farthest() const {
+  const glm::dvec3 most = glm::max(glm::abs(low), glm::abs(high));
+  return std::max({most.x, most.y, most.z});
+}
+
+Extent extentOf(std::span<const glm::dvec3> positions) {
+  Extent extent{positions.front(), positions.front()};
+  for (const glm::dvec3& p : positions) {
+    extent.low = glm::min(extent.low, p);
+    extent.high = glm::max(extent.high, p);
+  }
+  return extent;
+}
+
+int stepExponent(std::span<const glm::dvec3> positions, int bits) {
+  const Extent extent = extentOf(positions);
+  const double largest = extent.largest(), farthest = extent.farthest();
+  if (farthest == 0) return 0;
+  // One exponent below the quotient of extent and steps, or the least that kMaxSteps permits; then raise it until it
+  // suffices.
+  int exponent = std::ilogb(farthest) - 51;
+  if (largest > 0) exponent = std::max(exponent, std::ilogb(largest) - bits - 1);
+  const double most = std::ldexp(1.0, bits) - 1;
+  for (;; ++exponent) {
+    const double step = std::ldexp(1.0, exponent);
+    const glm::dvec3 span = (roundToStep(extent.high, step) - roundToStep(extent.low, step)) / step;
+    if (std::max({span.x, span.y, span.z}) <= most) return exponent;
+  }
 }
 
 std::vector<glm::vec3> roundNormals(std::span<const glm::vec3> normals, int bits) {

@@ -1,7 +1,6 @@
-// Prediction of decoded values: the arithmetic of Draco's quantizers without encoding. Used to choose the numbers of
-// bits (bounds.h); the chosen encoding is measured on decoded bytes.
+// Rounding of positions to grids and of normals to octahedral coordinates, as encoding does it.
 //
-// Source: Draco 1.5.5, attribute_quantization_transform.cc, quantization_utils.h, normal_compression_utils.h.
+// Source of the rounding of normals: Draco 1.5.5, normal_compression_utils.h.
 #pragma once
 
 #include <span>
@@ -13,8 +12,26 @@
 
 namespace malus::compress {
 
-// Rounds positions to the grid. They must be inside it. The result has the rounding errors of Draco's float arithmetic.
-std::vector<glm::vec3> roundPositions(std::span<const glm::vec3> positions, const Grid& grid);
+// Rounds to the nearest multiple of a power of two, ties to even.
+glm::dvec3 roundToStep(const glm::dvec3& p, double step);
+std::vector<glm::dvec3> roundPositions(std::span<const glm::dvec3> positions, double step);
+
+// Rounds to the nearest float in the range of normal floats. A pair of conversions to float and back is not used: GCC
+// 12 removes it where it vectorizes.
+glm::dvec3 roundToFloat(const glm::dvec3& p);
+inline bool isFloat(const glm::dvec3& p) { return p == roundToFloat(p); }
+
+// Returns the exponent of the smallest power of two with which the rounded positions span at most 2^bits - 1 steps, at
+// most kMaxSteps from zero. Positions must be finite.
+int stepExponent(std::span<const glm::dvec3> positions, int bits);
+
+// Bounding box of positions that are not empty, and its largest extent.
+struct Extent {
+  glm::dvec3 low, high;
+  double largest() const;
+  double farthest() const;  // largest absolute coordinate
+};
+Extent extentOf(std::span<const glm::dvec3> positions);
 
 // Rounds unit normals to octahedral coordinates with `bits` bits (kMinNormalBits to kMaxNormalBits), and normalizes.
 std::vector<glm::vec3> roundNormals(std::span<const glm::vec3> normals, int bits);

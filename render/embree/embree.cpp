@@ -18,9 +18,35 @@ Bvh::Bvh(const render::RenderScene& scene, unsigned threads) {
   if (!device_)
     throw Error("Embree", "cannot create a device", "a working Embree library",
                 fmt::format("error {}", static_cast<int>(rtcGetDeviceError(nullptr))));
-  scene_ = rtcNewScene(device_);
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+  scene_ = newScene();
+  for (const render::MeshRun& run : render::findMeshRuns(scene)) {
+    const glm::vec3& origin = scene.meshes[run.first].origin;
+    if (origin == glm::vec3(0)) {
+      attachMeshes(scene_, scene, run);
+      continue;
+    }
+    RTCScene instanced = newScene();
+    attachMeshes(instanced, scene, run);
+    rtcCommitScene(instanced);
+    attachInstance(instanced, origin);
+    rtcReleaseScene(instanced);
+  }
+  rtcCommitScene(scene_);
+  if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
+    throw Error("Embree", "cannot build the acceleration structure", "enough memory",
+                fmt::format("error {}", static_cast<int>(error)));
+}
+
+RTCScene Bvh::newScene() {
+  RTCScene scene = rtcNewScene(device_);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  return scene;
+}
+
+// The geometries have the indices of their meshes, also inside an instance. Those of the scene itself come first, so
+// that instances get other indices.
+void Bvh::attachMeshes(RTCScene to, const render::RenderScene& scene, const render::MeshRun& run) {
+  for (std::size_t i = run.first; i < run.first + run.count; ++i) {
     // Embree allocates the buffers: it reads 16 bytes per vertex, although a vertex has 12.
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
@@ -34,13 +60,19 @@ Bvh::Bvh(const render::RenderScene& scene, unsigned threads) {
                   scene.meshTriangles[i] * sizeof(glm::uvec3));
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(i));
+    rtcAttachGeometryByID(to, geometry, static_cast<unsigned>(i));
     rtcReleaseGeometry(geometry);
   }
-  rtcCommitScene(scene_);
-  if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-    throw Error("Embree", "cannot build the acceleration structure", "enough memory",
-                fmt::format("error {}", static_cast<int>(error)));
+}
+
+void Bvh::attachInstance(RTCScene instanced, const glm::vec3& origin) {
+  RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(instance, instanced);
+  const float transform[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, origin.x, origin.y, origin.z};
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform);
+  rtcCommitGeometry(instance);
+  rtcAttachGeometry(scene_, instance);
+  rtcReleaseGeometry(instance);
 }
 
 Bvh::~Bvh() {

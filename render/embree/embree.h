@@ -1,5 +1,6 @@
 // Embree 3 (Debian 12) and Embree 4 (Debian 13) behind one interface: a device, a scene of triangle meshes and two
-// queries. The scene is built with RTC_SCENE_FLAG_ROBUST: without it, rays leak through shared edges.
+// queries. Meshes of origin 0 are in the scene itself, others in an instance per origin. The scene is built with
+// RTC_SCENE_FLAG_ROBUST: without it, rays leak through shared edges.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -43,6 +44,10 @@ class Bvh {
   static std::string version();  // "Embree 3.13.5"
 
  private:
+  RTCScene newScene();
+  void attachMeshes(RTCScene to, const render::RenderScene& scene, const render::MeshRun& run);
+  void attachInstance(RTCScene instanced, const glm::vec3& origin);
+
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };

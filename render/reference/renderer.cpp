@@ -8,6 +8,7 @@
 #include <mutex>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -33,6 +34,7 @@ double sinceMs(Clock::time_point start) {
 struct Tracer {
   const pack::Scene& scene;
   const embree::Bvh& bvh;
+  const std::vector<std::uint32_t>& sourceMeshes;     // per mesh of bvh
   const std::vector<dvec3>& hemisphereTransmittance;  // per material
   const render::RenderParameters& parameters;
   std::uint64_t rays = 0;
@@ -52,7 +54,7 @@ struct Tracer {
     ++rays;
     const embree::Intersection at = bvh.nearest(glm::vec3(queryOrigin), glm::vec3(d));
     if (at.mesh == embree::Intersection::kMiss) return false;
-    const pack::Mesh& mesh = scene.meshes[at.mesh];
+    const pack::Mesh& mesh = scene.meshes[sourceMeshes[at.mesh]];
     const glm::uvec3 t = mesh.triangles[at.triangle];
     const dvec3 p0(mesh.positions[t.x]), p1(mesh.positions[t.y]), p2(mesh.positions[t.z]);
     const dvec3 across = glm::cross(p1 - p0, p2 - p0);
@@ -76,8 +78,9 @@ struct Tracer {
     hit.travelled = glm::length(hit.position - origin);
     hit.surface = surfaceAt(scene, mesh.material, hit.position);
     // The next query is in single precision.
-    hit.error =
-        f64::hitPointError(p0, p1, p2, b0, b1, b2, 0x1p-24) + f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
+    const dvec3& o = mesh.origin;
+    hit.error = f64::hitPointError(p0 - o, p1 - o, p2 - o, b0, b1, b2, 0x1p-24) + f64::originError(o, 0x1p-24) +
+                f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
     hit.start = f64::insideTriangle(hit.position, p0, p1, p2, b0, b1, b2, across, 4 * f64::largestPart(hit.error));
     hit.outside = glm::dot(d, hit.face) < 0;
     const dvec3 interpolated = mesh.normals.empty() ? hit.face
@@ -316,8 +319,13 @@ struct Tracer {
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(const pack::Scene& source, unsigned threadCount)
-      : scene(source), threads(threadCount), bvh(render::makeRenderScene(source), threadCount) {
+  Impl(const pack::Scene& source, unsigned threadCount) : Impl(source, render::makeRenderScene(source), threadCount) {}
+
+  Impl(const pack::Scene& source, render::RenderScene&& renderScene, unsigned threadCount)
+      : scene(source),
+        threads(threadCount),
+        bvh(renderScene, threadCount),
+        sourceMeshes(std::move(renderScene.sourceMeshes)) {
     for (const pack::Material& m : source.materials)
       hemisphereTransmittance.push_back(render::hemisphereTransmittance(m));
   }
@@ -325,6 +333,7 @@ struct Renderer::Impl {
   const pack::Scene& scene;
   unsigned threads;
   embree::Bvh bvh;
+  std::vector<std::uint32_t> sourceMeshes;
   std::vector<dvec3> hemisphereTransmittance;  // per material
   double buildMs = 0;
 };
@@ -356,7 +365,7 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
   std::mutex merging;
 
   const auto row = [&](std::uint32_t y) {
-    Tracer tracer{scene, impl_->bvh, impl_->hemisphereTransmittance, parameters};
+    Tracer tracer{scene, impl_->bvh, impl_->sourceMeshes, impl_->hemisphereTransmittance, parameters};
     for (std::uint32_t x = 0; x < parameters.region.width; ++x) {
       tracer.pixelX = parameters.region.x + x;
       tracer.pixelY = parameters.region.y + y;

@@ -1,7 +1,10 @@
 #include "render/scene/render_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <tuple>
 
 #include <glm/trigonometric.hpp>
 
@@ -54,7 +57,28 @@ gpu::MaterialExtra makeExtra(const pack::Material& m) {
   return e;
 }
 
+// Returns the indices of the meshes in the order of their origins, 0 first.
+std::vector<std::uint32_t> sortByOrigin(const std::vector<pack::Mesh>& meshes) {
+  const auto key = [&](std::uint32_t i) {
+    const glm::dvec3& o = meshes[i].origin;
+    return std::tuple(o != glm::dvec3(0.0), o.x, o.y, o.z);
+  };
+  std::vector<std::uint32_t> order(meshes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  return order;
+}
+
 }  // namespace
+
+std::vector<MeshRun> findMeshRuns(const RenderScene& scene) {
+  std::vector<MeshRun> runs;
+  for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
+    if (runs.empty() || scene.meshes[i].origin != scene.meshes[runs.back().first].origin) runs.push_back({i, 0});
+    ++runs.back().count;
+  }
+  return runs;
+}
 
 glm::dvec3 hemisphereTransmittance(const pack::Material& m) {
   if (!pack::hasIndex(m.kind)) return glm::dvec3(1.0);
@@ -90,13 +114,15 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
   }
   for (const pack::PointLight& light : scene.lights)
     result.lights.push_back({glm::vec3(light.position), glm::vec3(light.intensity)});
-  for (const pack::Mesh& mesh : scene.meshes) {
+  result.sourceMeshes = sortByOrigin(scene.meshes);
+  for (const std::uint32_t source : result.sourceMeshes) {
+    const pack::Mesh& mesh = scene.meshes[source];
     result.meshes.push_back({static_cast<std::uint32_t>(result.triangles.size()),
                              static_cast<std::uint32_t>(result.positions.size()), mesh.material,
-                             mesh.normals.empty() ? 0u : 1u});
+                             mesh.normals.empty() ? 0u : 1u, glm::vec3(mesh.origin)});
     result.meshTriangles.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     result.meshVertices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-    result.positions.insert(result.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    for (const glm::dvec3& p : mesh.positions) result.positions.emplace_back(p - mesh.origin);
     result.normals.insert(result.normals.end(), mesh.normals.begin(), mesh.normals.end());
     result.normals.resize(result.positions.size(), glm::vec3(0));
     result.triangles.insert(result.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());

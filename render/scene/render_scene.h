@@ -12,10 +12,13 @@ namespace malus::render {
 struct RenderScene {
   std::vector<gpu::Material> materials;
   std::vector<gpu::PointLight> lights;
+  // Meshes of equal origin follow each other, those of origin 0 first: each run is one instance of the acceleration
+  // structures.
   std::vector<gpu::Mesh> meshes;
+  std::vector<std::uint32_t> sourceMeshes;   // index of each mesh in the pack's scene
   std::vector<std::uint32_t> meshTriangles;  // triangles of each mesh
   std::vector<std::uint32_t> meshVertices;
-  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> positions;        // relative to the origin of their mesh
   std::vector<glm::vec3> normals;          // one per position; (0, 0, 0) for flat meshes
   std::vector<glm::uvec3> triangles;       // indices within their mesh
   std::vector<gpu::MaterialExtra> extras;  // one per material
@@ -23,6 +26,12 @@ struct RenderScene {
   std::vector<glm::vec3> textureTexels;
   std::vector<glm::vec3> environmentTexels;  // with their border; one texel if there is no map
 };
+
+// Runs of meshes of equal origin: the index of the first mesh and the number of meshes.
+struct MeshRun {
+  std::uint32_t first = 0, count = 0;
+};
+std::vector<MeshRun> findMeshRuns(const RenderScene& scene);
 
 RenderScene makeRenderScene(const pack::Scene& scene);
 gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const RenderParameters& parameters);

@@ -33,16 +33,31 @@ const char* levelName(VkAccelerationStructureTypeKHR type) {
 
 Acceleration::Acceleration(const Device& device, const render::RenderScene& scene, const Buffer& positions,
                            const Buffer& triangles)
-    : bottom_(buildBottom(device, scene, positions, triangles)), top_(buildTop(device, bottom_.structure.get())) {}
+    : bottoms_(buildBottoms(device, scene, positions, triangles)), top_(buildTop(device, scene, bottoms_)) {}
 
-// One opaque geometry per mesh, in the order of the meshes: gl_GeometryIndexEXT is the index of the mesh and of its hit
-// record.
-Acceleration::Level Acceleration::buildBottom(const Device& device, const render::RenderScene& scene,
-                                              const Buffer& positions, const Buffer& triangles) {
+VkDeviceSize Acceleration::bottomBytes() const {
+  VkDeviceSize bytes = 0;
+  for (const Level& bottom : bottoms_) bytes += bottom.storage.sizeBytes();
+  return bytes;
+}
+
+std::vector<Acceleration::Level> Acceleration::buildBottoms(const Device& device, const render::RenderScene& scene,
+                                                            const Buffer& positions, const Buffer& triangles) {
   requireCounts(device, scene);
+  std::vector<Level> bottoms;
+  for (const render::MeshRun& run : render::findMeshRuns(scene))
+    bottoms.push_back(buildBottom(device, scene, run, positions, triangles));
+  return bottoms;
+}
+
+// One opaque geometry per mesh, in the order of the meshes: gl_InstanceCustomIndexEXT + gl_GeometryIndexEXT is the
+// index of the mesh and of its hit record.
+Acceleration::Level Acceleration::buildBottom(const Device& device, const render::RenderScene& scene,
+                                              const render::MeshRun& run, const Buffer& positions,
+                                              const Buffer& triangles) {
   std::vector<VkAccelerationStructureGeometryKHR> geometries;
   std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+  for (std::size_t i = run.first; i < run.first + run.count; ++i) {
     VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
     geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
     geometry.flags = VK_GEOMETRY_OPAQUE_BIT_KHR;
@@ -60,24 +75,35 @@ Acceleration::Level Acceleration::buildBottom(const Device& device, const render
   return compact(device, build(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometries, ranges));
 }
 
-Acceleration::Level Acceleration::buildTop(const Device& device, VkAccelerationStructureKHR bottom) {
-  VkAccelerationStructureDeviceAddressInfoKHR addressInfo{
-      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
-  addressInfo.accelerationStructure = bottom;
-  VkAccelerationStructureInstanceKHR instance{};
-  instance.transform = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-  instance.mask = 0xff;
-  instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
-  instance.accelerationStructureReference =
-      device.functions().getAccelerationStructureDeviceAddress(device.get(), &addressInfo);
+// An instance per run of meshes, at their origin.
+Acceleration::Level Acceleration::buildTop(const Device& device, const render::RenderScene& scene,
+                                           const std::vector<Level>& bottoms) {
+  const std::vector<render::MeshRun> runs = render::findMeshRuns(scene);
+  std::vector<VkAccelerationStructureInstanceKHR> list;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    VkAccelerationStructureDeviceAddressInfoKHR addressInfo{
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
+    addressInfo.accelerationStructure = bottoms[i].structure.get();
+    const glm::vec3& origin = scene.meshes[runs[i].first].origin;
+    VkAccelerationStructureInstanceKHR instance{};
+    instance.transform = {{{1, 0, 0, origin.x}, {0, 1, 0, origin.y}, {0, 0, 1, origin.z}}};
+    instance.mask = 0xff;
+    instance.instanceCustomIndex = runs[i].first & 0xffffffu;
+    instance.instanceShaderBindingTableRecordOffset = runs[i].first & 0xffffffu;
+    instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+    instance.accelerationStructureReference =
+        device.functions().getAccelerationStructureDeviceAddress(device.get(), &addressInfo);
+    list.push_back(instance);
+  }
   const Buffer instances = upload(
-      device, "instance of the scene", std::as_bytes(std::span(&instance, 1)),
+      device, "instances of the scene", std::as_bytes(std::span(list)),
       VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR);
   VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
   geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
   geometry.geometry.instances = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR};
   geometry.geometry.instances.data.deviceAddress = instances.address();
-  return build(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, {geometry}, {{1, 0, 0, 0}});
+  return build(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, {geometry},
+               {{static_cast<std::uint32_t>(list.size()), 0, 0, 0}});
 }
 
 Acceleration::Level Acceleration::makeLevel(const Device& device, VkAccelerationStructureTypeKHR type,

@@ -1,5 +1,5 @@
-// The acceleration structures of a scene: a bottom level with one geometry per mesh, compacted, and one instance of it.
-// They are built for fast traces.
+// The acceleration structures of a scene: a bottom level per origin of meshes, compacted, with one geometry per mesh,
+// and one instance of each. They are built for fast traces.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ class Acceleration {
                const Buffer& triangles);
 
   VkAccelerationStructureKHR top() const { return top_.structure.get(); }
-  VkDeviceSize bottomBytes() const { return bottom_.storage.sizeBytes(); }
+  VkDeviceSize bottomBytes() const;
 
  private:
   struct Level {
@@ -31,11 +31,14 @@ class Acceleration {
   static Level makeLevel(const Device& device, VkAccelerationStructureTypeKHR type, VkDeviceSize bytes);
   // The level in a buffer without unused memory.
   static Level compact(const Device& device, Level level);
-  static Level buildBottom(const Device& device, const render::RenderScene& scene, const Buffer& positions,
-                           const Buffer& triangles);
-  static Level buildTop(const Device& device, VkAccelerationStructureKHR bottom);
+  static Level buildBottom(const Device& device, const render::RenderScene& scene, const render::MeshRun& run,
+                           const Buffer& positions, const Buffer& triangles);
+  static std::vector<Level> buildBottoms(const Device& device, const render::RenderScene& scene,
+                                         const Buffer& positions, const Buffer& triangles);
+  static Level buildTop(const Device& device, const render::RenderScene& scene, const std::vector<Level>& bottoms);
 
-  Level bottom_, top_;
+  std::vector<Level> bottoms_;  // one per run of meshes
+  Level top_;
 };
 
 }  // namespace malus::vulkan

@@ -39,7 +39,7 @@ ShaderTable::ShaderTable(const Device& device, VkPipeline pipeline, const std::v
     if (groups[i].kind)
       groupOfKind[*groups[i].kind] = i;
     else
-      hits.push_back(i);
+      hits.assign(scene.meshes.size(), i);  // an instance's records start at its first mesh
   }
   if (!groupOfKind.empty())
     for (const gpu::Mesh& mesh : scene.meshes) hits.push_back(groupOfKind.at(scene.materials[mesh.material].kind));

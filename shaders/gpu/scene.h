@@ -1,5 +1,6 @@
 // Structs that C++ and GLSL share, in GLSL's scalar block layout: a vec3 has 12 bytes and an alignment of 4. Positions
-// are relative to the scene's origin, in metres; radiance is in W/(m^2 sr), per colour.
+// are relative to the scene's origin, those of vertices to that of their mesh, in metres; radiance is in W/(m^2 sr),
+// per colour.
 #ifdef __cplusplus
 #pragma once
 
@@ -51,8 +52,9 @@ struct Mesh {
   uint firstVertex;  // of its positions and normals
   uint material;
   uint hasNormals;  // 0: flat shading by the normals of the triangles
+  vec3 origin;      // of its positions
 };
-MALUS_SIZE(Mesh, 16);
+MALUS_SIZE(Mesh, 28);
 
 struct CameraParameters {
   vec3 position;

@@ -34,6 +34,13 @@ FN real intersectionError(real3 p0, real3 p1, real3 p2, real3 p, real unitRoundo
   return R(8.0) * unitRoundoff * maxR(largestPart(p0 - p), maxR(largestPart(p1 - p), largestPart(p2 - p)));
 }
 
+// Bound per axis on the error by the origin of a mesh: adding it to the hit point, and subtracting it from the ray's
+// origin in the transform of an instance, with a margin for the order of a transform's sums. 0 without an origin.
+FN real3 originError(real3 origin, real unitRoundoff) {
+  real most = R(8.0) * unitRoundoff;
+  return make3(absR(origin.x) * most, absR(origin.y) * most, absR(origin.z) * most);
+}
+
 // A point of the triangle close to p and, where there is room, at least `distance` from its edges. A ray from an edge
 // starts on the neighbour's plane, where rounding may put its origin behind the neighbour, and leaks. The point moves
 // away from the nearest edge, at most until another edge is as near; then, for corners, toward the centre of the

@@ -11,7 +11,8 @@ bool findHit(vec3 origin, vec3 direction, float depth, out Hit h) {
   while (rayQueryProceedEXT(query)) {
   }
   if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT) return false;
-  h = makeHitFromMesh(rayQueryGetIntersectionGeometryIndexEXT(query, true),
+  h = makeHitFromMesh(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true),
+                      rayQueryGetIntersectionGeometryIndexEXT(query, true),
                       rayQueryGetIntersectionPrimitiveIndexEXT(query, true),
                       rayQueryGetIntersectionBarycentricsEXT(query, true), origin, direction, depth);
   return true;
@@ -37,7 +38,7 @@ bool findHit(vec3 origin, vec3 direction, float depth, out Hit h) {
   countRay();
   traceRayEXT(tlas, gl_RayFlagsOpaqueEXT, 0xffu, 0u, 0u, 0u, origin, 0.0, direction, 1e30, 0);
   if (hitRecord.mesh == kNoMesh) return false;
-  h = makeHitFromMesh(hitRecord.mesh, hitRecord.triangle, hitRecord.barycentric, origin, direction, depth);
+  h = makeHitFromMesh(hitRecord.mesh, 0u, hitRecord.triangle, hitRecord.barycentric, origin, direction, depth);
   return true;
 }
 

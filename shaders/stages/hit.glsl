@@ -9,6 +9,6 @@ layout(location = 0) rayPayloadInEXT Payload result;
 hitAttributeEXT vec2 barycentric;
 
 Hit loadHit() {
-  return makeHitFromMesh(gl_GeometryIndexEXT, gl_PrimitiveID, barycentric, gl_WorldRayOriginEXT,
-                         gl_WorldRayDirectionEXT, payloadDepth(result));
+  return makeHitFromMesh(gl_InstanceCustomIndexEXT, gl_GeometryIndexEXT, gl_PrimitiveID, barycentric,
+                         gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, payloadDepth(result));
 }

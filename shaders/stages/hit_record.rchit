@@ -5,7 +5,7 @@ layout(location = 0) rayPayloadInEXT HitRecord hitRecord;
 hitAttributeEXT vec2 barycentric;
 
 void main() {
-  hitRecord.mesh = gl_GeometryIndexEXT;
+  hitRecord.mesh = gl_InstanceCustomIndexEXT + gl_GeometryIndexEXT;
   hitRecord.triangle = gl_PrimitiveID;
   hitRecord.barycentric = barycentric;
 }

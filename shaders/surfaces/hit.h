@@ -16,9 +16,11 @@ struct Hit {
 
 CONST real kUnitRoundoff = R(5.9604644775390625e-8);  // 2^-24, of float
 
-// Hit of a ray in direction d. p0, p1, p2: corners of the triangle, counter-clockwise seen from outside; b1, b2:
-// barycentric coordinates of p1 and p2; interpolated: normal interpolated from the vertices, or 0 for a flat mesh.
-FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 interpolated, real depth, word material) {
+// Hit of a ray in direction d. p0, p1, p2: corners of the triangle relative to the mesh's origin, counter-clockwise
+// seen from outside; b1, b2: barycentric coordinates of p1 and p2; interpolated: normal interpolated from the vertices,
+// or 0 for a flat mesh.
+FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated, real depth,
+               word material) {
   real b0 = R(1.0) - b1 - b2;
   real3 normal = cross3(p1 - p0, p2 - p0);
   real areaSq = dot3(normal, normal);
@@ -26,16 +28,17 @@ FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 in
   real3 face = select3(lessR(kNegligible, areaSq), normal * (R(1.0) / sqrtR(maxR(areaSq, kNegligible))), d * R(-1.0));
   Hit h;
   h.d = d;
-  h.position = p0 * b0 + p1 * b1 + p2 * b2;
-  h.error = hitPointError(p0, p1, p2, b0, b1, b2, kUnitRoundoff) +
-            splat3(intersectionError(p0, p1, p2, h.position, kUnitRoundoff));
+  real3 local = p0 * b0 + p1 * b1 + p2 * b2;
+  h.position = local + origin;
+  h.error = hitPointError(p0, p1, p2, b0, b1, b2, kUnitRoundoff) + originError(origin, kUnitRoundoff) +
+            splat3(intersectionError(p0, p1, p2, local, kUnitRoundoff));
   // Move the start off an edge that may be nearer than the margin, judged by the smallest possible height.
   real margin = R(4.0) * largestPart(h.error);
   real longest = maxR(largestPart(p1 - p0), maxR(largestPart(p2 - p0), largestPart(p2 - p1))) * R(1.7320508);
   h.start = h.position;
   mask nearEdge = lessR(minR(b0, minR(b1, b2)) * sqrtR(areaSq), margin * longest);
   if (anyM(nearEdge))
-    h.start = select3(nearEdge, insideTriangle(h.position, p0, p1, p2, b0, b1, b2, normal, margin), h.start);
+    h.start = select3(nearEdge, insideTriangle(local, p0, p1, p2, b0, b1, b2, normal, margin) + origin, h.start);
   h.outside = lessR(dot3(d, face), R(0.0));
   mask flatMesh = equalR(dot3(interpolated, interpolated), R(0.0));
   h.normal = shadingNormal(d, face, select3(flatMesh, face, interpolated));

@@ -55,29 +55,28 @@ class Bake : public testing::Test {
 double volume6(const pack::Mesh& mesh) {
   double sum = 0;
   for (const glm::uvec3& t : mesh.triangles)
-    sum += glm::dot(glm::dvec3(mesh.positions[t.x]),
-                    glm::cross(glm::dvec3(mesh.positions[t.y]), glm::dvec3(mesh.positions[t.z])));
+    sum += glm::dot(mesh.positions[t.x], glm::cross(mesh.positions[t.y], mesh.positions[t.z]));
   return sum;
 }
 
-glm::vec3 centre(const pack::Mesh& mesh) {
-  glm::vec3 low = mesh.positions[0], high = low;
-  for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  return (low + high) * 0.5f;
+glm::dvec3 centre(const pack::Mesh& mesh) {
+  glm::dvec3 low = mesh.positions[0], high = low;
+  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  return (low + high) * 0.5;
 }
 
-glm::vec3 extent(const pack::Mesh& mesh) {
-  glm::vec3 low = mesh.positions[0], high = low;
-  for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+glm::dvec3 extent(const pack::Mesh& mesh) {
+  glm::dvec3 low = mesh.positions[0], high = low;
+  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   return high - low;
 }
 
 void expectOutward(const pack::Mesh& mesh) {
   EXPECT_GT(volume6(mesh), 0) << mesh.name;
-  const glm::vec3 middle = centre(mesh);
+  const glm::dvec3 middle = centre(mesh);
   ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
   for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
-    EXPECT_GT(glm::dot(mesh.normals[i], mesh.positions[i] - middle), 0) << mesh.name << ", vertex " << i;
+    EXPECT_GT(glm::dot(glm::dvec3(mesh.normals[i]), mesh.positions[i] - middle), 0) << mesh.name << ", vertex " << i;
     EXPECT_NEAR(glm::length(mesh.normals[i]), 1, 1e-6);
   }
   // Each vertex normal is that of its faces, because the meshes are cubes.
@@ -108,9 +107,9 @@ TEST_F(Bake, InstancesBecomeMeshesInWorldSpace) {
   EXPECT_EQ(scene.meshes[0].name, "cube.1");
   EXPECT_EQ(scene.meshes[2].name, "cube.3");
   EXPECT_EQ(scene.vertexCount(), 72u);
-  EXPECT_EQ(centre(scene.meshes[1]), glm::vec3(3, 0, 0));
-  EXPECT_EQ(centre(scene.meshes[2]), glm::vec3(0, 10, 0));
-  EXPECT_EQ(extent(scene.meshes[2]), glm::vec3(1, 2, 3));
+  EXPECT_EQ(centre(scene.meshes[1]), glm::dvec3(3, 0, 0));
+  EXPECT_EQ(centre(scene.meshes[2]), glm::dvec3(0, 10, 0));
+  EXPECT_EQ(extent(scene.meshes[2]), glm::dvec3(1, 2, 3));
   for (const pack::Mesh& mesh : scene.meshes) expectOutward(mesh);
 }
 
@@ -139,7 +138,7 @@ TEST_F(Bake, TransformsAreScaleThenRotationsAboutXYZThenTranslation) {
     instances(list);
     return baked().meshes[0].positions;
   };
-  using Points = std::vector<glm::vec3>;
+  using Points = std::vector<glm::dvec3>;
   EXPECT_EQ(moved("[{}]"), (Points{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}));
   // Counter-clockwise about each axis, seen from its tip; quarter turns are exact.
   EXPECT_EQ(moved(R"([{"rotateDegrees": [90, 0, 0]}])"), (Points{{1, 0, 0}, {0, 0, 2}, {0, -3, 0}}));
@@ -154,12 +153,12 @@ TEST_F(Bake, TheOriginIsTheCentreUnlessGiven) {
   instances(R"([{"translate": [10, 20, 30]}])");
   pack::Scene scene = baked();
   EXPECT_EQ(scene.origin, glm::dvec3(10, 20, 30));
-  EXPECT_EQ(centre(scene.meshes[0]), glm::vec3(0));
+  EXPECT_EQ(centre(scene.meshes[0]), glm::dvec3(0));
   EXPECT_EQ(scene.camera.position, glm::dvec3(-10, -19, -25));
   scene_["origin"] = {10, 20, 29};
   scene_["lights"] = json::parse(R"([{"type": "point", "position": [10, 21, 29], "intensity": [1, 2, 3]}])");
   scene = baked();
-  EXPECT_EQ(centre(scene.meshes[0]), glm::vec3(0, 0, 1));
+  EXPECT_EQ(centre(scene.meshes[0]), glm::dvec3(0, 0, 1));
   EXPECT_EQ(scene.lights.at(0).position, glm::dvec3(0, 1, 0));
 }
 
@@ -170,11 +169,11 @@ TEST_F(Bake, LargeTranslationsKeepPrecision) {
   scene_["camera"]["target"] = {100000.37, -70000.11, 50000.73};
   const pack::Scene scene = baked();
   EXPECT_NEAR(scene.origin.x, 100000.37, 1e-9);
-  EXPECT_LT(glm::distance(extent(scene.meshes[0]), glm::vec3(0.1f)), 1e-6f);
+  EXPECT_LT(glm::distance(extent(scene.meshes[0]), glm::dvec3(0.1)), 1e-6);
   EXPECT_LT(glm::distance(scene.camera.position, glm::dvec3(0, 0, 1)), 1e-9);
   expectOutward(scene.meshes[0]);
   const pack::Pack pack = pack::parse(pack::serialize(scene, {}).bytes, "test");
-  EXPECT_LT(glm::distance(extent(pack.scene.meshes[0]), glm::vec3(0.1f)), 1e-6f);
+  EXPECT_LT(glm::distance(extent(pack.scene.meshes[0]), glm::dvec3(0.1)), 1e-6);
 }
 
 TEST_F(Bake, GlassMustBeCertified) {

@@ -45,7 +45,7 @@ TEST(Info, JsonHasTheDocumentedKeys) {
   EXPECT_EQ(info["meshes"][1]["encoding"], pack.compression[1]);
   EXPECT_EQ(info["meshes"][0]["errors"]["tiltMaxDegrees"], pack.encodings.meshes[0].deviation.tiltMaxDegrees);
   EXPECT_EQ(info["meshes"][0]["normalBits"], pack.encodings.meshes[0].normalBits);
-  EXPECT_EQ(info["positionBits"], pack.encodings.grid.positionBits);
+  EXPECT_EQ(info["positionBits"], pack.encodings.positionBits());
   EXPECT_EQ(info["sourceMap"], false);
   ASSERT_EQ(info.at("materials").size(), 3u);
   EXPECT_EQ(info["materials"][1]["name"], "gold");

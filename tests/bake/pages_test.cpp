@@ -88,9 +88,10 @@ std::map<std::string, std::string> formatTables() {
                                                {pack::kSurfaces, pack::newestSurfaceVersion()})},
           {"TEXR", formatTable<pack::Texture>(MALUS_DESCRIBED(visitTexture))},
           {"SKYP", formatTable<pack::Environment>(MALUS_DESCRIBED(visitSky))},
-          {"MESH", formatTable<pack::MeshEntry>(MALUS_DESCRIBED(visitMeshEntry))},
-          {"ENCD grid", formatTable<compress::Grid>(MALUS_DESCRIBED(visitGrid))},
-          {"ENCD", formatTable<pack::MeshEncoding>(MALUS_DESCRIBED(visitMeshEncoding))},
+          {"MESH", formatTable<pack::MeshEntry>(MALUS_DESCRIBED(visitMeshEntry), {pack::kMeshes, pack::kNewestMeshes})},
+          {"ENCD grid", formatTable<pack::SharedGrid>(MALUS_DESCRIBED(visitSharedGrid))},
+          {"ENCD", formatTable<pack::MeshEncoding>(MALUS_DESCRIBED(visitMeshEncoding),
+                                                   {pack::kEncodings, pack::kNewestEncodings})},
           {"EFCT", formatTable<pack::Effect>(MALUS_DESCRIBED(visitEffect))}};
 }
 

@@ -215,7 +215,7 @@ TEST_F(Rebake, UnreachableBoundNamesTheMesh) {
   EXPECT_CONTAINS(error, "': position error");
   settings_.bounds.positionError = 1e-4;
   const pack::Written written = pack::serialize(baked.scene, settings_);
-  EXPECT_LT(written.grid.positionBits, 20);
+  EXPECT_LT(written.positionBits, 20);
   for (const pack::MeshCompression& m : written.meshes) EXPECT_LE(m.deviation.positionMax, 1e-4);
 }
 

@@ -42,7 +42,7 @@ TEST(Unpack, WritesTheContentsOfThePack) {
     ASSERT_EQ(read.positions.size(), mesh.positions.size());
     ASSERT_EQ(read.normals.size(), mesh.normals.size());
     ASSERT_EQ(read.faceCount(), mesh.triangles.size());
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) EXPECT_EQ(read.positions[v], glm::dvec3(mesh.positions[v]));
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) EXPECT_EQ(read.positions[v], mesh.positions[v]);
     for (std::size_t v = 0; v < mesh.normals.size(); ++v) EXPECT_EQ(read.normals[v], mesh.normals[v]);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) EXPECT_EQ(read.face(t)[static_cast<std::size_t>(k)], mesh.triangles[t][k]);

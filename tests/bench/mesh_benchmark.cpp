@@ -62,7 +62,7 @@ void write(benchmark::State& state) {
   const auto triangles = static_cast<double>(scene.triangleCount());
   state.counters["bytesPerTriangle"] = static_cast<double>(written.meshes[0].sizeBytes) / triangles;
   state.counters["edgebreaker"] = written.meshes[0].method == "edgebreaker" ? 1 : 0;
-  state.counters["positionBits"] = written.grid.positionBits;
+  state.counters["positionBits"] = written.positionBits;
   state.counters["normalBits"] = written.meshes[0].normalBits;
   state.counters["normalErrorDegrees"] = written.meshes[0].deviation.normalMaxDegrees;
   state.counters["tiltDegrees"] = written.meshes[0].deviation.tiltMaxDegrees;

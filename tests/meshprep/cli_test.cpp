@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "meshprep/base/atomic_file.h"
-#include "meshprep/compress/draco_mesh.h"
+#include "meshprep/compress/mesh_file.h"
 #include "meshprep/prepare.h"
 #include "tests/meshprep/shapes.h"
 
@@ -60,14 +60,14 @@ TEST_F(PrepCommand, WritesAMeshAndAReport) {
   EXPECT_LT(json["errors"]["normalMaxDegrees"].get<double>(), 0.06);
   const std::vector<std::byte> bytes = readFile(output_);
   EXPECT_EQ(json["compression"]["bytes"], bytes.size());
-  const compress::TriangleMesh mesh = compress::decode(bytes, {24, 12}, "file");
+  const compress::TriangleMesh mesh = compress::decodeMeshFile(bytes, "file");
   EXPECT_EQ(mesh.normals.size(), 24u);
 }
 
 TEST_F(PrepCommand, PrintsATable) {
   const std::string printed = run({input_.path().string(), "-o", output_.string(), "--flat"});
   EXPECT_TRUE(contains(printed, "before"));
-  EXPECT_TRUE(compress::decode(readFile(output_), {8, 12}, "file").normals.empty());
+  EXPECT_TRUE(compress::decodeMeshFile(readFile(output_), "file").normals.empty());
 }
 
 TEST_F(PrepCommand, Simplifies) {
@@ -93,7 +93,7 @@ TEST_F(PrepCommand, Simplifies) {
 TEST_F(PrepCommand, WritesTheSourceMap) {
   run({input_.path().string(), "-o", output_.string(), "--source-map", map_.string()});
   const nlohmann::json map = nlohmann::json::parse(readTextFile(map_));
-  const compress::TriangleMesh mesh = compress::decode(readFile(output_), {24, 12}, "file");
+  const compress::TriangleMesh mesh = compress::decodeMeshFile(readFile(output_), "file");
   ASSERT_EQ(map.at("vertices").size(), 24u);  // three per vertex of the file
   ASSERT_EQ(map.at("triangles").size(), 12u);
   // Indices refer to the file, or to the prepared mesh if it has no sources.
@@ -103,12 +103,11 @@ TEST_F(PrepCommand, WritesTheSourceMap) {
   const auto& triangles = prepared.sourceFaces.empty() ? prepared.triangles : cube.triangles;
   const auto& corners = prepared.sourceFaces.empty() ? prepared.positions : cube.positions;
   for (std::size_t i = 0; i < 24; ++i)
-    EXPECT_LT(glm::distance(glm::dvec3(mesh.positions[i]), positions.at(map["vertices"][i].get<std::size_t>())), 1e-5);
+    EXPECT_LT(glm::distance(mesh.positions[i], positions.at(map["vertices"][i].get<std::size_t>())), 1e-5);
   for (std::size_t i = 0; i < 12; ++i) {
     const glm::uvec3 source = triangles.at(map["triangles"][i].get<std::size_t>());
     glm::dvec3 before(0), after(0);
-    for (int c = 0; c < 3; ++c)
-      before += corners.at(source[c]), after += glm::dvec3(mesh.positions[mesh.triangles[i][c]]);
+    for (int c = 0; c < 3; ++c) before += corners.at(source[c]), after += mesh.positions[mesh.triangles[i][c]];
     EXPECT_LT(glm::distance(before, after), 1e-5) << i;
   }
 }
@@ -198,7 +197,7 @@ TEST_F(PrepCommand, UsesTheRequestedNormals) {
   const TemporaryFile file(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0.6 0 0.8\ns 1\nf 1//1 2//1 3//1\n");
   const auto normal = [&](const char* kind) {
     run({file.path().string(), "-o", output_.string(), "--normals", kind});
-    return compress::decode(readFile(output_), {3, 1}, "file").normals[0];
+    return compress::decodeMeshFile(readFile(output_), "file").normals[0];
   };
   EXPECT_NEAR(normal("authored").x, 0.6, 1e-3);
   EXPECT_NEAR(normal("smoothing").z, 1, 1e-3);

@@ -90,7 +90,7 @@ typename Steps::Hit drawHit(Draw& draw, Steps& steps, Corners& corners) {
   const real b1 = draw.below(3) == 0 ? real(1e-7) : number(draw, 0, 0.5), b2 = number(draw, 0, 0.5);
   const real3 none{real(0), real(0), real(0)};
   auto h = steps.makeHit(vector(d), vector(corners.p[0]), vector(corners.p[1]), vector(corners.p[2]), b1, b2, none,
-                         real(draw.below(3)), 0u);
+                         none, real(draw.below(3)), 0u);
   h.travelled = draw.below(3) == 0 ? real(0) : number(draw, 0, 3);
   return h;
 }

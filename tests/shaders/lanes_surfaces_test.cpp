@@ -133,26 +133,28 @@ gpu::MaterialExtra drawExtra(Draw& draw) {
 template <class S, class L>
 Inputs<S, L> drawInputs(Draw& draw) {
   Inputs<S, L> in;
-  Vec corner[2][3], d[2], normal[2];
+  Vec corner[2][3], origin[2], d[2], normal[2];
   float b1[2], b2[2], depth[2];
   for (int i = 0; i < 2; ++i) {
     for (Vec& p : corner[i]) p = numbers(draw, -2, 2);
+    origin[i] = draw.below(2) == 0 ? Vec(0) : numbers(draw, -100, 100);
     d[i] = direction(draw);
     b1[i] = draw.below(3) == 0 ? 1e-7f : number(draw, 0, 0.5);  // on an edge, or inside
     b2[i] = number(draw, 0, 0.5);
     const Vec face = f32::cross3(corner[i][1] - corner[i][0], corner[i][2] - corner[i][0]);
     normal[i] = draw.below(3) == 0 ? Vec(0) : face + numbers(draw, -0.5, 0.5);
     depth[i] = static_cast<float>(draw.below(3)) + (draw.below(4) == 0 ? 0.25f : 0.0f);
-    in.hit[i] = in.scalar[i].makeHit(d[i], corner[i][0], corner[i][1], corner[i][2], b1[i], b2[i], normal[i], depth[i],
-                                     static_cast<gpu::uint>(i));
+    in.hit[i] = in.scalar[i].makeHit(d[i], corner[i][0], corner[i][1], corner[i][2], b1[i], b2[i], origin[i], normal[i],
+                                     depth[i], static_cast<gpu::uint>(i));
     in.hit[i].travelled = number(draw, 0, 3);
     in.material[i] = drawMaterial(draw);
     in.light[i] = {numbers(draw, -3, 3), numbers(draw, 0, 10)};
     in.scalar[i].extra = drawExtra(draw);
   }
-  in.laneHit = in.lanes.makeHit(pack(d[0], d[1]), pack(corner[0][0], corner[1][0]), pack(corner[0][1], corner[1][1]),
-                                pack(corner[0][2], corner[1][2]), pack(b1[0], b1[1]), pack(b2[0], b2[1]),
-                                pack(normal[0], normal[1]), pack(depth[0], depth[1]), Word(0u, 1u));
+  in.laneHit =
+      in.lanes.makeHit(pack(d[0], d[1]), pack(corner[0][0], corner[1][0]), pack(corner[0][1], corner[1][1]),
+                       pack(corner[0][2], corner[1][2]), pack(b1[0], b1[1]), pack(b2[0], b2[1]),
+                       pack(origin[0], origin[1]), pack(normal[0], normal[1]), pack(depth[0], depth[1]), Word(0u, 1u));
   in.laneHit.travelled = pack(in.hit[0].travelled, in.hit[1].travelled);
   const auto& hit = in.hit;
 #define MALUS_SAME_FIELD(f) expectSame(in.laneHit.f, hit[0].f, hit[1].f, "makeHit " #f);

@@ -257,7 +257,7 @@ TEST(Effects, DeepestBounce) {
   // A wide mirror below a low camera.
   pack::Scene water = glass;
   water.meshes.pop_back();
-  for (glm::vec3& p : water.meshes[0].positions) p = (p - glm::vec3(0.5f, 0.5f, 0)) * 2e5f;
+  for (glm::dvec3& p : water.meshes[0].positions) p = (p - glm::dvec3(0.5, 0.5, 0)) * 2e5;
   water.camera.position = {0, 0, 0.5};
   EXPECT_EQ(deepestBounce(water, 20, 1e-3), 1u);
   pack::Scene alone = glass;
@@ -325,9 +325,9 @@ TEST(Effects, Environment) {
 }
 
 // The first `faces` triangles of a cube of side 1 around `centre`, facing outward.
-pack::Mesh cubeAt(const glm::vec3& centre, std::size_t faces = 12) {
+pack::Mesh cubeAt(const glm::dvec3& centre, std::size_t faces = 12) {
   pack::Mesh mesh;
-  for (int i = 0; i < 8; ++i) mesh.positions.push_back(centre + glm::vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1) - 0.5f);
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back(centre + glm::dvec3(i & 1, (i >> 1) & 1, (i >> 2) & 1) - 0.5);
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   mesh.triangles.resize(faces);

@@ -84,15 +84,13 @@ const pack::Mesh& named(const pack::Scene& scene, std::string_view name) {
 double volume(const pack::Mesh& mesh) {
   double sum = 0;
   for (const glm::uvec3& t : mesh.triangles)
-    sum += glm::dot(glm::dvec3(mesh.positions[t.x]),
-                    glm::cross(glm::dvec3(mesh.positions[t.y]), glm::dvec3(mesh.positions[t.z]))) /
-           6;
+    sum += glm::dot(mesh.positions[t.x], glm::cross(mesh.positions[t.y], mesh.positions[t.z])) / 6;
   return sum;
 }
 
-std::pair<glm::vec3, glm::vec3> box(const pack::Mesh& mesh) {
-  glm::vec3 low = mesh.positions[0], high = low;
-  for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+std::pair<glm::dvec3, glm::dvec3> box(const pack::Mesh& mesh) {
+  glm::dvec3 low = mesh.positions[0], high = low;
+  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   return {low, high};
 }
 
@@ -100,9 +98,9 @@ TEST_F(Import, InstancesAndMaterials) {
   const Baked result = baked();
   const pack::Scene& scene = result.scene;
   ASSERT_EQ(scene.meshes.size(), 4u);
-  EXPECT_EQ(box(named(scene, "left")), std::pair(glm::vec3(0, 10, 0), glm::vec3(1, 11, 1)));
-  EXPECT_EQ(box(named(scene, "right")), std::pair(glm::vec3(4, 10, 0), glm::vec3(5, 11, 1)));
-  EXPECT_EQ(box(named(scene, "pool")), std::pair(glm::vec3(0, 0, 8), glm::vec3(1, 1, 9)));
+  EXPECT_EQ(box(named(scene, "left")), std::pair(glm::dvec3(0, 10, 0), glm::dvec3(1, 11, 1)));
+  EXPECT_EQ(box(named(scene, "right")), std::pair(glm::dvec3(4, 10, 0), glm::dvec3(5, 11, 1)));
+  EXPECT_EQ(box(named(scene, "pool")), std::pair(glm::dvec3(0, 0, 8), glm::dvec3(1, 1, 9)));
   for (const pack::Mesh& mesh : scene.meshes) EXPECT_NEAR(volume(mesh), 1, 1e-4) << mesh.name;  // faces outward
   ASSERT_EQ(scene.materials.size(), 4u);
   EXPECT_EQ(scene.materials[0].name, "gold");
@@ -126,7 +124,7 @@ TEST_F(Import, AppliesMaterialsAndTransformOfTheScene) {
   scene_["imports"][0]["transform"] = {{"scale", 2}, {"translate", {0, 0, 1}}};
   const pack::Scene scene = baked().scene;
   EXPECT_EQ(scene.materials[named(scene, "left").material].name, "gold");
-  EXPECT_EQ(box(named(scene, "left")), std::pair(glm::vec3(0, 20, 1), glm::vec3(2, 22, 3)));
+  EXPECT_EQ(box(named(scene, "left")), std::pair(glm::dvec3(0, 20, 1), glm::dvec3(2, 22, 3)));
   scene_["imports"][0]["materials"] = {{"stel", "gold"}};
   EXPECT_TRUE(contains(error(), "model.glb", "material 'stel'")) << error();
   scene_["imports"][0]["materials"] = {{"steel", "glod"}};

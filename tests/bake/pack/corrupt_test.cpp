@@ -104,7 +104,7 @@ TEST(CorruptPack, EveryFlippedBitWithMatchingHashesIsHarmless) {
             ASSERT_LT(mesh.material, scene.materials.size());
             for (const glm::uvec3& t : mesh.triangles)
               ASSERT_LT(std::max({t.x, t.y, t.z}), mesh.positions.size()) << s << " " << i << " " << bit;
-            for (const glm::vec3& p : mesh.positions)
+            for (const glm::dvec3& p : mesh.positions)
               ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
           }
         });
@@ -322,7 +322,7 @@ TEST(CorruptPack, MeshesOutOfBounds) {
 
 TEST(CorruptPack, MeshesMustNotShareGeometry) {
   // The second mesh claims the bytes of the first.
-  constexpr std::size_t kSecond = 4 + 4 + 11 + 36 + 4 + 5;
+  constexpr std::size_t kSecond = 4 + 4 + 11 + 36 + 56 + 4 + 5;
   const std::string error = errorWith("MESH", kSecond + 20, std::uint64_t{0});
   EXPECT_TRUE(contains(error, "geometry of mesh 'sheet'")) << error;
 }

@@ -21,7 +21,7 @@ using prep::test::errorMessage;
 
 TriangleMesh fromMesh(const prep::Mesh& mesh) {
   TriangleMesh result;
-  for (const glm::dvec3& p : mesh.positions) result.positions.emplace_back(p);
+  result.positions = mesh.positions;
   result.normals = mesh.normals;
   result.triangles = mesh.triangles;
   return result;
@@ -49,10 +49,10 @@ void expectEqual(const TriangleMesh& a, const TriangleMesh& b) {
 }
 
 // Expects a vertex of `source` within the tolerance of each vertex of `decoded`, and vice versa.
-void expectSamePositions(const TriangleMesh& source, const TriangleMesh& decoded, float tolerance) {
+void expectSamePositions(const TriangleMesh& source, const TriangleMesh& decoded, double tolerance) {
   for (const auto& [from, to] : {std::pair{&source, &decoded}, std::pair{&decoded, &source}})
-    for (const glm::vec3& p : from->positions)
-      EXPECT_TRUE(std::any_of(to->positions.begin(), to->positions.end(), [&, &position = p](const glm::vec3& q) {
+    for (const glm::dvec3& p : from->positions)
+      EXPECT_TRUE(std::any_of(to->positions.begin(), to->positions.end(), [&, &position = p](const glm::dvec3& q) {
         return glm::distance(position, q) <= tolerance;
       }));
 }
@@ -65,8 +65,8 @@ TEST(DracoMesh, EncodesASphereByEdgebreaker) {
   EXPECT_LT(encoded.deviation.positionMax, 3e-6f);
   EXPECT_GT(encoded.deviation.normalMaxDegrees, 0);
   EXPECT_LT(encoded.deviation.normalMaxDegrees, 0.06f);
-  expectEqual(decode(encoded.bytes, counts(mesh), "x"), encoded.decoded);
-  expectSamePositions(mesh, encoded.decoded, static_cast<float>(encoded.deviation.positionMax) * 1.001f);
+  expectEqual(decode(encoded.bytes, counts(mesh), settingsFor(mesh).grid, "x"), encoded.decoded);
+  expectSamePositions(mesh, encoded.decoded, encoded.deviation.positionMax * 1.001);
   const Limits claimed = declaredCounts(encoded.bytes, "x");
   EXPECT_EQ(claimed.vertices, counts(mesh).vertices);
   EXPECT_EQ(claimed.triangles, counts(mesh).triangles);
@@ -113,7 +113,7 @@ TEST(DracoMesh, EncodesOpenAndDisconnectedMeshes) {
     const Encoded encoded = encode(mesh, settingsFor(mesh));
     EXPECT_EQ(encoded.decoded.positions.size(), mesh.positions.size());
     EXPECT_EQ(encoded.decoded.triangles.size(), mesh.triangles.size());
-    expectEqual(decode(encoded.bytes, counts(mesh), "x"), encoded.decoded);
+    expectEqual(decode(encoded.bytes, counts(mesh), settingsFor(mesh).grid, "x"), encoded.decoded);
   }
 }
 
@@ -133,8 +133,8 @@ TEST(DracoMesh, DecodesEqualPositionsEquallyInAllMeshes) {
     halves[x > 0.4 ? 1 : 0].triangles.push_back(t);
   }
   Settings settings;
-  settings.grid = {glm::vec3(-1.3f, -2.1f, -1.7f), 4.9f, 18};
-  std::map<std::size_t, glm::vec3> decodedAt[2];
+  settings.grid = {glm::dvec3(-2), 0x1p-15, 18};
+  std::map<std::size_t, glm::dvec3> decodedAt[2];
   for (int h = 0; h < 2; ++h) {
     // Unreferenced vertices force the sequential encoding, which keeps the order that this test needs.
     TriangleMesh mesh = fromMesh(halves[h]);
@@ -149,7 +149,7 @@ TEST(DracoMesh, DecodesEqualPositionsEquallyInAllMeshes) {
   const TriangleMesh mesh = fromMesh(whole);
   const Encoded encoded = encode(mesh, settings);
   EXPECT_EQ(encoded.method, "edgebreaker");
-  for (const glm::vec3& p : encoded.decoded.positions)
+  for (const glm::dvec3& p : encoded.decoded.positions)
     EXPECT_TRUE(std::any_of(decodedAt[0].begin(), decodedAt[0].end(), [&](const auto& q) { return q.second == p; }));
 }
 
@@ -170,13 +170,13 @@ TEST(DracoMesh, FallsBackToSequential) {
     const Encoded encoded = encode(mesh, settingsFor(mesh));
     EXPECT_EQ(encoded.method, "sequential");
     EXPECT_EQ(encoded.decoded.triangles, mesh.triangles);
-    expectEqual(decode(encoded.bytes, counts(mesh), "x"), encoded.decoded);
+    expectEqual(decode(encoded.bytes, counts(mesh), settingsFor(mesh).grid, "x"), encoded.decoded);
   }
 }
 
 TEST(DracoMesh, KeepsCountsOnCoarseGrids) {
   const TriangleMesh mesh = withNormals(prep::test::sphere(31, 64));
-  for (const int bits : {1, 2, 4, 8, 11, 16, 22, 26}) {
+  for (const int bits : {1, 2, 4, 8, 11, 16, 22, 26, 30}) {
     const Encoded encoded = encode(mesh, settingsFor(mesh, bits));
     EXPECT_EQ(encoded.decoded.triangles.size(), mesh.triangles.size()) << bits;
     EXPECT_EQ(encoded.decoded.positions.size(), mesh.positions.size()) << bits;
@@ -197,16 +197,28 @@ TEST(DracoMesh, ReducesNormalErrorsByMoreBits) {
 }
 
 TEST(DracoMesh, FitsAGrid) {
-  const std::vector<glm::vec3> point = {glm::vec3(3)};
-  EXPECT_EQ(gridFor(point, 20).range, 1);
-  const TriangleMesh far = fromMesh(prep::test::cube(0.5, {1e5, 1e5, -1e5}));
-  EXPECT_LT(encode(far, settingsFor(far)).deviation.positionMax, 0.05f);
-  const std::vector<glm::vec3> bad = {glm::vec3(std::numeric_limits<float>::infinity())};
-  EXPECT_FALSE(errorMessage([&] { gridFor(bad, 20); }).empty());
-  const std::vector<glm::vec3> wide = {glm::vec3(-3e38f), glm::vec3(3e38f)};
-  EXPECT_TRUE(contains(errorMessage([&] { gridFor(wide, 20); }), "too large"));
-  const std::vector<glm::vec3> tiny = {glm::vec3(0), glm::vec3(1e-36f)};
-  EXPECT_TRUE(contains(errorMessage([&] { gridFor(tiny, 20); }), "too small"));
+  const std::vector<glm::dvec3> point = {glm::dvec3(3)};
+  EXPECT_EQ(gridFor(point, 20).origin, glm::dvec3(3));
+  // The step of a grid far from zero is that of its size.
+  const TriangleMesh far = fromMesh(prep::test::cube(0.5, {1e6, 1e6, -1e6}));
+  EXPECT_LT(encode(far, settingsFor(far, 26)).deviation.positionMax, 3e-8);
+  const auto refused = [](const std::vector<glm::dvec3>& positions) {
+    return errorMessage([&] { gridFor(positions, 20); });
+  };
+  EXPECT_FALSE(refused({glm::dvec3(std::numeric_limits<double>::infinity())}).empty());
+  EXPECT_TRUE(contains(refused({glm::dvec3(-3e40), glm::dvec3(3e40)}), "too large"));
+  EXPECT_TRUE(contains(refused({glm::dvec3(0), glm::dvec3(1e-60)}), "too small"));
+  EXPECT_TRUE(contains(refused({glm::dvec3(1e12), glm::dvec3(1e12 + 1)}), "too far"));
+}
+
+TEST(DracoMesh, AcceptsTheWholeRangeOfSizes) {
+  for (const double size : {2 * kMinExtent, 1e-30, 1e-6, 1e6, 1e30, 0.5 * kMaxExtent})
+    for (const double distance : {0.0, 1.0, 1e6, 0.4 * kMaxDistance}) {
+      const TriangleMesh mesh = fromMesh(prep::test::cube(0.5 * size, glm::dvec3(distance * size)));
+      const Encoded encoded = encode(mesh, settingsFor(mesh, 30));
+      EXPECT_LE(encoded.deviation.positionMax, size * std::max(2e-9, distance * 1e-15)) << size << " " << distance;
+      EXPECT_EQ(encoded.deviation.newDegenerate, 0u) << size << " " << distance;
+    }
 }
 
 TEST(DracoMesh, RefusesInvalidInput) {
@@ -218,27 +230,29 @@ TEST(DracoMesh, RefusesInvalidInput) {
     change(mesh, changed);
     return errorMessage([&] { encode(mesh, changed); });
   };
-  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = std::numeric_limits<float>::quiet_NaN(); }),
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = std::numeric_limits<double>::quiet_NaN(); }),
                        "not finite"));
-  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = 1.5f; }), "outside of the grid"));
-  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = -0.5f; }), "outside of the grid"));
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = 2.5; }), "outside of the grid"));
+  EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.positions[3].y = -0.5; }), "outside of the grid"));
   EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.normals[2] = glm::vec3(0); }), "unit length"));
   EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.normals.pop_back(); }), "number of normals"));
   EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.triangles[1].z = 24; }), "invalid vertex index"));
   EXPECT_TRUE(contains(refused([](auto& m, auto&) { m.triangles.clear(); }), "empty"));
-  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.positionBits = 0; }), "1 to 26"));
+  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.positionBits = 0; }), "1 to 30"));
   EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.normalBits = 31; }), "2 to 16"));
-  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.range = 0; }), "grid"));
+  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.step = 0; }), "grid"));
+  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.step *= 1.5; }), "power of two"));
+  EXPECT_TRUE(contains(refused([](auto&, auto& s) { s.grid.origin.x += 0.3 * s.grid.step; }), "origin"));
 }
 
 TEST(DracoMesh, RefusesUnexpectedCounts) {
   const TriangleMesh mesh = withNormals(prep::test::cube());
   const Encoded encoded = encode(mesh, settingsFor(mesh));
   EXPECT_TRUE(contains(errorMessage([&] {
-                         decode(encoded.bytes, {23, 12}, "a.drc");
+                         decode(encoded.bytes, {23, 12}, settingsFor(mesh).grid, "a.drc");
                        }),
                        "a.drc: Draco data has unexpected counts"));
-  EXPECT_FALSE(errorMessage([&] { decode(encoded.bytes, {24, 13}, "x"); }).empty());
+  EXPECT_FALSE(errorMessage([&] { decode(encoded.bytes, {24, 13}, settingsFor(mesh).grid, "x"); }).empty());
 }
 
 // Limits the memory of this process within a scope. Disabled under the address sanitizer, which maps terabytes.
@@ -269,11 +283,11 @@ class MemoryLimit {
 // Decodes arbitrary bytes, and expects an error or a valid mesh with these counts.
 void expectErrorOrMesh(const std::vector<std::byte>& bytes, const Limits& limits) {
   try {
-    const TriangleMesh mesh = decode(bytes, limits, "damaged");
+    const TriangleMesh mesh = decode(bytes, limits, Grid{glm::dvec3(-1), 0x1p-19, kMaxPositionBits}, "damaged");
     ASSERT_EQ(mesh.positions.size(), limits.vertices);
     ASSERT_EQ(mesh.triangles.size(), limits.triangles);
     for (const glm::uvec3& t : mesh.triangles) ASSERT_LT(std::max({t.x, t.y, t.z}), limits.vertices);
-    for (const glm::vec3& p : mesh.positions)
+    for (const glm::dvec3& p : mesh.positions)
       ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     for (const glm::vec3& n : mesh.normals) ASSERT_NEAR(glm::length(n), 1, 1e-5);
   } catch (const Error& error) {
@@ -339,21 +353,28 @@ TEST(DracoMesh, RefusesHugeCountsWithoutAllocation) {
   };
   const MemoryLimit limit(rlim_t{4} << 30);
   EXPECT_TRUE(contains(errorMessage([&] {
-                         decode(bytes({2, 2, 1, 0, 0, 0, 1, 0x80, 0x80, 0x80, 0x80, 8, 1}), {3, 1}, "x");
+                         decode(bytes({2, 2, 1, 0, 0, 0, 1, 0x80, 0x80, 0x80, 0x80, 8, 1}), {3, 1}, Grid{}, "x");
                        }),
                        "2147483648"));
+  EXPECT_TRUE(
+      contains(errorMessage([&] {
+                 decode(bytes({2, 2, 1, 1, 0, 0, 0, 3, 1, 0, 1, 0xff, 0xff, 0xff, 0xff, 15}), {3, 1}, Grid{}, "x");
+               }),
+               "split symbols"));
   EXPECT_TRUE(contains(errorMessage([&] {
-                         decode(bytes({2, 2, 1, 1, 0, 0, 0, 3, 1, 0, 1, 0xff, 0xff, 0xff, 0xff, 15}), {3, 1}, "x");
-                       }),
-                       "split symbols"));
-  EXPECT_TRUE(contains(errorMessage([&] {
-                         decode(bytes({2, 2, 1, 0, 0, 0, 1, 0xff, 0xff, 0xff, 0xff, 0xff, 1}), {3, 1}, "x");
+                         decode(bytes({2, 2, 1, 0, 0, 0, 1, 0xff, 0xff, 0xff, 0xff, 0xff, 1}), {3, 1}, Grid{}, "x");
                        }),
                        "32 bits"));
-  EXPECT_TRUE(contains(errorMessage([&] { decode(bytes({2, 1, 1, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "version"));
-  EXPECT_TRUE(contains(errorMessage([&] { decode(bytes({2, 2, 0, 0, 0, 0, 1, 3}), {3, 1}, "x"); }), "not a mesh"));
-  EXPECT_TRUE(contains(errorMessage([&] { decode(bytes({2, 2, 1, 0, 0, 0x80, 1, 3}), {3, 1}, "x"); }), "metadata"));
-  EXPECT_TRUE(contains(errorMessage([&] { decode({}, {3, 1}, "x"); }), "truncated"));
+  EXPECT_TRUE(contains(errorMessage([&] { decode(bytes({2, 1, 1, 0, 0, 0, 1, 3}), {3, 1}, Grid{}, "x"); }), "version"));
+  EXPECT_TRUE(contains(errorMessage([&] {
+                         decode(bytes({2, 2, 0, 0, 0, 0, 1, 3}), {3, 1}, Grid{}, "x");
+                       }),
+                       "not a mesh"));
+  EXPECT_TRUE(contains(errorMessage([&] {
+                         decode(bytes({2, 2, 1, 0, 0, 0x80, 1, 3}), {3, 1}, Grid{}, "x");
+                       }),
+                       "metadata"));
+  EXPECT_TRUE(contains(errorMessage([&] { decode({}, {3, 1}, Grid{}, "x"); }), "truncated"));
   EXPECT_TRUE(contains(errorMessage([&] { declaredCounts(bytes({2}), "x"); }), "truncated"));
 }
 

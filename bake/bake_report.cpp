@@ -21,7 +21,7 @@ struct Totals {
   compress::Deviation worst;
 };
 
-Totals addUp(const Baked& baked, const pack::Written& written) {
+Totals addUp(const pack::Written& written) {
   Totals totals;
   for (const pack::MeshCompression& m : written.meshes) {
     totals.geometryBytes += m.sizeBytes;
@@ -44,7 +44,7 @@ json lightBeyondJson(const Baked& baked) {
 }  // namespace
 
 json bakeJson(const Baked& baked, const pack::Written& written, const std::string& output) {
-  const Totals totals = addUp(baked, written);
+  const Totals totals = addUp(written);
   json meshes = json::array();
   for (std::size_t i = 0; i < written.meshes.size(); ++i) {
     const pack::MeshCompression& m = written.meshes[i];
@@ -94,7 +94,7 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
 
 std::string bakeText(const Baked& baked, const pack::Written& written, const std::string& output, bool rebaked) {
   // Step 1: all of it.
-  const Totals totals = addUp(baked, written);
+  const Totals totals = addUp(written);
   std::string text = fmt::format(
       "{}: {} meshes, {} vertices, {} triangles -> {} ({} bytes, geometry {:.1f} bytes per triangle,\n"
       "  positions of {} bits within {:.3g} m, normals within {:.3g} degrees, faces tilted by at most {:.3g} "

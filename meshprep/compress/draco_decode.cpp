@@ -17,6 +17,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/compress/draco_header.h"
 #include "meshprep/compress/draco_mesh.h"
+#include "meshprep/compress/draco_write.h"
 
 namespace malus::compress {
 
@@ -29,15 +30,18 @@ bool hasType(const draco::PointAttribute& attribute, draco::DataType type) {
   return attribute.num_components() == 3 && attribute.data_type() == type;
 }
 
-// Returns true if the attributes are one position of the given type and at most one float normal.
+// Returns true if the attributes are one position of the given type, at most one float normal, and for integers at most
+// one generic attribute of integers, the low bits of the positions.
 bool hasExpectedAttributes(const draco::PointCloud& cloud, draco::DataType positionType) {
   if (cloud.NumNamedAttributes(draco::GeometryAttribute::POSITION) != 1) return false;
   const int normals = cloud.NumNamedAttributes(draco::GeometryAttribute::NORMAL);
-  if (normals > 1 || cloud.num_attributes() != 1 + normals) return false;
+  const int lows = cloud.NumNamedAttributes(draco::GeometryAttribute::GENERIC);
+  if (normals > 1 || lows > (positionType == draco::DT_INT32 ? 1 : 0) || cloud.num_attributes() != 1 + normals + lows)
+    return false;
   for (int i = 0; i < cloud.num_attributes(); ++i) {
     const draco::PointAttribute& attribute = *cloud.attribute(i);
-    const bool isPosition = attribute.attribute_type() == draco::GeometryAttribute::POSITION;
-    if (!hasType(attribute, isPosition ? positionType : draco::DT_FLOAT32)) return false;
+    const bool isNormal = attribute.attribute_type() == draco::GeometryAttribute::NORMAL;
+    if (!hasType(attribute, isNormal ? draco::DT_FLOAT32 : positionType)) return false;
   }
   return true;
 }
@@ -109,13 +113,24 @@ std::vector<glm::vec3> finiteValues(const draco::PointAttribute& attribute, std:
   return values;
 }
 
-// Returns the positions of integers on the grid.
-std::vector<glm::dvec3> gridPositions(const draco::PointAttribute& attribute, std::uint32_t vertices, const Grid& grid,
-                                      std::string_view where) {
+// Returns the positions of integers on the grid. low: attribute of their low bits, or nullptr.
+std::vector<glm::dvec3> gridPositions(const draco::PointAttribute& attribute, const draco::PointAttribute* low,
+                                      std::uint32_t vertices, const Grid& grid, std::string_view where) {
   const std::int32_t most = static_cast<std::int32_t>((1u << static_cast<unsigned>(grid.positionBits)) - 1u);
   std::vector<glm::dvec3> positions;
   positions.reserve(vertices);
-  for (const glm::ivec3& k : attributeValues<glm::ivec3>(attribute, vertices, "position", where)) {
+  std::vector<glm::ivec3> integers = attributeValues<glm::ivec3>(attribute, vertices, "position", where);
+  if (low != nullptr) {
+    const std::vector<glm::ivec3> rest = attributeValues<glm::ivec3>(*low, vertices, "position", where);
+    constexpr int kLow = 1 << kLowBits, kHigh = 1 << (kMaxPositionBits - kLowBits);
+    for (std::uint32_t i = 0; i < vertices; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        int& k = integers[i][axis];
+        const bool isValid = k >= 0 && k < kHigh && rest[i][axis] >= 0 && rest[i][axis] < kLow;
+        k = isValid ? k * kLow + rest[i][axis] : -1;
+      }
+  }
+  for (const glm::ivec3& k : integers) {
     if (std::min({k.x, k.y, k.z}) < 0 || std::max({k.x, k.y, k.z}) > most)
       throw Error(where, fmt::format("position of vertex {} is outside of its grid", positions.size()),
                   fmt::format("0 to {} steps", most), fmt::format("({}, {}, {})", k.x, k.y, k.z));
@@ -167,7 +182,8 @@ TriangleMesh decodeMesh(std::span<const std::byte> bytes, const Limits& limits, 
   TriangleMesh result;
   const draco::PointAttribute& positions = *mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
   if (grid != nullptr) {
-    result.positions = gridPositions(positions, limits.vertices, *grid, where);
+    result.positions = gridPositions(positions, mesh.GetNamedAttribute(draco::GeometryAttribute::GENERIC),
+                                     limits.vertices, *grid, where);
   } else {
     for (const glm::vec3& p : finiteValues(positions, limits.vertices, "position", where))
       result.positions.emplace_back(p);

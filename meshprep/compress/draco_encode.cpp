@@ -131,7 +131,7 @@ std::string tryEdgebreaker(const MeshView& mesh, std::span<const glm::ivec3> int
     return "edgebreaker changes the counts: faces that are degenerate or not manifold, or loose vertices";
   }
   const double decodeMs = millisecondsSince(decoding);
-  std::optional<std::vector<std::uint32_t>> vertices = edgebreakerOrder(mesh);
+  std::optional<std::vector<std::uint32_t>> vertices = edgebreakerOrder(mesh, integers);
   if (!vertices) return "edgebreaker gives an unknown order of vertices";
   std::optional<std::vector<std::uint32_t>> triangles = sourceTriangles(encoded.decoded, decoded, *vertices);
   if (!triangles) return "edgebreaker changes the triangles";

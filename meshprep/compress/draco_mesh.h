@@ -144,9 +144,10 @@ struct Limits {
 // have one vertex per position. Throws Error (begins with `where`) if the bytes are not a Draco 2.2 triangle mesh.
 Limits declaredCounts(std::span<const std::byte> bytes, std::string_view where);
 
-// Decodes files by encode(): one attribute of positions, three integers of the grid, and at most one of normals, three
-// floats. All values of the result are finite, indices are below the number of vertices and normals have unit length.
-// Throws Error (begins with `where`). Corrupt bytes may decode to a different valid mesh: store a hash to detect them.
+// Decodes files by encode(): one attribute of positions, three integers of the grid (draco_write.h: above 20 bits
+// in two attributes), and at most one of normals, three floats. All values of the result are finite, indices are below
+// the number of vertices and normals have unit length. Throws Error (begins with `where`). Corrupt bytes may decode to
+// a different valid mesh: store a hash to detect them.
 TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, const Grid& grid, std::string_view where);
 
 // Decodes the files of packs of format version 1, whose positions are three floats that Draco quantized.

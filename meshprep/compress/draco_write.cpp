@@ -1,5 +1,6 @@
 #include "meshprep/compress/draco_write.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -59,11 +60,29 @@ void setTriangles(draco::Mesh& result, const MeshView& mesh) {
 
 }  // namespace
 
+bool areSplit(std::span<const glm::ivec3> positions) {
+  return std::any_of(positions.begin(), positions.end(), [](const glm::ivec3& k) {
+    return std::max({k.x, k.y, k.z}) >= 1 << kPlainBits;
+  });
+}
+
 std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView& mesh,
                                                   std::span<const glm::ivec3> positions, int normalBits) {
   draco::Mesh source;
   setTriangles(source, mesh);
-  addAttribute<std::int32_t>(source, draco::GeometryAttribute::POSITION, draco::DT_INT32, positions);
+  if (areSplit(positions)) {
+    std::vector<glm::ivec3> high, low;
+    for (const glm::ivec3& k : positions) {
+      high.push_back(k >> kLowBits);
+      low.push_back(k & ((1 << kLowBits) - 1));
+    }
+    addAttribute<std::int32_t>(source, draco::GeometryAttribute::POSITION, draco::DT_INT32,
+                               std::span<const glm::ivec3>(high));
+    addAttribute<std::int32_t>(source, draco::GeometryAttribute::GENERIC, draco::DT_INT32,
+                               std::span<const glm::ivec3>(low));
+  } else {
+    addAttribute<std::int32_t>(source, draco::GeometryAttribute::POSITION, draco::DT_INT32, positions);
+  }
   const int normals = mesh.normals.empty() ? -1
                                            : addAttribute<float>(source, draco::GeometryAttribute::NORMAL,
                                                                  draco::DT_FLOAT32, mesh.normals);
@@ -80,11 +99,13 @@ std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView&
   return std::vector<std::byte>(data, data + buffer.size());
 }
 
-std::optional<std::vector<std::uint32_t>> edgebreakerOrder(const MeshView& mesh) {
+std::optional<std::vector<std::uint32_t>> edgebreakerOrder(const MeshView& mesh,
+                                                           std::span<const glm::ivec3> positions) {
   // Encode the same connectivity and the same number of attributes, on which the order depends.
   draco::Mesh source;
   setTriangles(source, mesh);
   addNumbers(source, draco::GeometryAttribute::POSITION, 3, mesh.positions.size());
+  if (areSplit(positions)) addNumbers(source, draco::GeometryAttribute::GENERIC, 3, mesh.positions.size());
   if (!mesh.normals.empty()) addNumbers(source, draco::GeometryAttribute::GENERIC, 1, mesh.positions.size());
   draco::ExpertEncoder encoder(source);
   encoder.SetSpeedOptions(kSpeed, kSpeed);

@@ -167,7 +167,7 @@ void requireAcceptedSize(std::span<const glm::dvec3> positions, std::string_view
   for (const glm::dvec3& p : positions)
     if (!isFinite(p)) throw Error(where, "a position is not finite");
   if (positions.empty()) return;
-  const Extent extent = extentOf(positions);
+  const Extent extent = findExtent(positions);
   const double size = extent.largest(), farthest = extent.farthest();
   if (!(size == 0 || size >= kMinExtent))
     throw Error(where, "the mesh is too small", fmt::format("a size of {:g} to {:g} m", kMinExtent, kMaxExtent),
@@ -186,7 +186,7 @@ Grid gridWithStep(std::span<const glm::dvec3> positions, double step) {
   grid.step = step;
   grid.positionBits = 1;
   if (positions.empty()) return grid;
-  const Extent extent = extentOf(positions);
+  const Extent extent = findExtent(positions);
   grid.origin = extent.low;
   const double most = extent.largest() / step;
   if (most >= 1) grid.positionBits = std::ilogb(most) + 1;
@@ -198,7 +198,7 @@ Grid gridFor(std::span<const glm::dvec3> positions, int positionBits, std::strin
   if (positions.empty()) return {glm::dvec3(0), 1, positionBits};
   Grid grid;
   grid.step = std::ldexp(1.0, stepExponent(positions, positionBits));
-  grid.origin = roundToStep(extentOf(positions).low, grid.step);
+  grid.origin = roundToStep(findExtent(positions).low, grid.step);
   grid.positionBits = positionBits;
   return grid;
 }

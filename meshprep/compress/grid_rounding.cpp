@@ -40,7 +40,7 @@ double Extent::farthest() const {
   return std::max({most.x, most.y, most.z});
 }
 
-Extent extentOf(std::span<const glm::dvec3> positions) {
+Extent findExtent(std::span<const glm::dvec3> positions) {
   Extent extent{positions.front(), positions.front()};
   for (const glm::dvec3& p : positions) {
     extent.low = glm::min(extent.low, p);
@@ -50,7 +50,7 @@ Extent extentOf(std::span<const glm::dvec3> positions) {
 }
 
 int stepExponent(std::span<const glm::dvec3> positions, int bits) {
-  const Extent extent = extentOf(positions);
+  const Extent extent = findExtent(positions);
   const double largest = extent.largest(), farthest = extent.farthest();
   if (farthest == 0) return 0;
   // One exponent below the quotient of extent and steps, or the least that kMaxSteps permits; then raise it until it

@@ -31,7 +31,7 @@ struct Extent {
   double largest() const;
   double farthest() const;  // largest absolute coordinate
 };
-Extent extentOf(std::span<const glm::dvec3> positions);
+Extent findExtent(std::span<const glm::dvec3> positions);
 
 // Rounds unit normals to octahedral coordinates with `bits` bits (kMinNormalBits to kMaxNormalBits), and normalizes.
 std::vector<glm::vec3> roundNormals(std::span<const glm::vec3> normals, int bits);

@@ -55,7 +55,7 @@ class Rounder {
     std::vector<glm::dvec3> corners;
     for (const MeshView& mesh : meshes_) {
       if (mesh.positions.empty()) continue;
-      const Extent extent = extentOf(mesh.positions);
+      const Extent extent = findExtent(mesh.positions);
       corners.insert(corners.end(), {extent.low, extent.high});
     }
     const int sceneStep = corners.empty() ? 0 : stepExponent(corners, kFirstPositionBits);
@@ -74,7 +74,7 @@ class Rounder {
     }
 
     // Group the meshes that share positions.
-    const double farthest = corners.empty() ? 0 : extentOf(corners).farthest();
+    const double farthest = corners.empty() ? 0 : findExtent(corners).farthest();
     shared_ = findSharedPositions(meshes_, farthest * kSharedTolerance);
     groups_.resize(meshes_.size());
     for (std::uint32_t i = 0; i < meshes_.size(); ++i) groups_[shared_.groupOf[i]].push_back(i);
@@ -123,7 +123,7 @@ class Rounder {
       if (meshes_[i].positions.empty()) continue;
       finest = std::min(finest, steps_[i]);
       coarsest = std::max(coarsest, steps_[i]);
-      farthest = std::max(farthest, extentOf(meshes_[i].positions).farthest());
+      farthest = std::max(farthest, findExtent(meshes_[i].positions).farthest());
     }
     if (farthest == 0 || farthest <= power(finest + kFloatBits)) return glm::dvec3(0);
     glm::dvec3 median(0);

@@ -27,7 +27,7 @@ struct Entry {
 };
 
 // Adds 0 so that -0 becomes 0, which sorts differently.
-Cell cellOf(const glm::dvec3& p, double tolerance) {
+Cell makeCell(const glm::dvec3& p, double tolerance) {
   return {std::nearbyint(p.x / tolerance) + 0.0, std::nearbyint(p.y / tolerance) + 0.0,
           std::nearbyint(p.z / tolerance) + 0.0};
 }
@@ -36,7 +36,7 @@ Cell cellOf(const glm::dvec3& p, double tolerance) {
 std::vector<Entry> candidates(std::span<const MeshView> meshes, double tolerance) {
   std::vector<Extent> boxes;
   for (const MeshView& mesh : meshes) {
-    boxes.push_back(mesh.positions.empty() ? Extent{glm::dvec3(1), glm::dvec3(-1)} : extentOf(mesh.positions));
+    boxes.push_back(mesh.positions.empty() ? Extent{glm::dvec3(1), glm::dvec3(-1)} : findExtent(mesh.positions));
     boxes.back().low -= tolerance;
     boxes.back().high += tolerance;
   }
@@ -58,13 +58,13 @@ std::vector<Entry> candidates(std::span<const MeshView> meshes, double tolerance
           all || std::any_of(others.begin(), others.end(), [&](const Extent& box) {
             return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
           });
-      if (inside) entries.push_back({cellOf(p, tolerance), i, v});
+      if (inside) entries.push_back({makeCell(p, tolerance), i, v});
     }
   }
   return entries;
 }
 
-std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t i) {
+std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
 }
@@ -93,11 +93,11 @@ SharedPositions findSharedPositions(std::span<const MeshView> meshes, double tol
       shared.vertices[entry.mesh].emplace_back(entry.vertex, static_cast<std::uint32_t>(shared.users.size() - 1));
     }
     for (const std::uint32_t mesh : users) {
-      const std::uint32_t a = rootOf(shared.groupOf, users.front()), b = rootOf(shared.groupOf, mesh);
+      const std::uint32_t a = findRoot(shared.groupOf, users.front()), b = findRoot(shared.groupOf, mesh);
       shared.groupOf[std::max(a, b)] = std::min(a, b);
     }
   }
-  for (std::uint32_t i = 0; i < meshes.size(); ++i) shared.groupOf[i] = rootOf(shared.groupOf, i);
+  for (std::uint32_t i = 0; i < meshes.size(); ++i) shared.groupOf[i] = findRoot(shared.groupOf, i);
   return shared;
 }
 

@@ -1,7 +1,7 @@
 // Draco compression of one triangle mesh, verified by decoding the result.
 //
 // Positions are in metres, in double, and are rounded to a grid: origin + step * integer, with a step that is a power
-// of two and an origin that is a multiple of it. Draco stores the integers, without a quantization of its own; origin
+// of two and an origin that is a multiple of it. Draco stores the integers, without a further quantization; origin
 // and step are stored beside its data. Every position of a grid is exact in double, so that grids with the same anchor
 // agree on all points that they share. Normals are unit vectors, encoded in octahedral coordinates. Triangles are
 // counter-clockwise seen from outside and keep their orientation.

@@ -91,7 +91,7 @@ class Rounder {
         roundMesh(i, origin);
         withinBounds_[i] = 0;
         if (rounded_[i].grid.positionBits <= kMaxPositionBits) continue;
-        // Positions that are rounded to the coarser step of another mesh lie beyond the last bit.
+        // Positions that are rounded to the coarser step of another mesh are beyond the last bit.
         ++steps_[i];
         finest_[i] = steps_[i];
         fits = false;

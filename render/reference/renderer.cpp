@@ -419,7 +419,7 @@ bake::DepthProbe Renderer::probeDepth() {
   };
   std::vector<Row> rows(height);
   tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {
-    Tracer tracer{scene, impl_->bvh, impl_->hemisphereTransmittance, parameters};
+    Tracer tracer{scene, impl_->bvh, impl_->sourceMeshes, impl_->hemisphereTransmittance, parameters};
     DepthPaths paths(tracer);
     for (std::uint32_t x = 0; x < kSide; ++x)
       paths.followPixel(scene.camera.position,

@@ -32,15 +32,14 @@ class DepthPaths {
   explicit DepthPaths(Tracer& tracer) : darkBacks(tracer.scene.materials.size()), tracer_(tracer) {}
 
   void followPixel(const dvec3& origin, const dvec3& direction) {
-    std::priority_queue<Path> waiting;
-    waiting_ = &waiting;
+    waiting_ = {};
     push({origin, origin, direction, unpolarized(dvec3(1)), 0, false});
-    for (std::uint32_t ray = 0; ray < kRaysPerPixel && !waiting.empty(); ++ray) {
-      const Path path = waiting.top();
-      waiting.pop();
+    for (std::uint32_t ray = 0; ray < kRaysPerPixel && !waiting_.empty(); ++ray) {
+      const Path path = waiting_.top();
+      waiting_.pop();
       follow(path);
     }
-    unfollowed += waiting.size();
+    unfollowed += waiting_.size();
   }
 
  private:
@@ -59,7 +58,7 @@ class DepthPaths {
   static Light times(const Light& row, const dmat4& m) { return {row[0] * m, row[1] * m, row[2] * m}; }
 
   void push(const Path& path) {
-    if (path.size() >= kLeastImportance && path.interactions <= kMostInteractions) waiting_->push(path);
+    if (path.size() >= kLeastImportance && path.interactions <= kMostInteractions) waiting_.push(path);
   }
   void record(const Light& importance, const Light& light, std::uint32_t interactions) {
     double sum = 0;
@@ -138,7 +137,7 @@ class DepthPaths {
   }
 
   Tracer& tracer_;
-  std::priority_queue<Path>* waiting_ = nullptr;
+  std::priority_queue<Path> waiting_;
 };
 
 // The shares of bake::DepthProbe::beyond.

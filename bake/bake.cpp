@@ -12,6 +12,7 @@
 
 #include "bake/effects/effects.h"
 #include "bake/environment/octahedral_map.h"
+#include "bake/materials/film_precision.h"
 #include "bake/meshes/meshes.h"
 #include "bake/pack/format.h"
 #include "bake/textures/texture.h"
@@ -128,6 +129,17 @@ std::string withWarnings(const std::string& provenance, std::vector<std::string>
   return jsonText(document, -1);
 }
 
+// Reports thin films that the single-precision renderers do not reproduce.
+void addFilmNotes(const std::vector<pack::Material>& materials, std::vector<std::string>& notes) {
+  for (const pack::Material& m : materials)
+    if (const auto film = insufficientFilmPrecision(m))
+      notes.push_back(fmt::format(
+          "material '{}': the thin film has an optical thickness of {:.3g} wavelengths: the single-precision renderers "
+          "(embree, vulkan) differ from double precision by up to {:.1e} in reflectance; expected at most {:g}, up to "
+          "{:.3g} wavelengths",
+          m.name, film->waves, film->difference, kFilmPrecision, film->limitWaves));
+}
+
 Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
            const std::function<void(std::string_view)>& progress, const BakeOptions& options) {
   Baked baked;
@@ -145,6 +157,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
       placeMeshes(d, {options.allowOpenGlass, settings.keepMap, options.strict}, scene.materials, progress);
   baked.reports = std::move(placed.reports);
   baked.notes = std::move(placed.notes);
+  addFilmNotes(scene.materials, baked.notes);
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const PlacedMesh& mesh : placed.meshes)
     for (const glm::dvec3& p : mesh.world.positions) low = glm::min(low, p), high = glm::max(high, p);

@@ -25,7 +25,8 @@ struct BakeOptions {
 struct Baked {
   pack::Scene scene;
   std::vector<prep::Report> reports;  // per mesh of the description, then per part of an import
-  std::vector<std::string> notes;     // left out contents of files, meshes not simplified, glass not certified
+  std::vector<std::string> notes;     // left out contents of files, meshes not simplified, glass not certified,
+                                      // thin films beyond single precision
   std::optional<DepthProbe> probe;    // measured by the caller
 };
 

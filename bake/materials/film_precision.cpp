@@ -1,0 +1,67 @@
+#include "bake/materials/film_precision.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shaders/optics/optics.h"
+
+namespace malus::bake {
+
+namespace {
+
+// Cosines at which a film is compared, evenly spaced, with both ends.
+constexpr int kCosines = 512;
+
+struct Side {
+  double n1, n3;
+};
+
+double largestDifference(const pack::Material& m, int colour, const Side& side, double thicknessNm) {
+  const double nf = m.coating.eta[colour], k3 = pack::isConductor(m.kind) ? m.k[colour] : 0,
+               phase = 2 * thicknessNm / pack::kWavelengthsNm[colour];
+  const f64::FilmLayers exact{side.n1, nf, side.n3, k3, nf - side.n1, side.n3 - side.n1, nf - side.n3, phase};
+  const auto rounded = [](double value) { return static_cast<float>(value); };
+  const f32::FilmLayers single{rounded(exact.n1),           rounded(exact.nf),       rounded(exact.n3),
+                               rounded(exact.k3),           rounded(exact.filmStep), rounded(exact.baseStep),
+                               rounded(exact.filmOverBase), rounded(phase)};
+  double largest = 0;
+  for (int i = 0; i <= kCosines; ++i) {
+    const float c = static_cast<float>(i) / kCosines;
+    const f64::Reflectance a = f64::filmResponse(static_cast<double>(c), exact).reflected;
+    const f32::Reflectance b = f32::filmResponse(c, single).reflected;
+    largest =
+        std::max({largest, std::abs(a.rs - static_cast<double>(b.rs)), std::abs(a.rp - static_cast<double>(b.rp))});
+  }
+  return largest;
+}
+
+double largestDifference(const pack::Material& m, double thicknessNm) {
+  double largest = 0;
+  for (int colour = 0; colour < 3; ++colour) {
+    const double base = pack::isConductor(m.kind) ? m.eta[colour] : m.eta.y;
+    largest = std::max(largest, largestDifference(m, colour, {m.outsideEta, base}, thicknessNm));
+    if (pack::hasInside(m.kind))
+      largest = std::max(largest, largestDifference(m, colour, {base, m.outsideEta}, thicknessNm));
+  }
+  return largest;
+}
+
+double opticalThickness(const pack::Material& m, double thicknessNm) {
+  const glm::dvec3 waves = m.coating.eta * thicknessNm / pack::kWavelengthsNm;
+  return std::max({waves.x, waves.y, waves.z});
+}
+
+}  // namespace
+
+std::optional<FilmPrecision> insufficientFilmPrecision(const pack::Material& m) {
+  const double thickness = m.coating.thicknessNm;
+  if (thickness <= 0) return std::nullopt;
+  const double difference = largestDifference(m, thickness);
+  if (difference <= kFilmPrecision) return std::nullopt;
+  // The difference grows with the thickness, but not evenly: halve until a film and all thinner ones agree.
+  double limit = thickness;
+  while (opticalThickness(m, limit) > 0.25 && largestDifference(m, limit) > kFilmPrecision / 2) limit /= 2;
+  return FilmPrecision{difference, opticalThickness(m, thickness), opticalThickness(m, limit)};
+}
+
+}  // namespace malus::bake

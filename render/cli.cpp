@@ -126,8 +126,10 @@ void checkMosaicSize(const Region& region) {
 void reportJob(const RenderArguments& a, const Job& job) {
   if (const auto& best = job.estimate()) {
     console::progressDone();
-    console::error(fmt::format("{}: relative RMS error {:.3g} on a small image, {:.1f} ms; the fastest within {:g}",
-                               best->method, best->relRms, best->medianMs, *a.job.maxError));
+    console::error(
+        fmt::format("{}: relative RMS error of the method {:.3g} on a small image, {:.1f} ms; the fastest within {:g}; "
+                    "error of the precision {:.3g}",
+                    best->method, best->relRms, best->medianMs, *a.job.maxError, best->precisionRelRms));
   }
   warnOfFilter(a.filter, makeAnalyser(a.filter),
                backendInfo(a.job.backend).hasMethods ? job.requestedMethod() : std::string());

@@ -40,7 +40,8 @@ std::vector<MethodEstimate> load(const fs::path& path, const std::string& key) {
     std::vector<MethodEstimate> list;
     if (document.at("key") != key) return {};
     for (const json& e : document.at("estimates"))
-      list.push_back({e.at("method").get<std::string>(), e.at("relRms").get<double>(), e.at("medianMs").get<double>()});
+      list.push_back({e.at("method").get<std::string>(), e.at("relRms").get<double>(), e.at("medianMs").get<double>(),
+                      e.at("precisionRelRms").get<double>()});
     return list;
   } catch (const std::exception&) {
     return {};
@@ -51,7 +52,8 @@ void save(const fs::path& path, const std::string& key, const std::vector<Method
   if (path.empty()) return;
   json estimates = json::array();
   for (const MethodEstimate& e : list)
-    estimates.push_back({{"method", e.method}, {"relRms", e.relRms}, {"medianMs", e.medianMs}});
+    estimates.push_back(
+        {{"method", e.method}, {"relRms", e.relRms}, {"medianMs", e.medianMs}, {"precisionRelRms", e.precisionRelRms}});
   try {
     fs::create_directories(path.parent_path());
     writeFile(path, json{{"key", key}, {"estimates", estimates}}.dump(1));
@@ -70,11 +72,11 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const Render
   parameters.region = {0, 0, parameters.width, parameters.height};
   parameters.samples = 1;
   const std::string device = fmt::format("{} {}", backendInfo(renderer.backend()).name, renderer.device());
-  const std::string key =
-      fmt::format("malus {} pack {:016x} {} path {} {}x{} depth {} analyser {} {} {} {} stokes {} methods {}",
-                  MALUS_VERSION, pack.hash, device, vulkanPathName(parameters.vulkanPath), parameters.width,
-                  parameters.height, parameters.depth, parameters.analyser[0], parameters.analyser[1],
-                  parameters.analyser[2], parameters.analyser[3], parameters.stokes, fmt::join(methodNames(), " "));
+  const std::string key = fmt::format(
+      "malus {} errors of methods, pack {:016x} {} path {} {}x{} depth {} analyser {} {} {} {} stokes {} methods {}",
+      MALUS_VERSION, pack.hash, device, vulkanPathName(parameters.vulkanPath), parameters.width, parameters.height,
+      parameters.depth, parameters.analyser[0], parameters.analyser[1], parameters.analyser[2], parameters.analyser[3],
+      parameters.stokes, fmt::join(methodNames(), " "));
   const fs::path path = cacheFile(key);
   if (std::vector<MethodEstimate> known = load(path, key); !known.empty()) return known;
 
@@ -83,11 +85,15 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const Render
   std::vector<Preparation> images;
   for (const std::string& method : methodNames()) images.push_back({method, parameters});
   renderer.prepare(images);
+  const auto relRms = [&](const RenderResult& image, const RenderResult& truth) {
+    return imageError(image, truth, pack.scene.exposureEv).relRms;
+  };
+  const RenderResult exact = renderer.render(completeRecursiveMethod().name, parameters);
+  const double precision = relRms(exact, reference);
   std::vector<MethodEstimate> list;
   std::vector<std::vector<double>> samples;
   for (const std::string& method : methodNames()) try {
-      list.push_back(
-          {method, imageError(renderer.render(method, parameters), reference, pack.scene.exposureEv).relRms, 0});
+      list.push_back({method, relRms(renderer.render(method, parameters), exact), 0, precision});
       samples.emplace_back();
     } catch (const Error&) {  // not on this device at this depth
       if (method == methodNames().back() && list.empty()) throw;

@@ -1,5 +1,6 @@
-// The cheapest method within an error bound on a pack. Every method renders a small image that is compared with the
-// reference; the results are cached in the user's cache folder by the hash of pack and parameters.
+// The cheapest method within an error bound on a pack. Every method renders a small image that is compared with that of
+// the exact method on the same renderer, so that the choice does not depend on the renderer's precision; the results
+// are cached in the user's cache folder by the hash of pack and parameters.
 #pragma once
 
 #include <string>
@@ -14,8 +15,9 @@ namespace malus::render {
 
 struct MethodEstimate {
   std::string method;
-  double relRms = 0;    // of the small image, against the reference (ImageError::relRms)
-  double medianMs = 0;  // of interleaved rounds
+  double relRms = 0;           // of the small image, against the exact method (ImageError::relRms)
+  double medianMs = 0;         // of interleaved rounds
+  double precisionRelRms = 0;  // of the exact method on this renderer, against the double-precision reference
 };
 
 // Measures error and time of every method on a pack with this depth and filter, at a width of 256 pixels, or reads them

@@ -55,9 +55,11 @@ struct ComparisonRow {
   Spread time;                                       // of samplesMs
   Spread ratioToSchlick;                             // round by round
   std::vector<std::string> noSignificantDifference;  // methods whose times do not differ significantly
-  ImageError error;
-  std::string status = "ok";  // or the reason of the failure
-  std::string image;          // file name in images/
+  ImageError error;                                  // of the method: against the exact method on the same renderer
+  ImageError errorToReference;          // of method and precision together: against the double-precision reference
+  std::optional<ImageError> precision;  // of the precision: the exact method on this renderer against the reference
+  std::string status = "ok";            // or the reason of the failure
+  std::string image;                    // file name in images/
   bool ok() const { return status == "ok"; }
   // Rows that are compared by method: one per method, renderer and view.
   bool isMain() const { return !everyEffect && !isSecondPath; }

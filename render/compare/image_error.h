@@ -1,4 +1,5 @@
-// The error of a method's image against the reference of the same view.
+// The error of an image against another of the same view: of a method against the exact method on the same renderer, or
+// of a renderer's precision against the double-precision reference.
 #pragma once
 
 #include <vector>

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "render/compare/machine.h"
+#include "render/scene/methods.h"
 
 namespace malus::render {
 using nlohmann::json;
@@ -19,6 +20,17 @@ namespace {
 json number(double value) { return std::isfinite(value) ? json(value) : json(); }
 
 double median(const std::vector<double>& values) { return values.empty() ? 0 : computeSpread(values).median; }
+
+// Image that the error of the method relates to.
+std::string errorAgainst(const ComparisonRow& row) {
+  return row.precision ? completeRecursiveMethod().name : backendInfo(Backend::reference).name;
+}
+
+json toJson(const ImageError& error) {
+  return {{"meanAbs", number(error.meanAbs)}, {"maxAbs", number(error.maxAbs)},
+          {"relRms", number(error.relRms)},   {"shareOver1Percent", error.shareOver1Percent},
+          {"perceptual", error.perceptual},   {"energyRatio", number(error.energyRatio)}};
+}
 
 json toJson(const ComparisonRow& row) {
   json result = {{"scene", row.scene},           {"renderer", backendInfo(row.backend).name},
@@ -46,12 +58,10 @@ json toJson(const ComparisonRow& row) {
       when(timed && row.ratioToSchlick.median > 0,
            {{"median", row.ratioToSchlick.median}, {"low", row.ratioToSchlick.low}, {"high", row.ratioToSchlick.high}});
   result["noSignificantDifference"] = row.noSignificantDifference;
-  result["error"] = when(rendered, {{"meanAbs", number(row.error.meanAbs)},
-                                    {"maxAbs", number(row.error.maxAbs)},
-                                    {"relRms", number(row.error.relRms)},
-                                    {"shareOver1Percent", row.error.shareOver1Percent},
-                                    {"perceptual", row.error.perceptual},
-                                    {"energyRatio", number(row.error.energyRatio)}});
+  result["error"] = when(rendered, toJson(row.error));
+  result["errorAgainst"] = orNull(rendered, errorAgainst(row));
+  result["precision"] = row.precision && rendered ? toJson(*row.precision) : json();
+  result["errorToReference"] = when(rendered, toJson(row.errorToReference));
   result["image"] = when(rendered && !row.image.empty(), fmt::format("images/{}", row.image));
   return result;
 }
@@ -127,7 +137,15 @@ std::string withoutRecursionLine(const std::vector<const ComparisonRow*>& rows) 
   return names.empty() ? names : fmt::format("  without recursion:{} ({})\n", names, reason);
 }
 
-// Title and column heads of the rows of one renderer and view.
+// The error of the precision, which the rows of one renderer and view share.
+std::string precisionLine(const ComparisonRow& r) {
+  if (!r.precision) return {};
+  return fmt::format(
+      "  error of the precision ({} against the reference): relative RMS {:.2g}, {:.2f}% of pixels > 1%\n",
+      completeRecursiveMethod().name, r.precision->relRms, 100 * r.precision->shareOver1Percent);
+}
+
+// Title and column heads of the rows of one renderer and view. Errors of the rows are those of the method.
 std::string groupHeading(const ComparisonRow& r, const Comparison& comparison) {
   const std::string renderer = backendInfo(r.backend).name;
   return fmt::format("\n{}, {} x {}, depth {}, {} ({})\n  {:<18}{:>6}{:>13}{:>10}  {:<22}{:>9}{:>10}{:>9}{:>9}  {}\n",
@@ -145,6 +163,12 @@ std::string rowText(const ComparisonRow& r) {
                      timed ? fmt::format("{:.1f}", static_cast<double>(r.rays) / r.time.median * 1e-3) : "-",
                      r.error.relRms, 100 * r.error.shareOver1Percent, r.error.energyRatio,
                      fmt::join(r.noSignificantDifference, " "));
+}
+
+// Lines behind the rows of a group.
+std::string groupEnd(const std::vector<const ComparisonRow*>& rows) {
+  const auto known = std::find_if(rows.begin(), rows.end(), [](const auto* r) { return r->precision.has_value(); });
+  return withoutRecursionLine(rows) + (known == rows.end() ? std::string() : precisionLine(**known));
 }
 
 std::string effectsTable(const Comparison& comparison) {
@@ -268,16 +292,20 @@ std::string toCsv(const Comparison& comparison) {
       "scene,renderer,method,effects,width,height,depth,payloadBytes,stateBytes,rays,medianMs,lowMs,highMs,wallMs,"
       "cpuMs,buildMs,uploadMs,"
       "compileMs,readBackMs,ratioToSchlick,ratioLow,ratioHigh,meanAbs,maxAbs,relRms,shareOver1Percent,perceptual,"
-      "energyRatio,vulkanPath,status\n";
+      "energyRatio,precisionRelRms,precisionShareOver1Percent,referenceRelRms,referenceShareOver1Percent,vulkanPath,"
+      "status\n";
   for (const ComparisonRow& r : comparison.rows) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                        isPlain(r.scene) ? r.scene : csvText(r.scene), backendInfo(r.backend).name, r.method,
-                        r.everyEffect ? "all" : "auto", r.width, r.height, r.depth, r.payloadBytes, r.stateBytes,
-                        r.rays, r.time.median, r.time.low, r.time.high, median(r.wallMs), median(r.cpuMs), r.buildMs,
-                        r.uploadMs, r.compileMs, median(r.readBackMs), r.ratioToSchlick.median, r.ratioToSchlick.low,
-                        r.ratioToSchlick.high, r.error.meanAbs, r.error.maxAbs, r.error.relRms,
-                        r.error.shareOver1Percent, r.error.perceptual, r.error.energyRatio,
-                        r.vulkanPath == VulkanPath::automatic ? "" : vulkanPathName(r.vulkanPath), csvText(r.status));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+        isPlain(r.scene) ? r.scene : csvText(r.scene), backendInfo(r.backend).name, r.method,
+        r.everyEffect ? "all" : "auto", r.width, r.height, r.depth, r.payloadBytes, r.stateBytes, r.rays, r.time.median,
+        r.time.low, r.time.high, median(r.wallMs), median(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs,
+        median(r.readBackMs), r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high, r.error.meanAbs,
+        r.error.maxAbs, r.error.relRms, r.error.shareOver1Percent, r.error.perceptual, r.error.energyRatio,
+        r.precision ? fmt::format("{}", r.precision->relRms) : "",
+        r.precision ? fmt::format("{}", r.precision->shareOver1Percent) : "", r.errorToReference.relRms,
+        r.errorToReference.shareOver1Percent, r.vulkanPath == VulkanPath::automatic ? "" : vulkanPathName(r.vulkanPath),
+        csvText(r.status));
   }
   return text;
 }
@@ -288,14 +316,14 @@ std::string toTable(const Comparison& comparison) {
   for (const ComparisonRow& r : comparison.rows) {
     if (!r.isMain()) continue;
     if (const std::string title = groupHeading(r, comparison); title != heading) {
-      text += withoutRecursionLine(group) + title;
+      text += groupEnd(group) + title;
       heading = title;
       group.clear();
     }
     group.push_back(&r);
     text += rowText(r);
   }
-  return text + withoutRecursionLine(group) + effectsTable(comparison) + pathsTable(comparison);
+  return text + groupEnd(group) + effectsTable(comparison) + pathsTable(comparison);
 }
 
 }  // namespace malus::render

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <thread>
 
@@ -103,15 +104,29 @@ ComparisonRow makeRow(const RowGroup& group, Backend backend, const MethodVarian
   return row;
 }
 
-// Renders a row and stores its error and, of a main row, its image.
-RenderResult renderRow(ComparisonRow& row, RowGroup& group, const RenderResult& reference, const Output& output) {
+// Images that the rows of one view and renderer are compared with, and the row of the exact method.
+struct Exact {
+  const RenderResult& reference;        // in double precision
+  std::optional<RenderResult> image{};  // by the complete recursive method; none if it failed
+  std::optional<ComparisonRow> row{};
+  std::optional<ImageError> precision{};
+};
+
+void storeErrors(ComparisonRow& row, const RenderResult& image, const Exact& exact, double exposureEv) {
+  row.errorToReference = imageError(image, exact.reference, exposureEv);
+  row.precision = exact.precision;
+  row.error = exact.image ? imageError(image, *exact.image, exposureEv) : row.errorToReference;
+}
+
+// Renders a row and stores its errors and, of a main row, its image.
+RenderResult renderRow(ComparisonRow& row, RowGroup& group, const Exact& exact, const Output& output) {
   const pack::Pack& pack = *group.pack;
   const std::string backend = backendInfo(row.backend).name;
   output.progress(fmt::format("{}: {} {}{}{}", groupTitle(group), backend, row.method,
                               row.everyEffect ? ", all effects" : "",
                               row.isSecondPath ? fmt::format(", {}", vulkanPathName(row.vulkanPath)) : ""));
   RenderResult result = renderFirst(row, group);
-  row.error = imageError(result, reference, pack.scene.exposureEv);
+  storeErrors(row, result, exact, pack.scene.exposureEv);
   if (!row.isMain()) return result;
   row.image = fileName(group, fmt::format("{}-{}", backend, row.method));
   writeImage(output.images / row.image, toImage(result, pack, group.parameters, backend, row.method), 0);
@@ -135,6 +150,21 @@ void prepareRows(const RowGroup& group, Backend backend, std::span<const MethodV
   }
 }
 
+// Renders the exact method before the others, whose errors relate to it. Its row is that of the list, if it is there.
+void renderExact(Exact& exact, RowGroup& group, Backend backend, VulkanPath path, const Output& output) {
+  ComparisonRow row = makeRow(group, backend, {completeRecursiveMethod().name, false, path});
+  try {
+    RenderResult image = renderRow(row, group, exact, output);
+    exact.precision = row.errorToReference;
+    exact.image = std::move(image);
+    storeErrors(row, *exact.image, exact, group.pack->scene.exposureEv);
+    exact.row = std::move(row);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error&) {  // its row reports it, if there is one
+  }
+}
+
 // The path that iterative methods do not take automatically; automatic: there is none, or the user chose a path.
 VulkanPath secondPath(RowGroup& group, Backend backend, VulkanPath chosen) {
   if (chosen != VulkanPath::automatic) return VulkanPath::automatic;
@@ -154,6 +184,7 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
       chooseEffects({"auto"}, completeRecursiveMethod().name, group.pack->scene, {p.depth, p.analyser, false, false});
   EffectsTable effects(cheapest);
   PathsTable paths;
+  Exact exact{reference};
   const std::vector<MethodVariant> variants =
       methodVariants(settings.methods, cheapest, settings.vulkanPath, secondPath(group, backend, settings.vulkanPath));
   // Within a time limit only as many at once as there are threads to compile them: the limit may leave out the rest.
@@ -165,7 +196,10 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
     ComparisonRow row = makeRow(group, backend, variants[i]);
     const std::size_t index = comparison.rows.size();
     try {
-      const RenderResult rendered = renderRow(row, group, reference, output);
+      if (i == 0) renderExact(exact, group, backend, settings.vulkanPath, output);
+      const bool isExact = exact.row && row.method == exact.row->method && row.isMain();
+      const RenderResult rendered = isExact ? *exact.image : renderRow(row, group, exact, output);
+      if (isExact) row = *exact.row;
       effects.add(index, row, rendered);
       paths.add(index, row, rendered);
       comparison.devices[backendInfo(backend).name] = (*group.renderers)[backend].device();

@@ -50,10 +50,20 @@ TEST_F(Compare, EveryMethodOnBothRenderers) {
     EXPECT_GT(row.at("medianMs"), 0);
     EXPECT_TRUE(std::filesystem::exists(report() + "/" + row.at("image").get<std::string>()));
     for (const char* number : {"meanAbs", "maxAbs", "relRms", "shareOver1Percent", "perceptual", "energyRatio"})
-      EXPECT_TRUE(row.at("error").at(number).is_number()) << number;
+      for (const char* part : {"error", "precision", "errorToReference"})
+        EXPECT_TRUE(row.at(part).at(number).is_number()) << part << ' ' << number;
+    EXPECT_EQ(row.at("errorAgainst"), "stokes");
+    const double method = row.at("error").at("relRms"), precision = row.at("precision").at("relRms"),
+                 both = row.at("errorToReference").at("relRms");
+    // Differences of the same images: the triangle inequality, with room for the two sums that divide them.
+    EXPECT_LE(both, 1.01 * (method + precision));
+    EXPECT_GE(both, 0.99 * std::abs(method - precision));
+    EXPECT_LT(precision, 1e-3);
+    EXPECT_GT(precision, 0);
     rays[row.at("renderer")].insert(row.at("rays").get<std::uint64_t>());
     if (row.at("method") == "stokes") {
-      EXPECT_LT(row.at("error").at("relRms"), 1e-3);
+      EXPECT_EQ(method, 0);
+      EXPECT_EQ(both, precision);
     }
     if (row.at("method") == "schlick") {
       EXPECT_EQ(row.at("ratioToSchlick").at("median"), 1);
@@ -284,7 +294,11 @@ TEST_F(Compare, MaxErrorChoosesAMethodAndCachesItsMeasurements) {
     return a.at("medianMs") < b.at("medianMs");
   });
   EXPECT_EQ(json::parse(coarse.out).at("method"), fastest->at("method"));
-  expectRefusal(render("0"), "no method");
+  // The exact method is exact, whatever the precision of the renderer.
+  for (const json& e : estimates) EXPECT_GT(e.at("precisionRelRms"), 0);
+  const Finished strict = render("0");
+  ASSERT_EQ(strict.exitCode, 0) << strict.err;
+  EXPECT_TRUE(contains(strict.err, "precision")) << strict.err;
 }
 
 }  // namespace

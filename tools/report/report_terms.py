@@ -11,6 +11,8 @@ kTerms = {
     "no significant difference": "A paired sign test over the rounds does not reject equality at 5 %. It needs at least six "
                                  "rounds.",
     "Pareto front": "The methods for which no other method is both as fast and as accurate.",
+    "error of the method": "Difference from the exact method, stokes, on the same renderer, which traces the same rays.",
+    "error of the precision": "Difference of the exact method in single precision from the double-precision reference.",
     "rel. RMS": "Root of the summed squared differences over the summed squared reference, over pixels and colours.",
     "error > 1 %": "Share of pixels with a colour whose error exceeds 1 % of the reference, or of 0.001 of its mean if that "
                    "is larger.",

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "bake/effects/effects.h"
@@ -152,17 +153,42 @@ gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const Rende
   const pack::Camera& camera = scene.camera;
   const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi);
   f.position = glm::vec3(camera.position);
-  f.right = glm::vec3(camera.right);
   f.up = glm::vec3(camera.up);
-  f.forward = glm::vec3(camera.forward);
-  f.tanX = static_cast<float>(tanY * parameters.width / parameters.height);
-  f.tanY = static_cast<float>(tanY);
+  setSampleDirections(f, camera, tanY, parameters);
   f.basicToRadiance = static_cast<float>(camera.mediumEta * camera.mediumEta);
   for (int i = 0; i < 4; ++i) f.analyser[i] = static_cast<float>(parameters.analyser[static_cast<std::size_t>(i)]);
   f.width = parameters.width;
   f.height = parameters.height;
   f.regionX = parameters.region.x;
   f.regionY = parameters.region.y;
+namespace {
+
+// The coarse part is a multiple of `unit`, the fine one the rest.
+void split(const glm::dvec3& v, double unit, glm::vec3& coarse, glm::vec3& fine) {
+  const glm::dvec3 rounded = glm::round(v / unit) * unit;
+  coarse = glm::vec3(rounded);
+  fine = glm::vec3(v - rounded);
+}
+
+// The directions of cameraSampleDirection: forward + (2 px - 1) tanX right + (1 - 2 py) tanY up, at the centres of the
+// samples.
+void setSampleDirections(gpu::CameraParameters& f, const pack::Camera& camera, double tanY,
+                         const RenderParameters& parameters) {
+  const double columns = static_cast<double>(parameters.width) * parameters.samples,
+               rows = static_cast<double>(parameters.height) * parameters.samples;
+  const glm::dvec3 right = camera.right * (tanY * parameters.width / parameters.height), up = camera.up * tanY,
+                   columnStep = right * (2 / columns), rowStep = up * (-2 / rows),
+                   first = camera.forward - right + up + 0.5 * (columnStep + rowStep);
+  // No partial sum of coarse parts exceeds 2^24 units, so that float represents it.
+  const glm::dvec3 sizes = glm::abs(first) + 2.0 * (glm::abs(right) + glm::abs(up));
+  const double unit = std::exp2(std::ceil(std::log2(std::max({sizes.x, sizes.y, sizes.z}))) - 23);
+  split(first, unit, f.firstSample, f.firstSampleFine);
+  split(columnStep, unit, f.columnStep, f.columnStepFine);
+  split(rowStep, unit, f.rowStep, f.rowStepFine);
+}
+
+}  // namespace
+
   f.regionWidth = parameters.region.width;
   f.regionHeight = parameters.region.height;
   f.samples = parameters.samples;

@@ -58,11 +58,13 @@ MALUS_SIZE(Mesh, 28);
 
 struct CameraParameters {
   vec3 position;
-  vec3 right;  // orthonormal camera axes
-  vec3 up;
-  vec3 forward;
-  float tanX;  // tangents of half the field of view
-  float tanY;
+  vec3 up;           // unit vector
+  vec3 firstSample;  // cameraSampleDirection (optics/camera.h)
+  vec3 firstSampleFine;
+  vec3 columnStep;
+  vec3 columnStepFine;
+  vec3 rowStep;
+  vec3 rowStepFine;
   float basicToRadiance;  // square of the index of the medium at the camera
   vec4 analyser;          // first row of the Mueller matrix of the camera's filter
   uint width;             // of the whole image
@@ -84,7 +86,7 @@ struct CameraParameters {
   vec2 facets[kFacets];     // points of the unit disk (optics/facets.h)
   float tolerance;          // iterative methods: fraction of a source's radiance that a path may lose
 };
-MALUS_SIZE(CameraParameters, 392);
+MALUS_SIZE(CameraParameters, 432);
 
 #ifdef __cplusplus
 }  // namespace malus::gpu

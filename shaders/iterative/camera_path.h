@@ -115,13 +115,9 @@ FN real3 traceCameraPath(real3 direction, real behind0, real behind1, real behin
 FN real3 cameraPathPixel(uint x, uint y, real behind0, real behind1, real behind2, real behind3) {
   real3 sum = splat3(R(0.0));
   for (uint j = 0u; j < camera.samples; ++j)
-    for (uint i = 0u; i < camera.samples; ++i) {
-      real px = (real(x) + (real(i) + R(0.5)) / real(camera.samples)) / real(camera.width);
-      real py = (real(y) + (real(j) + R(0.5)) / real(camera.samples)) / real(camera.height);
-      sum = sum +
-            traceCameraPath(cameraDirection(camera.right, camera.up, camera.forward, camera.tanX, camera.tanY, px, py),
-                            behind0, behind1, behind2, behind3);
-    }
+    for (uint i = 0u; i < camera.samples; ++i)
+      sum = sum + traceCameraPath(sampleDirection(x * camera.samples + i, y * camera.samples + j), behind0, behind1,
+                                  behind2, behind3);
   return sum * (camera.basicToRadiance / real(camera.samples * camera.samples));
 }
 

@@ -4,6 +4,17 @@ FN real3 cameraDirection(real3 right, real3 up, real3 forward, real tanX, real t
   return normalize3(forward + right * ((R(2.0) * px - R(1.0)) * tanX) + up * ((R(1.0) - R(2.0) * py) * tanY));
 }
 
+// Unit direction of the ray through one sample of a camera that has columns and rows of samples. The direction before
+// its normalization is first + column * columnStep + row * rowStep, each vector the sum of a coarse part and of a fine
+// remainder. The coarse parts are multiples of one power of two, so that their sum is exact in float up to 2^24 samples
+// per axis: the rounding of a camera axis alone would move every ray by a distance that curved mirrors magnify.
+FN real3 cameraSampleDirection(real3 first, real3 firstFine, real3 columnStep, real3 columnFine, real3 rowStep,
+                               real3 rowFine, real column, real row) {
+  real3 coarse = first + columnStep * column + rowStep * row;
+  real3 fine = firstFine + columnFine * column + rowFine * row;
+  return normalize3(coarse + fine);
+}
+
 // Rotation from the canonical frame of a ray in direction d to its camera frame, whose x is cross(d, up): cosine and
 // sine of twice the angle. The frame is taken per ray, so that angles are those seen along it (CONVENTIONS.md, Frames).
 FN void cameraFrameRotation(real3 d, real3 up, OUT(real) cos2, OUT(real) sin2) {

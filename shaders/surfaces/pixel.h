@@ -1,6 +1,6 @@
-// Stokes vector of the radiance that the camera records at an image position, in the camera frame of that ray.
-FN Stokes cameraSample(real px, real py) {
-  real3 d = cameraDirection(camera.right, camera.up, camera.forward, camera.tanX, camera.tanY, px, py);
+// Stokes vector of the radiance that the camera records at one sample, in the camera frame of that ray.
+FN Stokes cameraSample(uint column, uint row) {
+  real3 d = sampleDirection(column, row);
   real cos2;
   real sin2;
   cameraFrameRotation(d, camera.up, cos2, sin2);
@@ -12,11 +12,8 @@ FN Stokes cameraSample(real px, real py) {
 FN Stokes cameraPixel(uint x, uint y) {
   Stokes sum = stokesUnpolarized(splat3(R(0.0)));
   for (uint j = 0u; j < camera.samples; ++j)
-    for (uint i = 0u; i < camera.samples; ++i) {
-      real px = (real(x) + (real(i) + R(0.5)) / real(camera.samples)) / real(camera.width);
-      real py = (real(y) + (real(j) + R(0.5)) / real(camera.samples)) / real(camera.height);
-      sum = stokesAdd(sum, cameraSample(px, py));
-    }
+    for (uint i = 0u; i < camera.samples; ++i)
+      sum = stokesAdd(sum, cameraSample(x * camera.samples + i, y * camera.samples + j));
   real scale = camera.basicToRadiance / real(camera.samples * camera.samples);
   sum.s0 = sum.s0 * scale;
   sum.s1 = sum.s1 * scale;

@@ -8,4 +8,5 @@
 #include "shaders/surfaces/textures.h"
 #include "shaders/surfaces/direct_light.h"
 #include "shaders/surfaces/environment.h"
+#include "shaders/surfaces/sample_direction.h"
 #include "shaders/surfaces/camera_colour.h"

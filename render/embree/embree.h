@@ -38,7 +38,7 @@ class Bvh {
   Bvh& operator=(const Bvh&) = delete;
 
   Intersection nearest(const glm::vec3& origin, const glm::vec3& direction) const;
-  // Whether there is no triangle within distance.
+  // Whether there is no triangle within `distance` lengths of direction, which may have any length but 0.
   bool visible(const glm::vec3& origin, const glm::vec3& direction, float distance) const;
 
   static std::string version();  // "Embree 3.13.5"

@@ -42,9 +42,9 @@ struct SceneAccess {
 
   const gpu::MaterialExtra& materialExtra(gpu::uint material) const { return extras[material]; }
 
-  bool visible(const glm::vec3& origin, const glm::vec3& direction, float distance) {
+  bool visible(const glm::vec3& origin, const glm::vec3& way) {
     ++rays;
-    return bvh.visible(origin, direction, distance);
+    return bvh.visible(origin, way, 1);
   }
 };
 

@@ -57,7 +57,7 @@ struct Tracer {
     const pack::Mesh& mesh = scene.meshes[sourceMeshes[at.mesh]];
     const glm::uvec3 t = mesh.triangles[at.triangle];
     const dvec3 p0(mesh.positions[t.x]), p1(mesh.positions[t.y]), p2(mesh.positions[t.z]);
-    const dvec3 across = glm::cross(p1 - p0, p2 - p0);
+    const dvec3 e1 = p1 - p0, e2 = p2 - p0, across = glm::cross(e1, e2);
     const double area2 = glm::length(across);
     hit.d = d;
     hit.materialIndex = mesh.material;
@@ -74,12 +74,12 @@ struct Tracer {
       if (std::abs(u - b1) < 1e-2 && std::abs(v - b2) < 1e-2) b1 = u, b2 = v;
     }
     const double b0 = 1 - b1 - b2;
-    hit.position = p0 * b0 + p1 * b1 + p2 * b2;
+    hit.position = f64::trianglePoint(p0, e1, e2, b1, b2);
     hit.travelled = glm::length(hit.position - origin);
     hit.surface = surfaceAt(scene, mesh.material, hit.position);
     // The next query is in single precision.
     const dvec3& o = mesh.origin;
-    hit.error = f64::hitPointError(p0 - o, p1 - o, p2 - o, b0, b1, b2, 0x1p-24) + f64::originError(o, 0x1p-24) +
+    hit.error = f64::hitPointError(p0 - o, e1, e2, b1, b2, 0x1p-24) + f64::originError(o, 0x1p-24) +
                 f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
     hit.start = f64::insideTriangle(hit.position, p0, p1, p2, b0, b1, b2, across, 4 * f64::largestPart(hit.error));
     hit.outside = glm::dot(d, hit.face) < 0;
@@ -170,6 +170,16 @@ struct Tracer {
     return pack::hasInside(m.kind) && !h.outside ? m.absorption : m.outsideAbsorption;
   }
 
+  // Whether no surface blocks the light. The ray starts outside the hit's error box and ends at the light; closer to
+  // the face than twice the box it is parallel to the way from the hit to the light, so that it cannot meet the face.
+  bool lightVisible(const Hit& h, const dvec3& toLight) {
+    ++rays;
+    const dvec3 origin = queryAbove(h), offset = origin - h.position, straight = toLight - offset;
+    const dvec3 way = glm::dot(h.face, straight) <= glm::dot(h.face, offset) ? toLight : straight;
+    const double length = glm::length(way);
+    return bvh.visible(glm::vec3(origin), glm::vec3(way / length), static_cast<float>(length));
+  }
+
   // Diffuse radiance below the interface, and highlight radiance along the mirror direction.
   void directLight(const Hit& h, std::uint32_t depth, const dvec3& mirror, dvec3& diffuse, dvec3& highlight) {
     const pack::Material& m = *h.surface.material;
@@ -186,9 +196,7 @@ struct Tracer {
       if (c <= 0 || glm::dot(h.face, l) <= 0) continue;
       const double lobe = isGlossy ? m.highlightStrength * f64::phongLobe(mirror, l, m.highlightExponent) : 0;
       if (!isDiffuse && lobe <= 0) continue;
-      if (parameters.shadows) ++rays;
-      if (parameters.shadows && !bvh.visible(glm::vec3(queryAbove(h)), glm::vec3(l), static_cast<float>(distance)))
-        continue;
+      if (parameters.shadows && !lightVisible(h, toLight)) continue;
       const dvec3 arriving = light.intensity / (distance * distance) * transmittanceOver(absorptionAt(h), distance);
       const dvec3 entering =
           !pack::hasIndex(m.kind)

@@ -13,18 +13,40 @@ FN real3 shadingNormal(real3 d, real3 geometric, real3 interpolated) {
   return select3(usable, n, g);
 }
 
-// Bound per axis on the rounding error of the point b0 p0 + b1 p1 + b2 p2: gamma(7) times the sum of the absolute
-// terms, gamma(n) = n u/(1 - n u), u the unit roundoff. Source: Pharr, Jakob and Humphreys, Physically Based Rendering,
-// 4th edition, 6.8.5.
-FN real3 hitPointError(real3 p0, real3 p1, real3 p2, real b0, real b1, real b2, real unitRoundoff) {
-  real gamma7 = R(7.0) * unitRoundoff / (R(1.0) - R(7.0) * unitRoundoff);
-  return make3((absR(b0 * p0.x) + absR(b1 * p1.x) + absR(b2 * p2.x)) * gamma7,
-               (absR(b0 * p0.y) + absR(b1 * p1.y) + absR(b2 * p2.y)) * gamma7,
-               (absR(b0 * p0.z) + absR(b1 * p1.z) + absR(b2 * p2.z)) * gamma7);
-}
-
 // Largest absolute component.
 FN real largestPart(real3 v) { return maxR(absR(v.x), maxR(absR(v.y), absR(v.z))); }
+
+// Point of a triangle with the corner p0 and the edges e1 = p1 - p0, e2 = p2 - p0. A coordinate that all corners share
+// is exact.
+FN real3 trianglePoint(real3 p0, real3 e1, real3 e2, real b1, real b2) { return p0 + (e1 * b1 + e2 * b2); }
+
+// Point of a triangle's plane close to p, and on a ray. The barycentric coordinates of an intersection err with the
+// size of the triangle, a point on the ray with the ray's length, so that it is better where the ray is the shorter. p:
+// a point of the plane near the hit; face: unit normal; size: of the triangle. Where the ray grazes the plane and the
+// two points differ by more than rounding explains, it is p.
+FN real3 pointOnRay(real3 p, real3 origin, real3 d, real3 face, real size) {
+  real slope = dot3(d, face);
+  mask grazing = lessR(absR(slope), R(1e-6));
+  real3 q = origin + d * (dot3(p - origin, face) / selectR(grazing, R(1.0), slope));
+  // The point on the ray is off the plane by its own rounding.
+  q = q + face * dot3(p - q, face);
+  return select3(orM(grazing, lessR(R(1e-5) * size, largestPart(q - p))), p, q);
+}
+
+// Bound on the rounding error of one coordinate of trianglePoint. With u the unit roundoff and gamma(n) = n u/(1 - n
+// u), the last sum errs by u |p|, as do the point moved onto its ray and the origin of a ray that leaves it, and the
+// offset from the corner by gamma(3) of its absolute terms: together gamma(4) of those and gamma(3) of |p0|. Twice as
+// much allows for a device that rounds to either of the two nearest numbers. Method: Pharr, Jakob and Humphreys,
+// Physically Based Rendering, 4th edition, 6.8.5.
+FN real coordinateError(real p0, real e1, real e2, real b1, real b2, real unitRoundoff) {
+  real gamma8 = R(8.0) * unitRoundoff / (R(1.0) - R(8.0) * unitRoundoff);
+  return (absR(p0) * R(0.75) + absR(e1 * b1) + absR(e2 * b2)) * gamma8;
+}
+FN real3 hitPointError(real3 p0, real3 e1, real3 e2, real b1, real b2, real unitRoundoff) {
+  return make3(coordinateError(p0.x, e1.x, e2.x, b1, b2, unitRoundoff),
+               coordinateError(p0.y, e1.y, e2.y, b1, b2, unitRoundoff),
+               coordinateError(p0.z, e1.z, e2.z, b1, b2, unitRoundoff));
+}
 
 // Distance within which an intersector may still find the triangle that a ray leaves. It subtracts the origin from the
 // corners and multiplies the differences, so that its error grows with the triangle and not with the point: 8 roundings

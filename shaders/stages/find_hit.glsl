@@ -18,11 +18,11 @@ bool findHit(vec3 origin, vec3 direction, float depth, out Hit h) {
   return true;
 }
 
-bool visible(vec3 origin, vec3 direction, float distanceToLight) {
+bool visible(vec3 origin, vec3 way) {
   countRay();
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, 0xffu, origin, 0.0,
-                        direction, distanceToLight);
+                        way, 1.0);
   while (rayQueryProceedEXT(query)) {
   }
   return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
@@ -42,11 +42,11 @@ bool findHit(vec3 origin, vec3 direction, float depth, out Hit h) {
   return true;
 }
 
-bool visible(vec3 origin, vec3 direction, float distanceToLight) {
+bool visible(vec3 origin, vec3 way) {
   countRay();
   hitRecord.mesh = 0u;
   traceRayEXT(tlas, gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT,
-              0xffu, 0u, 0u, 0u, origin, 0.0, direction, distanceToLight, 0);
+              0xffu, 0u, 0u, 0u, origin, 0.0, way, 1.0, 0);
   return hitRecord.mesh == kNoMesh;
 }
 

@@ -7,7 +7,7 @@ Hit makeHitFromMesh(uint instance, uint geometry, uint primitive, vec2 barycentr
   vec3 interpolated = vec3(0.0);
   if (mesh.hasNormals != 0u)
     interpolated = normals[corner.x] * b0 + normals[corner.y] * barycentric.x + normals[corner.z] * barycentric.y;
-  Hit h = makeHit(d, positions[corner.x], positions[corner.y], positions[corner.z], barycentric.x, barycentric.y,
+  Hit h = makeHit(origin, d, positions[corner.x], positions[corner.y], positions[corner.z], barycentric.x, barycentric.y,
                  mesh.origin, interpolated, depth, mesh.material);
   if (kEffectAbsorption) h.travelled = length(h.position - origin);
   return h;

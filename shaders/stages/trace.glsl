@@ -10,10 +10,10 @@ Payload traceRay(vec3 origin, vec3 direction, float depth) {
   return childPayload;
 }
 
-bool visible(vec3 origin, vec3 direction, float distanceToLight) {
+bool visible(vec3 origin, vec3 way) {
   countRay();
   shadowPayload = 1u;
   traceRayEXT(tlas, gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT,
-              0xffu, 0u, 1u, 1u, origin, 0.0, direction, distanceToLight, 2);
+              0xffu, 0u, 1u, 1u, origin, 0.0, way, 1.0, 2);
   return shadowPayload == 0u;
 }

@@ -30,11 +30,13 @@ FN real3 environmentIrradiance(real3 n) {
 // Adds one point light, by a shadow ray if it can contribute.
 FN void addPointLight(INOUT(DirectLight) sum, IN(Hit) h, IN(Material) m, IN(PointLight) light, real3 reflected,
                       mask diffuse, mask glossy) {
-  real3 origin = originAbove(h);
-  LightSample s = sampleLight(h, m, light, origin, reflected, diffuse, glossy);
+  LightSample s = sampleLight(h, m, light, reflected, diffuse, glossy);
   if (!s.lit) return;
   if (kEffectShadows) {
-    if (camera.shadows != 0u && !visible(origin, s.direction, s.distance)) return;
+    if (camera.shadows != 0u) {
+      ShadowRay ray = shadowRay(h, s);
+      if (!visible(ray.origin, ray.way)) return;
+    }
   }
   real3 irradiance = lightIrradiance(h, light, s);
   if (diffuse)

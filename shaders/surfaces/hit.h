@@ -16,25 +16,31 @@ struct Hit {
 
 CONST real kUnitRoundoff = R(5.9604644775390625e-8);  // 2^-24, of float
 
-// Hit of a ray in direction d. p0, p1, p2: corners of the triangle relative to the mesh's origin, counter-clockwise
-// seen from outside; b1, b2: barycentric coordinates of p1 and p2; interpolated: normal interpolated from the vertices,
-// or 0 for a flat mesh.
-FN Hit makeHit(real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated, real depth,
-               word material) {
+// Hit of a ray that starts at `from` in direction d. p0, p1, p2: corners of the triangle relative to the mesh's origin,
+// counter-clockwise seen from outside; b1, b2: barycentric coordinates of p1 and p2; interpolated: normal interpolated
+// from the vertices, or 0 for a flat mesh.
+FN Hit makeHit(real3 from, real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated,
+               real depth, word material) {
   real b0 = R(1.0) - b1 - b2;
-  real3 normal = cross3(p1 - p0, p2 - p0);
+  real3 e1 = p1 - p0;
+  real3 e2 = p2 - p0;
+  real3 normal = cross3(e1, e2);
   real areaSq = dot3(normal, normal);
   // A triangle without area has no normal: it is shaded as if it faced the ray.
   real3 face = select3(lessR(kNegligible, areaSq), normal * (R(1.0) / sqrtR(maxR(areaSq, kNegligible))), d * R(-1.0));
   Hit h;
   h.d = d;
-  real3 local = p0 * b0 + p1 * b1 + p2 * b2;
+  real3 local = trianglePoint(p0, e1, e2, b1, b2);
+  real longest = maxR(largestPart(e1), maxR(largestPart(e2), largestPart(p2 - p1))) * R(1.7320508);
+  real3 localFrom = from - origin;
+  real3 way = local - localFrom;
+  mask large = lessR(dot3(way, way), longest * longest);
+  if (anyM(large)) local = select3(large, pointOnRay(local, localFrom, d, face, longest), local);
   h.position = local + origin;
-  h.error = hitPointError(p0, p1, p2, b0, b1, b2, kUnitRoundoff) + originError(origin, kUnitRoundoff) +
+  h.error = hitPointError(p0, e1, e2, b1, b2, kUnitRoundoff) + originError(origin, kUnitRoundoff) +
             splat3(intersectionError(p0, p1, p2, local, kUnitRoundoff));
   // Move the start off an edge that may be nearer than the margin, judged by the smallest possible height.
   real margin = R(4.0) * largestPart(h.error);
-  real longest = maxR(largestPart(p1 - p0), maxR(largestPart(p2 - p0), largestPart(p2 - p1))) * R(1.7320508);
   h.start = h.position;
   mask nearEdge = lessR(minR(b0, minR(b1, b2)) * sqrtR(areaSq), margin * longest);
   if (anyM(nearEdge))

@@ -18,8 +18,8 @@
 //   bool findHit(origin, direction, depth, out hit)
 //     Returns whether the ray meets a surface, and the nearest hit. Iterative methods, and recursive ones without
 //     recursion (shade_stack.h).
-//   mask visible(origin, direction, distance)
-//     Returns whether no surface blocks the ray within the distance.
+//   mask visible(origin, way)
+//     Returns whether no surface is between origin and origin + way.
 //   void noteFault(hit, stokes, kind, colour, slack)
 //     Records an unphysical value: its kind (shaders/gpu/fault.h), the colour's index, the rounding error allowed.
 //     Called only if kCheckNumerics.
@@ -45,6 +45,6 @@ bool findHit(real3 origin, real3 direction, real depth, OUT(Hit) hit);
 #else
 Payload traceRay(real3 origin, real3 direction, real depth);
 #endif
-mask visible(real3 origin, real3 direction, real distanceToLight);
+mask visible(real3 origin, real3 way);
 void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack);
 #endif

@@ -1,6 +1,7 @@
 // Light of one point light at a hit: first its geometry, then, where no surface blocks it, its contribution.
 
 struct LightSample {
+  real3 toLight;    // from the hit
   real3 direction;  // unit vector toward the light
   real distance;    // in metres
   real distanceSq;
@@ -9,14 +10,14 @@ struct LightSample {
   mask lit;     // the light is in front of the face and shows in the diffuse light or the highlight
 };
 
-// origin: of the shadow ray. reflected: direction of the mirror ray. diffuse, glossy: whether the material scatters so.
-FN LightSample sampleLight(IN(Hit) h, IN(Material) m, IN(PointLight) light, real3 origin, real3 reflected, mask diffuse,
+// reflected: direction of the mirror ray. diffuse, glossy: whether the material scatters so.
+FN LightSample sampleLight(IN(Hit) h, IN(Material) m, IN(PointLight) light, real3 reflected, mask diffuse,
                            mask glossy) {
-  real3 toLight = light.position - origin;
   LightSample s;
-  s.distanceSq = dot3(toLight, toLight);
+  s.toLight = light.position - h.position;
+  s.distanceSq = dot3(s.toLight, s.toLight);
   s.distance = sqrtR(s.distanceSq);
-  s.direction = toLight * (R(1.0) / s.distance);
+  s.direction = s.toLight * (R(1.0) / divisor(s.distance));
   s.cosine = dot3(h.normal, s.direction);
   s.lobe = R(0.0);
   s.lit = notM(orM(lessEqualR(s.cosine, R(0.0)), lessEqualR(dot3(h.face, s.direction), R(0.0))));
@@ -29,9 +30,27 @@ FN LightSample sampleLight(IN(Hit) h, IN(Material) m, IN(PointLight) light, real
   return s;
 }
 
+struct ShadowRay {
+  real3 origin;
+  real3 way;  // from the origin to its end
+};
+
+// Ray that other surfaces block if they block the light. It starts outside the hit's error box, as every ray does, and
+// ends at the light; closer to the face than twice the box, where it could meet the face itself, it is parallel to the
+// way from the hit to the light.
+FN ShadowRay shadowRay(IN(Hit) h, LightSample s) {
+  ShadowRay r;
+  r.origin = originAbove(h);
+  real3 offset = r.origin - h.position;
+  real3 straight = s.toLight - offset;
+  mask near = lessEqualR(dot3(h.face, straight - offset), R(0.0));
+  r.way = select3(near, s.toLight, straight);
+  return r;
+}
+
 // Irradiance on a surface that faces the light, in W/m^2.
 FN real3 lightIrradiance(IN(Hit) h, IN(PointLight) light, LightSample s) {
-  real3 irradiance = light.intensity * (R(1.0) / s.distanceSq);
+  real3 irradiance = light.intensity * (R(1.0) / divisor(s.distanceSq));
   if (kEffectAbsorption) irradiance = irradiance * transmittanceOver(mediumAbsorption(h), s.distance);
   return irradiance;
 }

@@ -47,6 +47,7 @@ RTCScene Bvh::newScene() {
 // that instances get other indices.
 void Bvh::attachMeshes(RTCScene to, const render::RenderScene& scene, const render::MeshRun& run) {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {
+    if (scene.meshTriangles[i] == 0) continue;
     // Embree allocates the buffers: it reads 16 bytes per vertex, although a vertex has 12.
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),

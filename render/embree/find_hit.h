@@ -11,8 +11,8 @@ bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) 
   const real b0 = 1 - at.b1 - at.b2;
   const real3 interpolated =
       mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * at.b1 + n[corner.z] * at.b2 : real3(0);
-  hit = makeHit(origin, direction, p[corner.x], p[corner.y], p[corner.z], at.b1, at.b2, mesh.origin, interpolated, depth,
-                mesh.material);
+  hit = makeHit(origin, direction, p[corner.x], p[corner.y], p[corner.z], at.b1, at.b2, mesh.origin, interpolated,
+                depth, mesh.material);
   if (kEffectAbsorption) hit.travelled = glm::length(hit.position - origin);
   return true;
 }

@@ -13,9 +13,12 @@ namespace {
 struct Single {
   using real = float;
   using Stokes = f32::Stokes;
-  static auto dielectric(real c, real n1, real n2) { return f32::dielectricReflectance(c, n1, n2); }
-  static auto conductor(real c, real n1, real n2, real k2) { return f32::conductorReflectance(c, n1, n2, k2); }
-  static auto through(real c, real n1, real n2) { return f32::dielectricTransmittance(c, n1, n2); }
+  static auto terms(real c, real n1, real n2, real step) { return f32::refractionTermsWith(c, n1, n2, step); }
+  static auto dielectric(real c, const f32::RefractionTerms& f) { return f32::reflectanceFromTerms(c, f); }
+  static auto conductor(real c, real n1, real n2, real k2, real step) {
+    return f32::conductorReflectanceWith(c, n1, n2, k2, step);
+  }
+  static auto through(real c, const f32::RefractionTerms& f) { return f32::transmittanceFromTerms(c, f); }
   static Stokes applied(const Stokes& s, real rs, real rp, real xRe, real xIm) {
     return f32::stokesInterface(s, f32::splat3(rs), f32::splat3(rp), f32::splat3(xRe), f32::splat3(xIm));
   }
@@ -23,9 +26,12 @@ struct Single {
 struct Double {
   using real = double;
   using Stokes = f64::Stokes;
-  static auto dielectric(real c, real n1, real n2) { return f64::dielectricReflectance(c, n1, n2); }
-  static auto conductor(real c, real n1, real n2, real k2) { return f64::conductorReflectance(c, n1, n2, k2); }
-  static auto through(real c, real n1, real n2) { return f64::dielectricTransmittance(c, n1, n2); }
+  static auto terms(real c, real n1, real n2, real step) { return f64::refractionTermsWith(c, n1, n2, step); }
+  static auto dielectric(real c, const f64::RefractionTerms& f) { return f64::reflectanceFromTerms(c, f); }
+  static auto conductor(real c, real n1, real n2, real k2, real step) {
+    return f64::conductorReflectanceWith(c, n1, n2, k2, step);
+  }
+  static auto through(real c, const f64::RefractionTerms& f) { return f64::transmittanceFromTerms(c, f); }
   static Stokes applied(const Stokes& s, real rs, real rp, real xRe, real xIm) {
     return f64::stokesInterface(s, f64::splat3(rs), f64::splat3(rp), f64::splat3(xRe), f64::splat3(xIm));
   }
@@ -53,9 +59,10 @@ SurfaceResponse respond(const Interface& interface, double angleDegrees) {
   // 90 degrees is grazing exactly.
   const auto c = static_cast<real>(angleDegrees == 90 ? 0 : std::cos(angleDegrees * std::numbers::pi / 180));
   const auto n1 = static_cast<real>(interface.n1), n2 = static_cast<real>(interface.n2),
-             k2 = static_cast<real>(interface.k2);
+             k2 = static_cast<real>(interface.k2), step = static_cast<real>(interface.n2 - interface.n1);
   const bool metal = interface.k2 > 0;
-  const auto r = metal ? O::conductor(c, n1, n2, k2) : O::dielectric(c, n1, n2);
+  const auto terms = O::terms(c, n1, n2, step);
+  const auto r = metal ? O::conductor(c, n1, n2, k2, step) : O::dielectric(c, terms);
   response.rs = r.rs;
   response.rp = r.rp;
   const double sum = response.rs + response.rp;
@@ -64,7 +71,7 @@ SurfaceResponse respond(const Interface& interface, double angleDegrees) {
   response.reflection =
       muellerMatrix<O>([&](const typename O::Stokes& s) { return O::applied(s, r.rs, r.rp, r.xRe, r.xIm); });
   if (metal) return response;
-  const auto t = O::through(c, n1, n2);
+  const auto t = O::through(c, terms);
   response.ts = t.ts;
   response.tp = t.tp;
   response.transmission =

@@ -31,6 +31,9 @@ f64::Reflectance reflectance(const pack::Material& m, double c, int colour) {
   return metal ? f64::conductorReflectance(c, m.outsideEta, n3, k3) : f64::dielectricReflectance(c, m.outsideEta, n3);
 }
 
+// Rounding error of a value that is stored in float.
+float residue(double value) { return static_cast<float>(value - static_cast<double>(static_cast<float>(value))); }
+
 gpu::MaterialExtra makeExtra(const pack::Material& m) {
   gpu::MaterialExtra e{};
   // Only glass has an inside: the other surfaces see the outer medium from both sides.
@@ -43,8 +46,12 @@ gpu::MaterialExtra makeExtra(const pack::Material& m) {
   const glm::dvec3 retardance = m.retardanceDegrees * (std::numbers::pi / 180);
   e.retardanceCos = glm::vec3(glm::cos(retardance));
   e.retardanceSin = glm::vec3(glm::sin(retardance));
+  e.outsideResidue = residue(m.outsideEta);
   if (m.coating.thicknessNm > 0) {
     e.filmEta = glm::vec3(m.coating.eta);
+    e.filmOverOutside = glm::vec3(m.coating.eta - m.outsideEta);
+    e.filmOverBase = glm::vec3(m.coating.eta - (pack::isConductor(m.kind) ? m.eta : glm::dvec3(m.eta.y)));
+    for (int i = 0; i < 3; ++i) e.filmResidue[i] = residue(m.coating.eta[i]);
     e.roundTripPhase = glm::vec3(roundTripPhase(m.coating));
   }
   e.roughness = static_cast<float>(m.roughness);
@@ -68,6 +75,13 @@ std::vector<std::uint32_t> sortByOrigin(const std::vector<pack::Mesh>& meshes) {
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
   return order;
+}
+
+// Whether rays pass a surface unchanged, because it separates equal media.
+bool isInvisible(const pack::Material& m) {
+  if (m.eta.y != m.outsideEta || m.coating.thicknessNm > 0) return false;
+  if (m.kind == pack::MaterialKind::glass) return m.absorption == m.outsideAbsorption;
+  return m.kind == pack::MaterialKind::thinGlass && m.transmittanceParallel == glm::dvec3(1.0);
 }
 
 }  // namespace
@@ -102,6 +116,7 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     const double basic = 1 / (m.outsideEta * m.outsideEta);
     g.eta = glm::vec3(m.eta);
     g.k = glm::vec3(m.k);
+    g.contrast = glm::vec3(m.eta - m.outsideEta);
     g.radiance = glm::vec3(m.radiance * basic);
     g.albedo = !pack::isEmitter(m.kind) ? glm::vec3(m.albedo) : m.twoSided ? g.radiance : glm::vec3(0.0f);
     g.hemisphereTransmittance = glm::vec3(hemisphereTransmittance(m));
@@ -121,7 +136,8 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     result.meshes.push_back({static_cast<std::uint32_t>(result.triangles.size()),
                              static_cast<std::uint32_t>(result.positions.size()), mesh.material,
                              mesh.normals.empty() ? 0u : 1u, glm::vec3(mesh.origin)});
-    result.meshTriangles.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+    const bool isTraced = !isInvisible(scene.materials[mesh.material]);
+    result.meshTriangles.push_back(isTraced ? static_cast<std::uint32_t>(mesh.triangles.size()) : 0u);
     result.meshVertices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
     for (const glm::dvec3& p : mesh.positions) result.positions.emplace_back(p - mesh.origin);
     result.normals.insert(result.normals.end(), mesh.normals.begin(), mesh.normals.end());
@@ -148,19 +164,6 @@ glm::dvec2 facetPoint(std::size_t i) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const RenderParameters& parameters) {
-  gpu::CameraParameters f{};
-  const pack::Camera& camera = scene.camera;
-  const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi);
-  f.position = glm::vec3(camera.position);
-  f.up = glm::vec3(camera.up);
-  setSampleDirections(f, camera, tanY, parameters);
-  f.basicToRadiance = static_cast<float>(camera.mediumEta * camera.mediumEta);
-  for (int i = 0; i < 4; ++i) f.analyser[i] = static_cast<float>(parameters.analyser[static_cast<std::size_t>(i)]);
-  f.width = parameters.width;
-  f.height = parameters.height;
-  f.regionX = parameters.region.x;
-  f.regionY = parameters.region.y;
 namespace {
 
 // The coarse part is a multiple of `unit`, the fine one the rest.
@@ -189,6 +192,19 @@ void setSampleDirections(gpu::CameraParameters& f, const pack::Camera& camera, d
 
 }  // namespace
 
+gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const RenderParameters& parameters) {
+  gpu::CameraParameters f{};
+  const pack::Camera& camera = scene.camera;
+  const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi);
+  f.position = glm::vec3(camera.position);
+  f.up = glm::vec3(camera.up);
+  setSampleDirections(f, camera, tanY, parameters);
+  f.basicToRadiance = static_cast<float>(camera.mediumEta * camera.mediumEta);
+  for (int i = 0; i < 4; ++i) f.analyser[i] = static_cast<float>(parameters.analyser[static_cast<std::size_t>(i)]);
+  f.width = parameters.width;
+  f.height = parameters.height;
+  f.regionX = parameters.region.x;
+  f.regionY = parameters.region.y;
   f.regionWidth = parameters.region.width;
   f.regionHeight = parameters.region.height;
   f.samples = parameters.samples;

@@ -16,7 +16,7 @@ struct RenderScene {
   // structures.
   std::vector<gpu::Mesh> meshes;
   std::vector<std::uint32_t> sourceMeshes;   // index of each mesh in the pack's scene
-  std::vector<std::uint32_t> meshTriangles;  // triangles of each mesh
+  std::vector<std::uint32_t> meshTriangles;  // that rays can meet, of each mesh: none of a surface between equal media
   std::vector<std::uint32_t> meshVertices;
   std::vector<glm::vec3> positions;        // relative to the origin of their mesh
   std::vector<glm::vec3> normals;          // one per position; (0, 0, 0) for flat meshes

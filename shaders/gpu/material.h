@@ -4,6 +4,7 @@
 struct Material {
   real3 eta;                      // real part of the index; dielectrics use eta.y in every colour
   real3 k;                        // imaginary part: eta - i k
+  real3 contrast;                 // eta - outsideEta, from double precision
   real3 albedo;                   // diffuse reflectance; 0: none. Of an emitter: the radiance of its back
   real3 radiance;                 // emitted, divided by the square of the index it is emitted into
   real3 hemisphereTransmittance;  // mean transmittance of the interface for light from all directions
@@ -25,13 +26,17 @@ struct MaterialExtra {
   real3 transmittanceCrossed;   // and across it
   real3 retardanceCos;          // of a wave plate
   real3 retardanceSin;
-  real3 filmEta;         // index of a thin film; 0: none
-  real3 roundTripPhase;  // twice its thickness over the wavelength in vacuum
-  real roughness;        // GGX alpha; 0: smooth
-  word albedoMap;        // texture that albedo is multiplied by; kNoTexture: none
-  word etaMap;           // texture in place of eta
-  word kMap;             // texture in place of k
-  real3 mapOrigin;       // texture coordinates: dot(p - mapOrigin, mapU or mapV)
+  real3 filmEta;          // index of a thin film; 0: none
+  real3 filmOverOutside;  // filmEta - outsideEta and filmEta - eta, from double precision; dielectrics have eta.y
+  real3 filmOverBase;     // in place of eta
+  real3 roundTripPhase;   // twice its thickness over the wavelength in vacuum
+  real outsideResidue;    // outsideEta - its value in Material, and the same of filmEta: for the contrasts of textures
+  real3 filmResidue;
+  real roughness;   // GGX alpha; 0: smooth
+  word albedoMap;   // texture that albedo is multiplied by; kNoTexture: none
+  word etaMap;      // texture in place of eta
+  word kMap;        // texture in place of k
+  real3 mapOrigin;  // texture coordinates: dot(p - mapOrigin, mapU or mapV)
   real3 mapU;
   real3 mapV;
 };

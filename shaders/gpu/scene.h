@@ -36,8 +36,8 @@ enum SurfaceKind : uint {
 #endif
 
 #include "shaders/gpu/material.h"
-MALUS_SIZE(Material, 80);
-MALUS_SIZE(MaterialExtra, 164);
+MALUS_SIZE(Material, 92);
+MALUS_SIZE(MaterialExtra, 204);
 MALUS_SIZE(PointLight, 24);
 
 struct Texture {

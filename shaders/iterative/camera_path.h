@@ -1,9 +1,9 @@
 // Driver of the iterative methods, which follow the camera path in a loop: a surface is applied to the throughput of
 // the path, so that nothing returns along rays. At a surface that reflects and transmits, the reflected ray is followed
 // first and the transmitted one is pushed on a stack, which has room for one ray per interaction of a path and the
-// facets of one rough surface. At a surface that only transmits, the ray is taken from the stack at once. Included after
-// a file of shaders/iterative. The renderer defines kPathStackSize: at least the depth (1 if no surface both reflects and
-// transmits), and kFacets more with rough surfaces.
+// facets of one rough surface. At a surface that only transmits, the ray is taken from the stack at once. Included
+// after a file of shaders/iterative. The renderer defines kPathStackSize: at least the depth (1 if no surface both
+// reflects and transmits), and kFacets more with rough surfaces.
 // clang-format off
 #include "shaders/surfaces/shared.h"
 #include "shaders/iterative/path.h"

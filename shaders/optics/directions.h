@@ -6,9 +6,11 @@ FN real3 mirrorDirection(real3 d, real3 n, real c) { return normalize3(d + n * (
 
 // Snell's law, from a medium of index n1 into one of index n2: eta d' = d + (c - t) n, with c - t evaluated as
 // -(eta^2 - 1)/(c + t). The result has no meaning in total reflection.
-FN real3 refractedDirection(real3 d, real3 n, real c, real n1, real n2) {
-  RefractionTerms f = refractionTerms(c, n1, n2);
+FN real3 refractedDirectionFromTerms(real3 d, real3 n, real c, RefractionTerms f) {
   real sum = c + f.t;
   real difference = (R(0.0) - f.etaSqM1) / divisor(sum);
   return normalize3(d + n * selectR(f.matched, R(0.0), difference));
+}
+FN real3 refractedDirection(real3 d, real3 n, real c, real n1, real n2) {
+  return refractedDirectionFromTerms(d, n, c, refractionTerms(c, n1, n2));
 }

@@ -32,22 +32,39 @@ FN Complex limitComponents(Complex a) {
   return makeComplex(a.re * scale, a.im * scale);
 }
 
-// Reflection and transmission of a film of index nf between a medium of index n1 and one of index n3 - i k3.
-// c: cosine of the angle of incidence in the first medium; roundTripPhase: twice the film's thickness over the
-// wavelength in vacuum, the phase of a round trip at normal incidence in units of 2 pi / nf.
-FN Film thinFilm(real c, real n1, real nf, real roundTripPhase, real n3, real k3) {
+// Film of index nf between a medium of index n1 and one of index n3 - i k3. The differences are more accurate than
+// those of the rounded indices, which do not determine them.
+struct FilmLayers {
+  real n1;
+  real nf;
+  real n3;
+  real k3;
+  real filmStep;        // nf - n1
+  real baseStep;        // n3 - n1
+  real filmOverBase;    // nf - n3
+  real roundTripPhase;  // twice the film's thickness over the wavelength in vacuum: the phase of a round trip at normal
+                        // incidence in units of 2 pi / nf
+};
+
+// Reflection and transmission of a film. c: cosine of the angle of incidence in the first medium.
+FN Film filmResponse(real c, FilmLayers layers) {
+  real n1 = layers.n1;
+  real nf = layers.nf;
+  real n3 = layers.n3;
+  real k3 = layers.k3;
+  real roundTripPhase = layers.roundTripPhase;
   real inverse = R(1.0) / n1;
   real inverseSq = inverse * inverse;
   real sinSq = (R(1.0) - c) * (R(1.0) + c);
   // Components normal to the surface: q^2 = (n/n1)^2 - sin^2, from n^2 - n1^2 and c^2.
-  real eF = ((nf - n1) * (nf + n1)) * inverseSq;
-  real e3Re = ((n3 - n1) * (n3 + n1) - k3 * k3) * inverseSq;
+  real eF = (layers.filmStep * (nf + n1)) * inverseSq;
+  real e3Re = (layers.baseStep * (n3 + n1) - k3 * k3) * inverseSq;
   real e3Im = R(-2.0) * n3 * k3 * inverseSq;
   Complex q1 = makeComplex(c, R(0.0));
   Complex q2 = complexSqrtLower(eF + c * c, R(0.0));
   Complex q3 = complexSqrtLower(e3Re + c * c, e3Im);
   FilmInterface a = filmInterface(sinSq, q1, q2, makeComplex(R(0.0) - eF, R(0.0)));
-  real differenceRe = ((nf - n3) * (nf + n3) + k3 * k3) * inverseSq;
+  real differenceRe = (layers.filmOverBase * (nf + n3) + k3 * k3) * inverseSq;
   FilmInterface b = filmInterface(sinSq, q2, q3, makeComplex(differenceRe, R(0.0) - e3Im));
   // Round trip through the film: e = e^{-2 i beta}.
   Complex rotation = cisTwoPi(roundTripPhase * n1 * q2.re);
@@ -92,4 +109,16 @@ FN Film thinFilm(real c, real n1, real nf, real roundTripPhase, real n3, real k3
   f.through.xRe = selectR(noPhase, y, ratio.re * ySize);
   f.through.xIm = selectR(noPhase, R(0.0), ratio.im * ySize);
   return f;
+}
+FN Film thinFilm(real c, real n1, real nf, real roundTripPhase, real n3, real k3) {
+  FilmLayers layers;
+  layers.n1 = n1;
+  layers.nf = nf;
+  layers.n3 = n3;
+  layers.k3 = k3;
+  layers.filmStep = nf - n1;
+  layers.baseStep = n3 - n1;
+  layers.filmOverBase = nf - n3;
+  layers.roundTripPhase = roundTripPhase;
+  return filmResponse(c, layers);
 }

@@ -8,8 +8,9 @@
 //
 //   r_s = -(eta^2 - 1)/(c + t)^2,  rho = r_p/r_s = (sin^2 - c t)/(sin^2 + c t)
 //
-// which has no difference of nearly equal numbers near an index match. Source: Born and Wolf, Principles of Optics, 7th
-// edition, 1.5.2 and 14.2. The result depends on the side of viewing only by the frames.
+// which has no difference of nearly equal numbers near an index match but n2 - n1. Rounded indices do not determine it:
+// the functions named ...With take it as computed in double precision, the others subtract. Source: Born and Wolf,
+// Principles of Optics, 7th edition, 1.5.2 and 14.2. The result depends on the side of viewing only by the frames.
 
 // Power reflectances and the cross term X = r_p conj(r_s), which is all that the Mueller matrix of a reflection needs.
 struct Reflectance {
@@ -31,7 +32,7 @@ struct Transmittance {
 struct RefractionTerms {
   real eta;      // n2/n1
   real etaSq;    // eta^2
-  real etaSqM1;  // eta^2 - 1, from the two indices and not from their rounded ratio
+  real etaSqM1;  // eta^2 - 1, from n2 - n1 and not from the rounded ratio
   real sinSq;    // sin^2 of the angle of incidence
   real t;        // sqrt(eta^2 - sin^2): eta times the transmitted cosine; 0 in total reflection
   real tau;      // sqrt(sin^2 - eta^2) in total reflection, else 0
@@ -39,11 +40,12 @@ struct RefractionTerms {
   mask matched;  // n1 == n2: no interface
 };
 
-FN RefractionTerms refractionTerms(real c, real n1, real n2) {
+// difference: n2 - n1, more accurate than the difference of the rounded indices.
+FN RefractionTerms refractionTermsWith(real c, real n1, real n2, real difference) {
   RefractionTerms f;
   f.eta = n2 / n1;
   f.etaSq = f.eta * f.eta;
-  f.etaSqM1 = ((n2 - n1) * (n2 + n1)) / (n1 * n1);
+  f.etaSqM1 = (difference * (n2 + n1)) / (n1 * n1);
   f.sinSq = (R(1.0) - c) * (R(1.0) + c);
   // Take the form with the smaller terms: an eta^2 of 1e-8 is lost beside 1.
   real tSq = selectR(lessR(f.etaSq + f.sinSq, R(1.0)), f.etaSq - f.sinSq, f.etaSqM1 + c * c);
@@ -53,6 +55,7 @@ FN RefractionTerms refractionTerms(real c, real n1, real n2) {
   f.tau = sqrtR(maxR(R(0.0) - tSq, R(0.0)));
   return f;
 }
+FN RefractionTerms refractionTerms(real c, real n1, real n2) { return refractionTermsWith(c, n1, n2, n2 - n1); }
 
 // Reflection at a dielectric. Total reflection gives R_s = R_p = 1 exactly; n1 = n2 reflects nothing at every angle.
 FN Reflectance reflectanceFromTerms(real c, RefractionTerms f) {
@@ -98,13 +101,13 @@ FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
 
 // Reflection at a conductor of index n2 - i k2, k2 >= 0; with k2 = 0 a dielectric that only reflects. Source: Born and
 // Wolf, 14.2.
-FN Reflectance conductorReflectance(real c, real n1, real n2, real k2) {
+FN Reflectance conductorReflectanceWith(real c, real n1, real n2, real k2, real difference) {
   real inverse = R(1.0) / n1;
   real n = n2 * inverse;
   real k = k2 * inverse;
   real sinSq = (R(1.0) - c) * (R(1.0) + c);
   // eta^2 - 1 and z = t^2 = (eta^2 - 1) + c^2 = eta^2 - sin^2, complex; Im <= 0.
-  real nSqM1 = ((n2 - n1) * (n2 + n1)) * inverse * inverse;
+  real nSqM1 = (difference * (n2 + n1)) * inverse * inverse;
   real eRe = nSqM1 - k * k;
   real eIm = R(-2.0) * n * k;
   real zRe = selectR(lessR(n * n + sinSq, R(1.0)), n * n - sinSq - k * k, eRe + c * c);
@@ -129,4 +132,7 @@ FN Reflectance conductorReflectance(real c, real n1, real n2, real k2) {
   r.xRe = r.rs * rhoRe;
   r.xIm = r.rs * rhoIm;
   return r;
+}
+FN Reflectance conductorReflectance(real c, real n1, real n2, real k2) {
+  return conductorReflectanceWith(c, n1, n2, k2, n2 - n1);
 }

@@ -36,11 +36,10 @@ FN void sumInternalReflections(real r, real t, real a, real loss, OUT(real) tran
   reflected = minR(r * (R(1.0) + a * a * t * ratio), R(1.0));
 }
 
-// c: cosine of incidence, 0 to 1; n1: index of the medium on both sides; n2: index of the glass; internal:
-// transmittance of the inside at normal incidence, without the interfaces, 0 to 1 (the internal transmittance of glass
-// catalogues).
-FN ThinGlass thinGlass(real c, real n1, real n2, real internal) {
-  RefractionTerms f = refractionTerms(c, n1, n2);
+// c: cosine of incidence, 0 to 1; f: refractionTerms of c, the index n1 of the medium on both sides and the index n2 of
+// the glass; internal: transmittance of the inside at normal incidence, without the interfaces, 0 to 1 (the internal
+// transmittance of glass catalogues).
+FN ThinGlass thinGlassFromTerms(real c, RefractionTerms f, real internal) {
   Reflectance r = reflectanceFromTerms(c, f);
   Transmittance t = transmittanceFromTerms(c, f);
   // Beer-Lambert: the path inside is longer than the thickness by 1 / cos of the refracted angle, which is eta / f.t.
@@ -59,4 +58,7 @@ FN ThinGlass thinGlass(real c, real n1, real n2, real internal) {
   pane.reflected.xRe = r.xRe * gain;
   pane.reflected.xIm = r.xIm * gain;
   return pane;
+}
+FN ThinGlass thinGlass(real c, real n1, real n2, real internal) {
+  return thinGlassFromTerms(c, refractionTerms(c, n1, n2), internal);
 }

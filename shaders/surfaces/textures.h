@@ -26,7 +26,10 @@ FN Material materialAt(IN(Hit) h) {
   real u = dot3(p, e.mapU);
   real v = dot3(p, e.mapV);
   if (e.albedoMap != kNoTexture) m.albedo = m.albedo * textureAt(e.albedoMap, u, v);
-  if (e.etaMap != kNoTexture) m.eta = textureAt(e.etaMap, u, v);
+  if (e.etaMap != kNoTexture) {
+    m.eta = textureAt(e.etaMap, u, v);
+    m.contrast = (m.eta - splat3(m.outsideEta)) - splat3(e.outsideResidue);
+  }
   if (e.kMap != kNoTexture) m.k = textureAt(e.kMap, u, v);
   return m;
 }

@@ -4,9 +4,10 @@ CONST int kShapeThinGlass = kTransparentShape;
 
 FN Scattering scatterThinGlass(INOUT(Hit) h, IN(Material) m) {
   real3 internal = materialExtra(h.material).transmittanceParallel;
-  ThinGlass red = thinGlass(h.c, m.outsideEta, m.eta.y, internal.x);
-  ThinGlass green = thinGlass(h.c, m.outsideEta, m.eta.y, internal.y);
-  ThinGlass blue = thinGlass(h.c, m.outsideEta, m.eta.y, internal.z);
+  RefractionTerms f = refractionTermsWith(h.c, m.outsideEta, m.eta.y, m.contrast.y);
+  ThinGlass red = thinGlassFromTerms(h.c, f, internal.x);
+  ThinGlass green = thinGlassFromTerms(h.c, f, internal.y);
+  ThinGlass blue = thinGlassFromTerms(h.c, f, internal.z);
   Scattering s;
   s.frameNormal = h.normal;
   s.reflection = termsFromReflectance(red.reflected, green.reflected, blue.reflected);

@@ -39,9 +39,9 @@ FN ChainOut chainProbe(GIVEN_PARAMETER(ChainIn)) {
     SurfaceLight arriving = lightAtSurface(p, d[i + 1], s);
     FresnelTerms f;
     if (kind > R(0.5) && kind < R(1.5))
-      f = conductorTerms(c[i], n1, splat3(n2), splat3(GIVEN.bounces[i].k2));
+      f = conductorTerms(c[i], n1, splat3(n2), splat3(GIVEN.bounces[i].k2), splat3(n2 - n1));
     else
-      f = dielectricTerms(c[i], n1, n2);
+      f = dielectricTerms(c[i], n1, n2, n2 - n1);
     SurfaceLight sent;
     if (kind > R(1.5))
       sent = lightThroughInterface(transmissionTerms(f), arriving);

@@ -24,6 +24,37 @@ TYPED_TEST(CameraTest, CentreAndCorners) {
   EXPECT_CLOSE(low.z / low.y, -0.25L, 2 * kEps);
 }
 
+// The directions of samples are those of long double axes to the rounding of their normalization, however the axes are
+// rounded.
+TYPED_TEST(CameraTest, SampleDirectionsKeepTheAxes) {
+  MALUS_TYPES;
+  Draw draw(17);
+  Worst worst("sample", double(kEps));
+  for (int i = 0; i < 200; ++i) {
+    const Vec forward = draw.direction(), right = oracle::unit(oracle::cross(forward, draw.direction()));
+    const Real columns = 1 + static_cast<Real>(draw.below(8192)), tan = draw.between(0.01, 2);
+    const auto coarse = [](const Vec& v) {
+      const Real unit = 0x1p-20L;
+      return Vec{std::round(v[0] / unit) * unit, std::round(v[1] / unit) * unit, std::round(v[2] / unit) * unit};
+    };
+    const Vec first = oracle::along(forward, 1, right, -tan), step = oracle::along(right, 2 * tan / columns, right, 0);
+    const Vec firstCoarse = coarse(first), stepCoarse = coarse(step);
+    const real3 none = O::splat3(0);
+    for (int sample = 0; sample < 20; ++sample) {
+      const Real column = std::floor(columns * static_cast<Real>(draw.unit()));
+      const real3 got = O::cameraSampleDirection(
+          toReal3<O>(firstCoarse), toReal3<O>(oracle::along(first, 1, firstCoarse, -1)), toReal3<O>(stepCoarse),
+          toReal3<O>(oracle::along(step, 1, stepCoarse, -1)), none, none, R(column), 0);
+      const Vec want = oracle::unit(oracle::along(first, 1, step, column));
+      for (std::size_t j = 0; j < 3; ++j) {
+        const Vec across = oracle::cross(want, toVec(got));  // a common factor keeps the direction
+        worst.add(across[j]);
+      }
+    }
+  }
+  EXPECT_LT(worst.value(), 1.5);
+}
+
 TYPED_TEST(CameraTest, XOfTheFrameIsPerpendicularToUp) {
   MALUS_TYPES;
   Draw draw(16);

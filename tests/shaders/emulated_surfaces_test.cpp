@@ -48,12 +48,13 @@ emulated::Material drawMaterial(Draw& draw) {
   m.k = numbers(draw, 0, 4);
   m.albedo = numbers(draw, 0, 1);
   m.outsideEta = real(draw.below(3) == 0 ? 1.5 : 1.0);
+  m.contrast = {m.eta.x - m.outsideEta, m.eta.y - m.outsideEta, m.eta.z - m.outsideEta};
   m.highlightStrength = number(draw, 0, 1);
   m.highlightExponent = static_cast<std::uint32_t>(draw.below(4096));
   m.kind = draw.below(2) == 0 ? gpu::kPaint : gpu::kMetal;
   return m;
 }
-emulated::MaterialExtra drawExtra(Draw& draw) {
+emulated::MaterialExtra drawExtra(Draw& draw, const emulated::Material& m) {
   emulated::MaterialExtra e{};
   e.absorption = draw.below(2) == 0 ? real3{real(0), real(0), real(0)} : numbers(draw, 0, 2);
   e.outsideAbsorption = e.absorption;
@@ -63,7 +64,13 @@ emulated::MaterialExtra drawExtra(Draw& draw) {
   const double delay = draw.between(0, 6.28);
   e.retardanceCos = {real(std::cos(delay)), real(1), real(0)};
   e.retardanceSin = {real(std::sin(delay)), real(0), real(1)};
-  if (draw.below(2) == 0) e.filmEta = numbers(draw, 1.2, 2.4);
+  if (draw.below(2) == 0) {
+    e.filmEta = numbers(draw, 1.2, 2.4);
+    const real3 base = m.kind == gpu::kMetal ? m.eta : real3{m.eta.y, m.eta.y, m.eta.y};
+    e.filmOverOutside = {e.filmEta.x - m.outsideEta, e.filmEta.y - m.outsideEta, e.filmEta.z - m.outsideEta};
+    e.filmOverBase = {e.filmEta.x - base.x, e.filmEta.y - base.y, e.filmEta.z - base.z};
+  }
+  e.etaMap = draw.below(2) == 0 ? gpu::kNoTexture : 0u;
   e.roundTripPhase = numbers(draw, 0, 2);
   e.roughness = number(draw, 0.01, 1);
   return e;
@@ -89,8 +96,14 @@ typename Steps::Hit drawHit(Draw& draw, Steps& steps, Corners& corners) {
   }
   const real b1 = draw.below(3) == 0 ? real(1e-7) : number(draw, 0, 0.5), b2 = number(draw, 0, 0.5);
   const real3 none{real(0), real(0), real(0)};
-  auto h = steps.makeHit(vector(d), vector(corners.p[0]), vector(corners.p[1]), vector(corners.p[2]), b1, b2, none,
-                         none, real(draw.below(3)), 0u);
+  Vec origin = corners.p[0];
+  for (std::size_t i = 1; i < 3; ++i) {
+    const Real b = i == 1 ? Real(b1.value) : Real(b2.value);
+    origin = oracle::along(origin, 1, oracle::along(corners.p[i], b, corners.p[0], -b), 1);
+  }
+  origin = oracle::along(origin, 1, d, -size * std::pow(10.0L, draw.between(-3, 3)));
+  auto h = steps.makeHit(vector(origin), vector(d), vector(corners.p[0]), vector(corners.p[1]), vector(corners.p[2]),
+                         b1, b2, none, none, real(draw.below(3)), 0u);
   h.travelled = draw.below(3) == 0 ? real(0) : number(draw, 0, 3);
   return h;
 }
@@ -152,7 +165,7 @@ TYPED_TEST(EmulatedSurfaces, ScatteringIsPhysical) {
     Corners corners;
     auto h = drawHit(draw, steps, corners);
     const auto m = drawMaterial(draw);
-    steps.extra = drawExtra(draw);
+    steps.extra = drawExtra(draw, m);
     expectScattering(steps.scatterPaint(h, m), "paint");
     expectScattering(steps.scatterMetal(h, m), "metal");
     expectScattering(steps.scatterPolarizingElement(h, m), "polarizing element");
@@ -170,7 +183,7 @@ TYPED_TEST(EmulatedSurfaces, ScatteringIsPhysical) {
     expectUnit(facet.mirror, "facet");
     EXPECT_TRUE(facet.weight.value >= 0 && facet.weight.value * gpu::kFacets <= 1 + 8 * kUnit) << facet.weight.value;
     const emulated::PointLight light{numbers(draw, -3, 3), numbers(draw, 0, 10)};
-    const auto sample = steps.sampleLight(h, m, light, steps.originAbove(h), h.normal, true, true);
+    const auto sample = steps.sampleLight(h, m, light, h.normal, true, true);
     expectUnit(sample.direction, "light");
     for (const Real x : toVec(steps.lightIrradiance(h, light, sample))) EXPECT_TRUE(std::isfinite(x) && x >= 0);
     EXPECT_TRUE(std::isfinite(sample.lobe.value) && sample.lobe.value >= 0);
@@ -196,7 +209,7 @@ TYPED_TEST(EmulatedSurfaces, ImportancePathsStayPhysical) {
       Corners corners;
       auto h = drawHit(draw, steps, corners);
       const auto m = drawMaterial(draw);
-      steps.extra = drawExtra(draw);
+      steps.extra = drawExtra(draw, m);
       if (bounce == 0) {
         path.throughput =
             steps.startThroughput(h.d, vector(draw.direction()), real(0.5), real(0.3), real(0.4), real(0));

@@ -72,14 +72,15 @@ void expectSameNumbers(const LaneStruct& l, const Struct& a, const Struct& b, co
   X(d) X(position) X(start) X(error) X(face) X(normal) X(c) X(outside) X(depth) X(material) X(travelled)
 #define MALUS_MATERIAL(X) \
   X(eta)                  \
+  X(contrast)             \
   X(k)                    \
   X(albedo)               \
   X(radiance) X(hemisphereTransmittance) X(outsideEta) X(basicScale) X(highlightStrength) X(highlightExponent) X(kind)
 // clang-format off
 #define MALUS_EXTRA(X)                                                                                        \
   X(absorption) X(outsideAbsorption) X(axis) X(degree) X(transmittanceParallel) X(transmittanceCrossed)       \
-  X(retardanceCos) X(retardanceSin) X(filmEta) X(roundTripPhase) X(roughness) X(albedoMap) X(etaMap) X(kMap)  \
-  X(mapOrigin) X(mapU) X(mapV)
+  X(retardanceCos) X(retardanceSin) X(filmEta) X(filmOverOutside) X(filmOverBase) X(roundTripPhase)           \
+  X(outsideResidue) X(filmResidue) X(roughness) X(albedoMap) X(etaMap) X(kMap) X(mapOrigin) X(mapU) X(mapV)
 // clang-format on
 
 // Both lanes' scalar inputs, and the two of them packed.
@@ -107,6 +108,7 @@ gpu::Material drawMaterial(Draw& draw) {
   m.albedo = numbers(draw, 0, 1);
   m.radiance = numbers(draw, 0, 5);
   m.outsideEta = draw.below(3) == 0 ? 1.5f : 1.0f;
+  m.contrast = m.eta - m.outsideEta + numbers(draw, -1e-8, 1e-8);
   m.basicScale = 1 / (m.outsideEta * m.outsideEta);
   m.highlightStrength = number(draw, 0, 1);
   m.highlightExponent = static_cast<gpu::uint>(draw.below(4096));
@@ -124,6 +126,11 @@ gpu::MaterialExtra drawExtra(Draw& draw) {
   e.retardanceCos = numbers(draw, -1, 1);
   e.retardanceSin = numbers(draw, -1, 1);
   if (draw.below(2) == 0) e.filmEta = numbers(draw, 1.2, 2.4);
+  e.filmOverOutside = e.filmEta - numbers(draw, 1, 1.5);
+  e.filmOverBase = e.filmEta - numbers(draw, 0.2, 2.5);
+  e.outsideResidue = number(draw, -1e-8, 1e-8);
+  e.filmResidue = numbers(draw, -1e-8, 1e-8);
+  e.etaMap = draw.below(2) == 0 ? gpu::kNoTexture : 0;
   e.roundTripPhase = numbers(draw, 0, 2);
   e.roughness = draw.below(2) == 0 ? 0 : number(draw, 0.01, 1);
   return e;
@@ -133,7 +140,7 @@ gpu::MaterialExtra drawExtra(Draw& draw) {
 template <class S, class L>
 Inputs<S, L> drawInputs(Draw& draw) {
   Inputs<S, L> in;
-  Vec corner[2][3], origin[2], d[2], normal[2];
+  Vec corner[2][3], origin[2], from[2], d[2], normal[2];
   float b1[2], b2[2], depth[2];
   for (int i = 0; i < 2; ++i) {
     for (Vec& p : corner[i]) p = numbers(draw, -2, 2);
@@ -141,20 +148,23 @@ Inputs<S, L> drawInputs(Draw& draw) {
     d[i] = direction(draw);
     b1[i] = draw.below(3) == 0 ? 1e-7f : number(draw, 0, 0.5);  // on an edge, or inside
     b2[i] = number(draw, 0, 0.5);
+    // Rays shorter than the triangle, and longer ones.
+    from[i] = origin[i] + corner[i][0] + (corner[i][1] - corner[i][0]) * b1[i] + (corner[i][2] - corner[i][0]) * b2[i] -
+              d[i] * number(draw, 0, 8);
     const Vec face = f32::cross3(corner[i][1] - corner[i][0], corner[i][2] - corner[i][0]);
     normal[i] = draw.below(3) == 0 ? Vec(0) : face + numbers(draw, -0.5, 0.5);
     depth[i] = static_cast<float>(draw.below(3)) + (draw.below(4) == 0 ? 0.25f : 0.0f);
-    in.hit[i] = in.scalar[i].makeHit(d[i], corner[i][0], corner[i][1], corner[i][2], b1[i], b2[i], origin[i], normal[i],
-                                     depth[i], static_cast<gpu::uint>(i));
+    in.hit[i] = in.scalar[i].makeHit(from[i], d[i], corner[i][0], corner[i][1], corner[i][2], b1[i], b2[i], origin[i],
+                                     normal[i], depth[i], static_cast<gpu::uint>(i));
     in.hit[i].travelled = number(draw, 0, 3);
     in.material[i] = drawMaterial(draw);
     in.light[i] = {numbers(draw, -3, 3), numbers(draw, 0, 10)};
     in.scalar[i].extra = drawExtra(draw);
   }
-  in.laneHit =
-      in.lanes.makeHit(pack(d[0], d[1]), pack(corner[0][0], corner[1][0]), pack(corner[0][1], corner[1][1]),
-                       pack(corner[0][2], corner[1][2]), pack(b1[0], b1[1]), pack(b2[0], b2[1]),
-                       pack(origin[0], origin[1]), pack(normal[0], normal[1]), pack(depth[0], depth[1]), Word(0u, 1u));
+  in.laneHit = in.lanes.makeHit(pack(from[0], from[1]), pack(d[0], d[1]), pack(corner[0][0], corner[1][0]),
+                                pack(corner[0][1], corner[1][1]), pack(corner[0][2], corner[1][2]), pack(b1[0], b1[1]),
+                                pack(b2[0], b2[1]), pack(origin[0], origin[1]), pack(normal[0], normal[1]),
+                                pack(depth[0], depth[1]), Word(0u, 1u));
   in.laneHit.travelled = pack(in.hit[0].travelled, in.hit[1].travelled);
   const auto& hit = in.hit;
 #define MALUS_SAME_FIELD(f) expectSame(in.laneHit.f, hit[0].f, hit[1].f, "makeHit " #f);
@@ -230,11 +240,16 @@ void compareLight(Inputs<S, L>& in) {
   }
   {
     MALUS_RUN(([](auto& s, auto& h, auto& m, auto& light) {
-      return s.sampleLight(h, m, light, s.originAbove(h), h.normal, h.outside, s.isRough(h));
+      return s.sampleLight(h, m, light, h.normal, h.outside, s.isRough(h));
     }))
     expectSame(lane.direction, first.direction, second.direction, "sampleLight direction");
     expectSame(lane.lobe, first.lobe, second.lobe, "sampleLight lobe");
     expectSame(lane.lit, first.lit, second.lit, "sampleLight lit");
+    const auto laneRay = in.lanes.shadowRay(in.laneHit, lane);
+    const auto firstRay = in.scalar[0].shadowRay(in.hit[0], first),
+               secondRay = in.scalar[1].shadowRay(in.hit[1], second);
+    expectSame(laneRay.origin, firstRay.origin, secondRay.origin, "shadowRay origin");
+    expectSame(laneRay.way, firstRay.way, secondRay.way, "shadowRay way");
     expectSame(in.lanes.lightIrradiance(in.laneHit, in.laneLight, lane),
                in.scalar[0].lightIrradiance(in.hit[0], in.light[0], first),
                in.scalar[1].lightIrradiance(in.hit[1], in.light[1], second), "lightIrradiance");

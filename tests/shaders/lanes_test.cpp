@@ -116,6 +116,8 @@ void compareOptics() {
   MALUS_SAME(dielectricReflectance)
   MALUS_SAME(dielectricTransmittance)
   MALUS_SAME(conductorReflectance)
+  MALUS_SAME(conductorReflectanceWith)
+  MALUS_SAME(schlickReflectanceWith)
   MALUS_SAME(schlickReflectance)
   MALUS_SAME(mirrorDirection)
   MALUS_SAME(refractedDirection)
@@ -132,6 +134,9 @@ void compareOptics() {
   MALUS_SAME(intersectionError)
   MALUS_SAME(rayOrigin)
   MALUS_SAME(cameraDirection)
+  MALUS_SAME(cameraSampleDirection)
+  MALUS_SAME(trianglePoint)
+  MALUS_SAME(pointOnRay)
   MALUS_SAME(analysed)
   // Those that write into their parameters, and the one that returns masks.
   using real = S;

@@ -46,7 +46,8 @@ typename M::Payload trace(const Path& path, real3 radiance = splat3(1)) {
       k2[j] = static_cast<float>(-b.n2[static_cast<std::size_t>(j)].imag());
     }
     const real c = clampUnit(-dot3(d, n)), n1 = static_cast<float>(b.n1);
-    const auto f = b.metal ? M::conductorTerms(c, n1, n2, k2) : M::dielectricTerms(c, n1, n2.y);
+    const auto f =
+        b.metal ? M::conductorTerms(c, n1, n2, k2, n2 - splat3(n1)) : M::dielectricTerms(c, n1, n2.y, n2.y - n1);
     const real3 s = M::surfaceS(d, n);
     const auto arriving = M::lightAtSurface(p, next, s);
     p = M::payloadFromSurface(M::lightThroughInterface(b.transmits ? M::transmissionTerms(f) : f, arriving), d, s);
@@ -132,7 +133,7 @@ TYPED_TEST(MethodTest, LightSumsAndLeaves) {
   const Stokes s = TypeParam::payloadStokes(TypeParam::payloadFromSurface(sum, d, TypeParam::surfaceS(d, n)), d);
   EXPECT_LT(difference(s, stokesUnpolarized(make3(1.5f, 2.25f, 4))), 4 * (4 * kEps + packingLoss<TypeParam>()));
   // Light from below an interface has its mean transmittance.
-  const auto f = TypeParam::dielectricTerms(0.3f, 1, 1.5f);
+  const auto f = TypeParam::dielectricTerms(0.3f, 1, 1.5f, 0.5f);
   const Stokes left = TypeParam::payloadStokes(
       TypeParam::payloadFromSurface(TypeParam::lightFromBelow(f, splat3(1)), d, TypeParam::surfaceS(d, n)), d);
   EXPECT_NEAR(left.s0.y, TypeParam::meanTransmittance(f).y, 2 * kEps + packingLoss<TypeParam>());
@@ -187,8 +188,8 @@ TYPED_TEST(MethodTest, NothingIsEverNanOrNegative) {
     };
     const real3 d = direction(), next = direction(), n = draw.below(4) == 0 ? d * -1.0f : direction();
     const real c = draw.below(8) == 0 ? 0.0f : static_cast<float>(draw.unit());
-    const auto f =
-        draw.below(2) == 0 ? M::dielectricTerms(c, 1, 1.5f) : M::conductorTerms(c, 1, splat3(0.2f), splat3(3));
+    const auto f = draw.below(2) == 0 ? M::dielectricTerms(c, 1, 1.5f, 0.5f)
+                                      : M::conductorTerms(c, 1, splat3(0.2f), splat3(3), splat3(-0.8f));
     auto p = M::payloadUnpolarized(draw.below(8) == 0 ? splat3(0) : make3(1, 0, 1e30f));
     for (int bounce = 0; bounce < 3; ++bounce)
       p = M::payloadFromSurface(M::lightThroughInterface(f, M::lightAtSurface(p, next, M::surfaceS(d, n))), d,

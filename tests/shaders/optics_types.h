@@ -68,6 +68,15 @@ namespace malus::test {
   X(space, insideTriangle)               \
   X(space, rayOrigin)                    \
   X(space, cameraDirection)              \
+  X(space, cameraSampleDirection)        \
+  X(space, trianglePoint)                \
+  X(space, pointOnRay)                   \
+  X(space, refractionTermsWith)          \
+  X(space, conductorReflectanceWith)     \
+  X(space, schlickReflectanceWith)       \
+  X(space, filmResponse)                 \
+  X(space, thinGlassFromTerms)           \
+  X(space, refractedDirectionFromTerms)  \
   X(space, cameraFrameRotation)          \
   X(space, analysed)                     \
   X(space, rotateImportance)             \
@@ -81,6 +90,7 @@ namespace malus::test {
   using Transmittance = malus::space::Transmittance;       \
   using RefractionTerms = malus::space::RefractionTerms;   \
   using Film = malus::space::Film;                         \
+  using FilmLayers = malus::space::FilmLayers;             \
   using ThinGlass = malus::space::ThinGlass;               \
   using Complex = malus::space::Complex;                   \
   using ImportanceVector = malus::space::ImportanceVector; \

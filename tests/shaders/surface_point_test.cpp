@@ -57,9 +57,11 @@ TYPED_TEST(SurfacePointTest, ErrorBoundContainsTheTrueError) {
       return toReal3<O>(oracle::along(v, size, v, 0));
     };
     const real3 p0 = corner(), p1 = corner(), p2 = corner();
-    const real b1 = R(draw.unit()), b2 = (1 - b1) * R(draw.unit()), b0 = 1 - b1 - b2;
-    const real3 p = p0 * b0 + p1 * b1 + p2 * b2;
-    const real3 error = O::hitPointError(p0, p1, p2, b0, b1, b2, kEps / 2);
+    const real b1 = R(draw.unit()), b2 = (1 - b1) * R(draw.unit());
+    const real3 e1 = p1 - p0, e2 = p2 - p0;
+    const real3 p = O::trianglePoint(p0, e1, e2, b1, b2);
+    const real3 error = O::hitPointError(p0, e1, e2, b1, b2, kEps / 2);
+    const Real b0 = 1 - Real(b1) - Real(b2);
     const Vec exact = oracle::along(oracle::along(toVec(p0), b0, toVec(p1), b1), 1, toVec(p2), b2);
     for (std::size_t j = 0; j < 3; ++j) {
       EXPECT_LE(std::abs(toVec(p)[j] - exact[j]), toVec(error)[j]);

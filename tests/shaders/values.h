@@ -47,6 +47,9 @@ struct Values {
   real3 inside;
   real3 origin;
   real3 camera;
+  real3 cameraSample;
+  real3 trianglePoint;
+  real3 pointOnRay;
   real3 clamped;
   ImportanceVector turnedRow;
   ImportanceVector metRow;
@@ -95,11 +98,15 @@ FN Values computeValues(Given g) {
   r.irradiance =
       irradiancePolynomial(g.n, g.radiance.x, g.radiance.y, g.radiance.z, g.d.x, g.d.y, g.d.z, g.c, g.k2, g.cos2);
   r.shading = shadingNormal(g.d, g.n, g.interpolated);
-  r.error = hitPointError(g.d, g.n, g.interpolated, g.c, R(0.25), R(0.125), R(0.001));
+  r.error = hitPointError(g.d, g.n, g.interpolated, g.c, R(0.25), R(0.001));
   r.intersection = intersectionError(g.d, g.n, g.interpolated, g.radiance, R(0.001));
   r.inside = insideTriangle(g.radiance, g.d, g.n, g.interpolated, g.c, R(0.25), R(0.125), r.x, R(0.01));
   r.origin = rayOrigin(g.radiance, r.error, g.n, R(0.001));
   r.camera = cameraDirection(g.d, g.n, g.interpolated, R(0.5), R(0.25), g.c, g.cos2);
+  r.cameraSample =
+      cameraSampleDirection(g.d, g.n * R(1e-8), g.n, g.d * R(1e-8), g.interpolated, g.radiance * R(1e-8), g.c, g.cos2);
+  r.trianglePoint = trianglePoint(g.d, g.n, g.interpolated, g.c, R(0.25));
+  r.pointOnRay = pointOnRay(g.interpolated, g.radiance, g.d, g.n, R(1e6));
   r.clamped = max3(select3(lessR(g.c, R(0.5)), cross3(g.d, g.n), g.n), square(g.c) * kPi);
   ImportanceVector row;
   row.w = g.c;

@@ -21,8 +21,8 @@ f32::Stokes throughGlassAndMetal() {
   const real3 toGlass = f32::mirrorDirection(toMetal, metalNormal, metalNormal.z);
   const real3 side = glm::normalize(real3(0, 0, 1) + glm::cross(toGlass, real3(0, 0, 1)));
   const real3 glassNormal = glm::normalize(side * 1.5f - toGlass);
-  const auto glass = M::dielectricTerms(-glm::dot(toGlass, glassNormal), 1.0f, 1.5f);
-  const auto metal = M::conductorTerms(metalNormal.z, 1.0f, real3(0.2f), real3(3.0f));
+  const auto glass = M::dielectricTerms(-glm::dot(toGlass, glassNormal), 1.0f, 1.5f, 0.5f);
+  const auto metal = M::conductorTerms(metalNormal.z, 1.0f, real3(0.2f), real3(3.0f), real3(-0.8f));
   const real3 glassS = M::surfaceS(toGlass, glassNormal), metalS = M::surfaceS(toMetal, metalNormal);
   const auto fromGlass =
       M::payloadFromSurface(M::lightThroughInterface(glass, M::lightUnpolarized(real3(1))), toGlass, glassS);

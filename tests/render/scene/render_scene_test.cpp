@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shaders/optics/optics.h"
 #include "tests/render/test_scene.h"
 
 namespace malus::render {
@@ -47,9 +48,50 @@ TEST(RenderScene, CameraFieldOfViewIsVertical) {
   scene.width = 200;
   scene.height = 100;
   scene.camera.verticalFovDegrees = 90;
-  const gpu::CameraParameters frame = makeCameraParameters(scene, defaultParameters(scene));
-  EXPECT_FLOAT_EQ(frame.tanY, 1.0f);
-  EXPECT_FLOAT_EQ(frame.tanX, 2.0f);
+  test::look(scene, {0.48, 0.92, 1.7}, {-0.15, 0.275, 0});
+  RenderParameters parameters = defaultParameters(scene);
+  parameters.samples = 3;
+  const gpu::CameraParameters p = makeCameraParameters(scene, parameters);
+  const pack::Camera& camera = scene.camera;
+  for (const int column : {0, 1, 299, 300, 599})
+    for (const int row : {0, 150, 299}) {
+      const glm::dvec3 exact =
+          f64::cameraDirection(camera.right, camera.up, camera.forward, 2, 1, (column + 0.5) / 600, (row + 0.5) / 300);
+      const glm::vec3 got =
+          f32::cameraSampleDirection(p.firstSample, p.firstSampleFine, p.columnStep, p.columnStepFine, p.rowStep,
+                                     p.rowStepFine, static_cast<float>(column), static_cast<float>(row));
+      // The angle between the two is the rounding of three components and no more.
+      EXPECT_LT(glm::length(glm::cross(exact, glm::dvec3(got))), 1.2e-7) << column << ' ' << row;
+    }
+}
+
+TEST(RenderScene, ContrastsAreOfDoublePrecision) {
+  pack::Scene scene = test::emptyScene(1);
+  pack::Material glass = test::dielectric(pack::MaterialKind::glass, 1.5000002);
+  glass.outsideEta = 1.5;
+  glass.coating.eta = glm::dvec3(1.5000003);
+  glass.coating.thicknessNm = 100;
+  test::addMaterial(scene, glass);
+  const RenderScene rendered = makeRenderScene(scene);
+  EXPECT_NEAR(rendered.materials[0].contrast.y, 2e-7, 1e-13);
+  EXPECT_NEAR(rendered.extras[0].filmOverOutside.x, 3e-7, 1e-13);
+  EXPECT_NEAR(rendered.extras[0].filmOverBase.z, 1e-7, 1e-13);
+  EXPECT_NEAR(static_cast<double>(rendered.extras[0].filmEta.x) + static_cast<double>(rendered.extras[0].filmResidue.x),
+              1.5000003, 1e-14);
+}
+
+TEST(RenderScene, SurfacesBetweenEqualMediaAreNotTraced) {
+  pack::Scene scene = test::emptyScene(1);
+  pack::Material glass = test::dielectric(pack::MaterialKind::glass, 1.5);
+  glass.outsideEta = 1.5;
+  const auto clear = test::addMaterial(scene, glass);
+  glass.absorption = {0, 1, 0};
+  const auto tinted = test::addMaterial(scene, glass);
+  pack::Material paint = test::dielectric(pack::MaterialKind::paint, 1.5, 0.5);
+  paint.outsideEta = 1.5;
+  const auto opaque = test::addMaterial(scene, paint);
+  for (const auto material : {clear, tinted, opaque}) test::addSquare(scene, material, {0, 0, 0}, {0, 0, 1}, 1);
+  EXPECT_EQ(makeRenderScene(scene).meshTriangles, (std::vector<std::uint32_t>{0, 2, 2}));
 }
 
 }  // namespace

@@ -431,7 +431,7 @@ std::string unusualErrorWith(std::string_view id, std::size_t at, T value) {
 
 TEST(CorruptPack, UnusualSectionsOutOfBounds) {
   EXPECT_EQ(parseError(test::putTogether(unusualSections())), "");
-  constexpr std::size_t kRecord = 276, kGold = 4 + kRecord, kLamp = kGold + kRecord, kPolarizer = kLamp + kRecord;
+  constexpr std::size_t kRecord = 280, kGold = 4 + kRecord, kLamp = kGold + kRecord, kPolarizer = kLamp + kRecord;
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", 0, 4u), "number of surfaces"));
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", 4, -1.0), "absorption"));
   EXPECT_TRUE(contains(unusualErrorWith("SRFX", 4, kNan), "not finite"));

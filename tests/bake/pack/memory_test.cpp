@@ -119,7 +119,7 @@ TEST(PackMemory, CountsOfEverySection) {
   const Scene scene = bake::test::unusualScene();
   for (const std::uint32_t count : kHuge)
     for (const char* id : {"LGHT", "MATL", "SRFX", "TEXR", "MESH", "EFCT"}) expectRefused(scene, id, 0, count);
-  for (const std::uint32_t count : kHuge) expectRefused(scene, "ENCD", 36, count);
+  for (const std::uint32_t count : kHuge) expectRefused(scene, "ENCD", 0, count);
 }
 
 TEST(PackMemory, LengthsOfTexts) {
@@ -127,7 +127,7 @@ TEST(PackMemory, LengthsOfTexts) {
   for (const std::uint32_t length : {65'536u, 0x00ffffffu, 0xffffffffu}) {
     for (const char* id : {"MATL", "TEXR", "MESH", "EFCT"}) expectRefused(scene, id, 4, length);
     for (const char* id : {"META", "PROV"}) expectRefused(scene, id, 0, length);
-    expectRefused(scene, "ENCD", 40 + 60, length);
+    expectRefused(scene, "ENCD", 4 + 60, length);
   }
   expectRefused(scene, "PROV", 0, std::uint32_t{1} << 24);
 }
@@ -185,7 +185,7 @@ Bytes dracoClaim(bool edgebreaker, std::uint32_t vertices, std::uint32_t triangl
   std::vector<RawSection> sections = test::takenApart(serialize(bake::test::smallScene(), {}).bytes);
   Bytes& table = test::section(sections, "MESH").bytes;
   test::setNumber(table, 0, std::uint32_t{1});
-  table.resize(kVertices + 28);
+  table.resize(kVertices + 28 + 56);
   test::setNumber(table, kVertices - 4, std::uint32_t{0});
   test::setNumber(table, kVertices, vertices);
   test::setNumber(table, kVertices + 4, triangles);

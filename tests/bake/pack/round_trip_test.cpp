@@ -127,7 +127,9 @@ TEST(PackRoundTrip, TexelsOfEveryStorage) {
     EXPECT_EQ(pack.scene.environment.texels, scene.environment.texels);
     EXPECT_EQ(pack.scene.environment.storage, scene.environment.storage);
     for (const Section& section : pack.sections)
-      if (section.id == kEnvironment) EXPECT_EQ(section.version, version);
+      if (section.id == kEnvironment) {
+        EXPECT_EQ(section.version, version);
+      }
     for (std::size_t i = 0; i < texels.size(); ++i)
       for (int c = 0; c < 3; ++c)
         EXPECT_LE(std::abs(scene.environment.texels[i][c] - texels[i][c]), 5e-4f * texels[i][c]);
@@ -369,7 +371,7 @@ TEST(PackRoundTrip, InvalidScenesAreNotWritten) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << expected;
   };
   refuse("not finite", [](Scene& s) { s.origin.x = NAN; });
-  refuse("finite", [](Scene& s) { s.environment.texels[3].y = NAN; });
+  refuse("radiance of 0 to", [](Scene& s) { s.environment.texels[3].y = NAN; });
   refuse("environment texel", [](Scene& s) { s.environment.texels[3].y = -1; });
   refuse("a position is not finite", [](Scene& s) { s.meshes[1].positions[0].x = INFINITY; });
   refuse("mesh 'sheet'", [](Scene& s) { s.meshes[1].triangles[0].x = 4; });

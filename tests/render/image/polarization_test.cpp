@@ -14,6 +14,7 @@
 #include "bake/pack/writer.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/usage_error.h"
 #include "render/cli.h"
 #include "render/embree/renderer.h"
 #include "render/image/output.h"
@@ -282,6 +283,8 @@ class FilterCommands : public testing::Test {
       run(arguments);
     } catch (const CLI::ParseError& error) {
       message = error.what();
+    } catch (const UsageError& error) {
+      message = error.what();
     }
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "files beside the pack: " << message;
     return message;
@@ -335,7 +338,7 @@ TEST_F(FilterCommands, RenderRefusesImpossibleCombinations) {
   EXPECT_TRUE(has(usage({}), "no image"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--output-dolp", file("d.jpg")}), ".exr or .png"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--mosaic", file("m.exr")}), ".png or .tif"));
-  EXPECT_TRUE(has(usage({"--method", "stokes", "--output-dolp", out, "--output-aolp", out}), "two images"));
+  EXPECT_TRUE(has(usage({"--method", "stokes", "--output-dolp", out, "--output-aolp", out}), "same file"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--mosaic", out, "--polarizer", "0"}), "every pixel"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--mosaic", out, "--mosaic-bits", "10"}), "12"));
   EXPECT_TRUE(has(usage({"--method", "stokes", "--mosaic", out, "--width", "3"}), "even"));

@@ -9,7 +9,8 @@ namespace malus::bake {
 
 namespace {
 
-// Cosines at which a film is compared, evenly spaced, with both ends.
+// Cosines at which a film is compared: squares of evenly spaced numbers, with both ends. A film of a high index changes
+// fastest near grazing incidence.
 constexpr int kCosines = 512;
 
 struct Side {
@@ -26,7 +27,7 @@ double largestDifference(const pack::Material& m, int colour, const Side& side, 
                                rounded(exact.filmOverBase), rounded(phase)};
   double largest = 0;
   for (int i = 0; i <= kCosines; ++i) {
-    const float c = static_cast<float>(i) / kCosines;
+    const float root = static_cast<float>(i) / kCosines, c = root * root;
     const f64::Reflectance a = f64::filmResponse(static_cast<double>(c), exact).reflected;
     const f32::Reflectance b = f32::filmResponse(c, single).reflected;
     largest =

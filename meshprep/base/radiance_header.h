@@ -1,5 +1,5 @@
-// Header of a Radiance file (.hdr). Source: G. W. Larson and R. Shakespeare, Rendering with Radiance, 1998, and filefmts.pdf
-// of https://radsite.lbl.gov/radiance
+// Header of a Radiance file (.hdr). Source: G. W. Larson and R. Shakespeare, Rendering with Radiance, 1998, and
+// filefmts.pdf of https://radsite.lbl.gov/radiance
 #pragma once
 
 #include <array>

@@ -5,8 +5,10 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 kRoot = pathlib.Path(__file__).resolve().parents[2]
@@ -109,6 +111,30 @@ class Bundle(unittest.TestCase):
         done = self.run_clean(copy / "gpu-check", "--minutes", 1, "-o", "differences", MALUS_DEVICE="llvmpipe")
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn("failed  cornell-box stokes", (self.folder / "differences/summary.txt").read_text())
+
+    def test_gpu_check_keeps_what_is_finished_after_ctrl_c(self):
+        copy = self.small_bundle("interrupted")
+        out = self.folder / "stopped"
+        environment = {"PATH": "/usr/bin:/bin", "HOME": str(self.folder), "MALUS_DEVICE": "llvmpipe"}
+        with open(self.folder / "stopped.log", "w") as log:
+            process = subprocess.Popen([copy / "gpu-check", "--minutes", "30", "-o", out], stdout=log, stderr=log,
+                                       cwd=self.folder, env=environment, start_new_session=True)
+        try:
+            deadline = time.monotonic() + 900
+            while not (out / "results.json").exists() and process.poll() is None and time.monotonic() < deadline:
+                time.sleep(0.2)
+            os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+            self.assertEqual(process.wait(timeout=300), 130, (self.folder / "stopped.log").read_text())
+        finally:
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+        rows = json.loads((out / "results.json").read_text())["rows"]
+        self.assertTrue(any(row["status"] == "ok" for row in rows), rows)
+        summary = (out / "summary.txt").read_text()
+        self.assertIn("interrupted", summary)
+        self.assertIn("cornell-box", summary)
+        self.assertIn("passed  cornell-box stokes", (out / "checks.txt").read_text())
 
     def test_gpu_check_usage(self):
         for arguments in (("--minutes", "soon"), ("--minutes",), ("--fast", "1")):

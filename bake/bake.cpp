@@ -165,6 +165,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   // Make positions relative to the origin. Writing the pack rounds them to a grid.
   scene.origin = d.origin.value_or((low + high) * 0.5);
   for (PlacedMesh& source : placed.meshes) {
+    if (source.isGlassBody) baked.glassBodies.push_back(scene.meshes.size());
     pack::Mesh& mesh = scene.meshes.emplace_back(std::move(source.packed));
     mesh.positions = std::move(source.world.positions);
     for (glm::dvec3& p : mesh.positions) p -= scene.origin;
@@ -196,6 +197,8 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     scene.textures.push_back(bakeTexture(image::read(texture.file), texture, name, baked.notes));
   }
   for (pack::Material& m : scene.materials) m.maps.origin -= m.maps.any() ? scene.origin : glm::dvec3(0.0);
+  for (std::string& warning : inspectBodies(scene, baked.glassBodies, options.allowOpenGlass))
+    baked.notes.push_back(std::move(warning));
   scene.effects = findEffects(scene);
 
   scene.provenance = makeProvenance(d, settings, options);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bake/depth_probe.h"
+#include "bake/meshes/glass_bodies.h"
 #include "bake/pack/scene.h"
 #include "bake/pack/writer.h"
 #include "bake/scene_file/scene_file.h"
@@ -27,6 +28,7 @@ struct Baked {
   std::vector<prep::Report> reports;  // per mesh of the description, then per part of an import
   std::vector<std::string> notes;     // left out contents of files, meshes not simplified, glass not certified,
                                       // thin films beyond single precision
+  GlassBodies glassBodies;            // to be inspected again after rounding (bake/meshes/glass_bodies.h)
   std::optional<DepthProbe> probe;    // measured by the caller
 };
 

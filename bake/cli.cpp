@@ -93,6 +93,7 @@ void runBake(const BakeArguments& arguments, const MeasureDepth& measure) {
     warnings.insert(warnings.begin(), baked.notes.begin(), baked.notes.end());
     return withWarnings(baked.scene.provenance, std::move(warnings));
   };
+  settings.inspection = glassInspection(baked.scene, baked.glassBodies);
   const bool rebaked = previous && isOfSameVersions(*previous, provenance);
   const pack::PreviousPack source{rebaked ? &previous->pack : nullptr,
                                   rebaked ? previous->bytes : std::span<const std::byte>()};

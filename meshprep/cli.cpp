@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/output_files.h"
+#include "meshprep/clean/intersections.h"
 #include "meshprep/compress/bounds.h"
 #include "meshprep/compress/draco_mesh.h"
 #include "meshprep/compress/mesh_file.h"
@@ -104,6 +106,36 @@ void setErrors(const compress::Deviation& deviation, Report& report) {
   report.errors.degenerate = deviation.newDegenerate;
 }
 
+// Inspects the rounded mesh if a certificate of a closed body is requested: rounding must not make faces touch.
+compress::Inspection certificateInspection(const Arguments& arguments, const Mesh& mesh) {
+  if (arguments.certify != "glass" || arguments.options.openSurface) return {};
+  const auto contacts = [&mesh](const compress::RoundedMesh& rounded) {
+    Mesh delivered;
+    delivered.positions = rounded.positions;
+    delivered.triangles = mesh.triangles;
+    delivered.sourceFaces = mesh.sourceFaces;
+    Intersections found = findIntersections(delivered);
+    found.crossing.insert(found.crossing.end(), found.coincident.begin(), found.coincident.end());
+    return describePairs(delivered, found.crossing);
+  };
+  compress::Inspection inspection;
+  inspection.find = [contacts](std::span<const compress::RoundedMesh> rounded) {
+    return std::vector<std::size_t>(contacts(rounded.front()).count > 0 ? 1 : 0, 0);
+  };
+  inspection.refuse = [contacts, &arguments](std::span<const compress::RoundedMesh> rounded) {
+    const Findings found = contacts(rounded.front());
+    const compress::Grid& grid = rounded.front().grid;
+    throw Error(
+        arguments.input,
+        fmt::format("mesh is not certified as glass after rounding: {} touch or cross with {} position bits, "
+                    "first {}",
+                    found.count == 1 ? "1 pair of faces" : fmt::format("{} pairs of faces", found.count),
+                    grid.positionBits, describe(found.first.front())),
+        fmt::format("faces at least {:.2g} m apart, a smaller mesh, or more bits (--position-bits)", 2 * grid.step));
+  };
+  return inspection;
+}
+
 void runPrep(const Arguments& arguments) {
   checkFiles(arguments);
   // Clean.
@@ -120,7 +152,9 @@ void runPrep(const Arguments& arguments) {
   // Compress on a grid around the mesh.
   const compress::MeshView view(mesh.positions, mesh.normals, mesh.triangles);
   const compress::RoundedMesh rounded =
-      std::move(compress::roundMeshes({&view, 1}, arguments.bounds, compress::Precision::doubles).front());
+      std::move(compress::roundMeshes({&view, 1}, arguments.bounds, compress::Precision::doubles,
+                                      certificateInspection(arguments, mesh))
+                    .front());
   const compress::Settings settings{rounded.grid, rounded.normalBits};
   const compress::Encoded encoded = compress::encode(view, rounded.positions, settings);
   const bool glass = arguments.certify == "glass";

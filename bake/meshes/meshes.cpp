@@ -56,13 +56,14 @@ class Placer {
     prep::Report report;
     const prep::Mesh prepared = prep::prepare(polygons, mesh.file.string(), options, report);
     requireCertificate(mesh.file, mesh.name, report);
+    const prep::Certificate certificate = report.certificate;
     addReport(mesh.file, std::move(report));
 
     // Place the instances.
     for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
       std::string name = mesh.instances.size() == 1 ? mesh.name : fmt::format("{}.{}", mesh.name, i + 1);
       name = meshNames_.take(name);
-      place(prepared, transformMatrix(mesh.instances[i]), std::move(name), material, options.openSurface);
+      place(prepared, transformMatrix(mesh.instances[i]), std::move(name), material, options.openSurface, certificate);
     }
   }
 
@@ -73,7 +74,8 @@ class Placer {
     for (ImportedMesh& mesh : imported.meshes) {
       const ImportedPart& part = imported.parts[mesh.part];
       if (std::exchange(reported[mesh.part], 1) == 0) requireCertificate(import.file, mesh.name, part.report);
-      place(part.mesh, mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.openSurface);
+      place(part.mesh, mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.openSurface,
+            part.report.certificate);
     }
     for (ImportedPart& part : imported.parts) addReport(import.file, std::move(part.report));
   }
@@ -98,7 +100,7 @@ class Placer {
   }
 
   void place(const prep::Mesh& mesh, const glm::dmat4& worldFromObject, std::string name, std::uint32_t material,
-             bool openSurface) {
+             bool openSurface, const prep::Certificate& certificate) {
     if (result_.meshes.size() == pack::kMaxMeshes)
       throw Error(description_.file.string(), "has too many meshes", fmt::format("at most {}", pack::kMaxMeshes));
     PlacedMesh placedMesh;
@@ -106,6 +108,7 @@ class Placer {
     placedMesh.packed.name = std::move(name);
     placedMesh.packed.material = material;
     placedMesh.packed.openSurface = openSurface;
+    placedMesh.isGlassBody = certificate.isGranted() && !openSurface;
     if (settings_.keepMap) {
       placedMesh.packed.sourceVertices = mesh.sourceVertices;
       placedMesh.packed.sourceFaces = mesh.sourceFaces;

@@ -24,6 +24,7 @@ struct MeshSettings {
 struct PlacedMesh {
   prep::Mesh world;
   pack::Mesh packed;
+  bool isGlassBody = false;  // certified as a closed body of glass
 };
 
 struct PlacedMeshes {

@@ -104,7 +104,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
   std::vector<compress::MeshView> views;
   for (const Mesh& mesh : scene.meshes) views.emplace_back(mesh.positions, mesh.normals, mesh.triangles);
   const std::vector<compress::RoundedMesh> rounded =
-      compress::roundMeshes(views, settings.bounds, compress::Precision::floats);
+      compress::roundMeshes(views, settings.bounds, compress::Precision::floats, settings.inspection);
   EncodedMeshes all;
   const ReusableMeshes reusable(previous);
 

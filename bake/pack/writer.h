@@ -12,12 +12,14 @@
 #include "bake/pack/scene.h"
 #include "meshprep/compress/bounds.h"
 #include "meshprep/compress/draco_mesh.h"
+#include "meshprep/compress/rounding.h"
 
 namespace malus::pack {
 
 struct WriteSettings {
   compress::Bounds bounds;
-  bool keepMap = false;  // write the map from packed vertices and triangles to those of the source files
+  compress::Inspection inspection;  // of the rounded meshes
+  bool keepMap = false;             // write the map from packed vertices and triangles to those of the source files
   // Makes the provenance from Written::warnings; empty: the scene's is written.
   std::function<std::string(const std::vector<std::string>& warnings)> provenance;
 };

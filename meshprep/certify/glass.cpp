@@ -110,12 +110,13 @@ Certificate certifyGlass(const Mesh& mesh, bool openSurface, const GlassEvidence
   certificate.checked = true;
 
   // Check orientation, of solids and open surfaces.
-  ProblemsByComponent notOrientable, withoutVolume;
+  ProblemsByComponent notOrientable, withoutVolume, nestedOutward;
   for (std::uint32_t i = 0; i < evidence.orientation.components.size(); ++i) {
     const Component& c = evidence.orientation.components[i];
     const std::string where = fmt::format("from face {} at {} on", c.firstFace, pointText(c.at));
     if (!c.orientable) notOrientable[i].add(where);
     if (c.closed && c.orientable && !c.hasVolume) withoutVolume[i].add(where);
+    if (c.isNestedOutward) nestedOutward[i].add(where);
   }
   if (const std::uint64_t wrong = evidence.orientation.applied ? 0 : evidence.orientation.flipped.count; wrong > 0)
     certificate.problems.push_back(
@@ -140,6 +141,9 @@ Certificate certifyGlass(const Mesh& mesh, bool openSurface, const GlassEvidence
               "do not skip the step fans", certificate);
   addProblems(withoutVolume, "closed surface without volume", "closed surfaces without volume",
               "remove the folded faces, or model the thickness", certificate);
+
+  addProblems(nestedOutward, "solid inside a solid", "solids inside a solid",
+              "flip its faces if it is a cavity; else make it a mesh with an outsideEta", certificate);
 
   // Check intersections and nesting.
   addProblems(pairsIn(mesh, evidence, evidence.intersections.crossing), "pair of faces that cross or touch",

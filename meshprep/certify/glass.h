@@ -3,8 +3,9 @@
 //
 // A solid: every component is closed, orientable, has a volume, and is oriented outward (inward if it is a cavity:
 // orient.h). No edge has more than two triangles. No triangles cross, coincide, or touch outside of their shared
-// corners and edges. This is checked for the cleaned mesh, in double and in its own space. Other meshes of the scene,
-// and rounding to float and to a grid, may cause contacts that are not checked.
+// corners and edges. No component is inside another one with the same orientation. This is checked for the cleaned
+// mesh, in double and in its own space; intersections are checked again after rounding, and in a scene for all bodies
+// together (bake/meshes/glass_bodies.h).
 //
 // An open surface: every component is orientable, and has an opposite surface: the ray from a face against its normal
 // leaves through the front of another face. This is sampled. A single interface, such as the surface of a lake, is not

@@ -35,6 +35,7 @@ struct Part {
   bool orientable = true;
   bool closed = true;
   bool hasVolume = false;  // closed, orientable, and encloses a volume
+  bool isNestedOutward = false;
 };
 
 class Orienter {
@@ -209,6 +210,7 @@ class Orienter {
       if (follows) ++result_.nested;
       const double deciding = follows ? volumes[*nesting[i].parent] : volumes[i];
       if (deciding < 0) flipPart(parts_[shellPart[i]]);
+      if (follows) parts_[shellPart[i]].isNestedOutward = volumes[i] * volumes[*nesting[i].parent] > 0;
     }
   }
 
@@ -275,6 +277,7 @@ class Orienter {
       component.closed = part.closed;
       component.orientable = part.orientable;
       component.hasVolume = part.hasVolume;
+      component.isNestedOutward = part.isNestedOutward;
       component.at = mesh_.positions[mesh_.triangles[part.triangles.front()].x];
       component.firstFace = sourceFace(mesh_, part.triangles.front());
       for (const std::uint32_t t : part.triangles) component.flipped += flipped_[t] != 0 ? 1u : 0u;

@@ -37,8 +37,16 @@ class Rounder {
     chooseFirstSteps();
     for (std::uint32_t g = 0; g < meshes_.size(); ++g)
       if (!groups_[g].empty()) roundGroup(g);
-    do keepBounds();
-    while (inspect && refineAll(inspect(rounded_)));
+    keepBounds();
+    while (inspect.find) {
+      const std::vector<std::size_t> found = inspect.find(rounded_);
+      if (found.empty()) break;
+      if (!refineAll(found)) {
+        inspect.refuse(rounded_);
+        break;
+      }
+      keepBounds();
+    }
     chooseNormalBits();
     return std::move(rounded_);
   }

@@ -38,11 +38,16 @@ struct RoundedMesh {
   int normalBits = 0;
 };
 
-// Inspects rounded meshes. Returns those that need a finer grid; none: the meshes are accepted.
-using Inspection = std::function<std::vector<std::size_t>(std::span<const RoundedMesh>)>;
+// Inspection of rounded meshes by the caller. No member: they are accepted.
+struct Inspection {
+  // Returns the meshes that need a finer grid; none: the meshes are accepted.
+  std::function<std::vector<std::size_t>(std::span<const RoundedMesh>)> find;
+  // Called if the finest grids are not accepted. May throw Error.
+  std::function<void(std::span<const RoundedMesh>)> refuse;
+};
 
-// Returns one rounded mesh per mesh. If no grid is fine enough for the bounds or for the inspection, the finest ones
-// are returned; the caller measures the result. Throws Error: bits or bounds out of range, a position that is not
+// Returns one rounded mesh per mesh. If no grid is fine enough for the bounds, the finest ones are returned;
+// the caller measures the result. Throws Error: bits or bounds out of range, a position that is not
 // finite, a mesh or a scene outside of the accepted range of sizes.
 std::vector<RoundedMesh> roundMeshes(std::span<const MeshView> meshes, const Bounds& bounds, Precision precision,
                                      const Inspection& inspect = {});

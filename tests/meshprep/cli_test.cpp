@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "meshprep/base/atomic_file.h"
+#include "meshprep/clean/intersections.h"
 #include "meshprep/compress/mesh_file.h"
 #include "meshprep/prepare.h"
 #include "tests/meshprep/shapes.h"
@@ -135,6 +136,57 @@ TEST_F(PrepCommand, KeepsBoundsOrFails) {
   EXPECT_EQ(prepared({"--position-bits", "9"})["compression"]["positionBits"], 9);
   EXPECT_THROW(prepared({"--position-error", "0"}), CLI::ParseError);
   EXPECT_THROW(prepared({"--normal-error", "-1"}), CLI::ParseError);
+}
+
+// Signed volume of a decoded mesh, relative to its first corner.
+double volume(const compress::TriangleMesh& mesh) {
+  double sum = 0;
+  const glm::dvec3 o = mesh.positions.front();
+  for (const glm::uvec3& t : mesh.triangles)
+    sum += glm::dot(mesh.positions[t.x] - o, glm::cross(mesh.positions[t.y] - o, mesh.positions[t.z] - o)) / 6;
+  return sum;
+}
+
+// A certified mesh is delivered as it was certified: at map coordinates, with narrow gaps, of any size.
+TEST_F(PrepCommand, DeliversWhatIsCertified) {
+  const auto delivered = [&](const Mesh& mesh) {
+    const TemporaryFile file(".obj", test::objText(mesh));
+    const nlohmann::json json = nlohmann::json::parse(
+        run({file.path().string(), "-o", output_.string(), "--certify", "glass", "--json", "--flat"}));
+    EXPECT_EQ(json["errors"]["degenerate"], 0);
+    EXPECT_EQ(json["errors"]["flipped"], 0);
+    EXPECT_LE(json["errors"]["tiltMaxDegrees"], 0.1);
+    return compress::decodeMeshFile(readFile(output_), "file");
+  };
+  EXPECT_NEAR(volume(delivered(test::cube(1, {2e7, 1, 1}))), 1, 1e-6);
+  Mesh sphere = test::sphere(15, 32);
+  const double source = volume({sphere.positions, {}, sphere.triangles});
+  for (glm::dvec3& p : sphere.positions) p += glm::dvec3(500000.3, 5400000.7, 100.2);
+  EXPECT_NEAR(volume(delivered(sphere)), source, 1e-4);
+  for (const double size : {1e-30, 1e30})
+    EXPECT_NEAR(volume(delivered(test::cube(size))) / (size * size * size), 1, 1e-5) << size;
+  const compress::TriangleMesh apart = delivered(test::joined(test::cube(), test::cube(1, {1 + 1e-7, 0, 0})));
+  Mesh check;
+  check.positions = apart.positions;
+  check.triangles = apart.triangles;
+  EXPECT_TRUE(findIntersections(check).crossing.empty());
+  EXPECT_NEAR(volume(apart), 2, 1e-6);
+}
+
+TEST_F(PrepCommand, RefusesWhatRoundingCloses) {
+  const TemporaryFile apart(".obj", test::objText(test::joined(test::cube(), test::cube(1, {1 + 1e-5, 0, 0}))));
+  const std::string error = errorMessage([&] {
+    run({apart.path().string(), "-o", output_.string(), "--certify", "glass", "--position-bits", "12"});
+  });
+  EXPECT_TRUE(contains(error, "touch", "12 position bits", " m apart")) << error;
+  EXPECT_FALSE(std::filesystem::exists(output_));
+  const TemporaryFile tiny(".obj", test::objText(test::cube(1e-60)));
+  EXPECT_TRUE(contains(errorMessage([&] { run({tiny.path().string(), "-o", output_.string()}); }), "too small"));
+  const TemporaryFile nested(".obj", test::objText(test::joined(test::cube(3), test::cube(1, {1, 1, 1}))));
+  EXPECT_TRUE(contains(errorMessage([&] {
+                         run({nested.path().string(), "-o", output_.string(), "--certify", "glass"});
+                       }),
+                       "solid inside a solid"));
 }
 
 TEST_F(PrepCommand, IsDeterministic) {

@@ -18,7 +18,7 @@ Report example() {
   report.steps = {{"vertices-welded", 28, {}},
                   {"faces-dropped-duplicate", 1, {{{}, {7, 3}, {1, 2, 3}, "", "a.obj:9"}}},
                   {"faces-flipped", 0, {}}};
-  report.components = {{12, true, true, 0, 1.5, true, {}, 0}};
+  report.components = {{12, true, true, 0, 1.5, true, false, {}, 0}};
   return report;
 }
 

@@ -134,7 +134,7 @@ TEST_F(Import, AppliesMaterialsAndTransformOfTheScene) {
 TEST_F(Import, NamesAreUnique) {
   scene_["materials"]["steel"] = {{"type", "metal"}, {"preset", "chromium"}};
   scene_["imports"].push_back({{"file", "model.glb"}});
-  const pack::Scene scene = baked().scene;
+  const pack::Scene scene = baked({true}).scene;  // the glass is given twice
   EXPECT_EQ(scene.meshes.size(), 8u);
   EXPECT_EQ(scene.materials[named(scene, "left").material].name, "steel.2");
   EXPECT_EQ(scene.materials[named(scene, "left.2").material].name, "steel.3");

@@ -30,9 +30,9 @@ struct PlyOptions {
   std::string countType = "uchar";  // uchar or int
   std::string indexType = "int";
   std::size_t indexBytes = 4;
-  std::string moreVertexProperties;  // lines
+  std::string moreVertexProperties = {};  // lines
   std::size_t moreVertexBytes = 0;
-  std::string moreFaceProperties;
+  std::string moreFaceProperties = {};
   std::size_t moreFaceBytes = 0;
   std::string lineEnd = "\n";
 };

@@ -14,7 +14,7 @@ using nlohmann::json;
 using test::errorMessage;
 using test::TemporaryFolder;
 
-// Scenes of cubes of glass of side 1, each a mesh of its own.
+// Scenes of cubes of glass of side 1, one mesh per cube.
 class GlassBodiesTest : public testing::Test {
  protected:
   void SetUp() override {

@@ -16,6 +16,10 @@ struct Hit {
 
 CONST real kUnitRoundoff = R(5.9604644775390625e-8);  // 2^-24, of float
 
+// A triangle of more times the ray's length moves the hit onto the ray: barycentric coordinates then err by more than
+// 1e-5 of the ray's length.
+CONST real kLargeTriangle = R(64.0);
+
 // Hit of a ray that starts at `from` in direction d. p0, p1, p2: corners of the triangle relative to the mesh's origin,
 // counter-clockwise seen from outside; b1, b2: barycentric coordinates of p1 and p2; interpolated: normal interpolated
 // from the vertices, or 0 for a flat mesh.
@@ -34,7 +38,7 @@ FN Hit makeHit(real3 from, real3 d, real3 p0, real3 p1, real3 p2, real b1, real 
   real longest = maxR(largestPart(e1), maxR(largestPart(e2), largestPart(p2 - p1))) * R(1.7320508);
   real3 localFrom = from - origin;
   real3 way = local - localFrom;
-  mask large = lessR(dot3(way, way), longest * longest);
+  mask large = lessR(dot3(way, way) * (kLargeTriangle * kLargeTriangle), longest * longest);
   if (anyM(large)) local = select3(large, pointOnRay(local, localFrom, d, face, longest), local);
   h.position = local + origin;
   h.error = hitPointError(p0, e1, e2, b1, b2, kUnitRoundoff) + originError(origin, kUnitRoundoff) +

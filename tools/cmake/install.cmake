@@ -19,10 +19,13 @@ set(MALUS_PUBLIC_HEADERS
   bake/pack/material_kinds.h
   bake/pack/reader.h
   bake/pack/scene.h
+  bake/pack/texel_storage.h
   bake/pack/writer.h
   meshprep/base/error.h
   meshprep/compress/bounds.h
+  meshprep/compress/deviation.h
   meshprep/compress/draco_mesh.h
+  meshprep/compress/rounding.h
   shaders/optics/*.h)
 install(CODE "
   set(headers \"${MALUS_PUBLIC_HEADERS}\")

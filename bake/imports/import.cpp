@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/imports/join_parts.h"
 #include "bake/materials/source_material.h"
 #include "bake/pack/format.h"
 #include "bake/placement/placement.h"
@@ -86,6 +87,24 @@ class MaterialIndices {
   std::map<std::size_t, std::uint32_t> made_;
 };
 
+// Returns the uses of the parts. Makes the materials in the order of the instances.
+std::vector<PartUse> findUses(const prep::SourceScene& source, const std::set<std::string>& openSurfaces,
+                              MaterialIndices& indices, const std::vector<pack::Material>& materials) {
+  std::vector<PartUse> uses(source.parts.size());
+  std::vector<char> isBody(uses.size(), 1);
+  for (const prep::SourceInstance& instance : source.instances) {
+    const prep::SourcePart& part = source.parts[instance.part];
+    uses[instance.part].material = indices.of(part.material);
+    if (openSurfaces.contains(part.name) || openSurfaces.contains(instance.name)) isBody[instance.part] = 0;
+  }
+  for (const prep::SourceInstance& instance : source.instances) {
+    const pack::Material& material = materials[uses[instance.part].material];
+    uses[instance.part].materialName = material.name;
+    uses[instance.part].isGlassBody = isBody[instance.part] != 0 && pack::hasInside(material.kind);
+  }
+  return uses;
+}
+
 }  // namespace
 
 std::string UniqueNames::take(std::string name) {
@@ -117,6 +136,11 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
       failUnknown(description, "part or instance", "openSurfaces", name, known);
   const std::set<std::string> openSurfaces(description.openSurfaces.begin(), description.openSurfaces.end());
 
+  // Find the materials of the parts, in the order of the instances, and join the parts of glass bodies.
+  MaterialIndices indices(description, source, materials, materialNames, notes);
+  const std::vector<PartUse> uses = findUses(source, openSurfaces, indices, materials);
+  const std::vector<std::string> joined = joinParts(source, uses, description.preparation);
+
   // Prepare every part in its own space, as a body or as an open surface, if an instance needs it. A part that cannot
   // be prepared is left out.
   std::map<std::pair<std::size_t, bool>, std::optional<std::size_t>> prepared;
@@ -142,6 +166,10 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
       prep::addNote(notes, std::string(what.substr(std::min(what.find(name), what.size()))));
       return found->second;
     }
+    if (made.report.certificate.checked && !made.report.certificate.isGranted() && uses[index].isGlassBody) {
+      std::vector<prep::Problem>& problems = made.report.certificate.problems;
+      if (auto spread = findSpreadBody(source, uses, index, options)) problems.insert(problems.begin(), *spread);
+    }
     for (std::uint32_t& v : made.mesh.sourceVertices)
       if (v != prep::kNoSource && !part.fileVertices.empty()) v = part.fileVertices[v];
     for (std::uint32_t& f : made.mesh.sourceFaces)
@@ -153,12 +181,11 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
 
   // Place the instances.
   const glm::dmat4 worldFromFile = transformMatrix(description.transform);
-  MaterialIndices indices(description, source, materials, materialNames, notes);
   for (const prep::SourceInstance& instance : source.instances) {
     const prep::SourcePart& part = source.parts[instance.part];
     ImportedMesh mesh;
     mesh.openSurface = openSurfaces.contains(part.name) || openSurfaces.contains(instance.name);
-    mesh.material = indices.of(part.material);
+    mesh.material = uses[instance.part].material;
     const std::optional<std::size_t> preparedPart =
         preparePart(instance.part, mesh.openSurface, pack::hasInside(materials[mesh.material].kind));
     if (!preparedPart) continue;
@@ -169,6 +196,7 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
   }
   if (result.meshes.empty() && firstError) throw Error(*firstError);
   for (const std::string& note : notes) result.notes.push_back(leftOutNote(description.file, note));
+  for (const std::string& note : joined) result.notes.push_back(fmt::format("{}: {}", description.file.string(), note));
   return result;
 }
 

@@ -268,7 +268,10 @@ std::vector<std::vector<std::size_t>> readParts(const gltf::Document& document, 
       const gltf::Primitive& primitive = mesh.primitives[p];
       const std::string location = fmt::format("{}: meshes[{}].primitives[{}]", where, m, p);
       SourcePart part;
-      part.name = mesh.primitives.size() == 1 ? meshName(mesh, m) : fmt::format("{}.{}", meshName(mesh, m), p + 1);
+      part.mesh = m;
+      part.meshName = meshName(mesh, m);
+      part.primitive = p;
+      part.name = mesh.primitives.size() == 1 ? part.meshName : fmt::format("{}.{}", part.meshName, p + 1);
       try {
         part.material = primitive.material;
         if (part.material && *part.material >= scene.materials.size())
@@ -342,7 +345,7 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
                     fmt::format("{}, {} and {} or more", scene.instances.size() + 1, triangles, vertices));
       scene.instances.push_back({parts[i],
                                  parts.size() == 1 ? placement.name : fmt::format("{}.{}", placement.name, i + 1),
-                                 placement.worldFromObject});
+                                 placement.worldFromObject, placement.name});
     }
   }
   return scene;

@@ -44,6 +44,11 @@ struct SourcePart {
   Polygons polygons;
   std::optional<std::size_t> material;  // index into materials
 
+  // Primitive of a mesh of glTF; no mesh for other formats.
+  std::optional<std::size_t> mesh;  // index in the file
+  std::string meshName;
+  std::size_t primitive = 0;  // index in the mesh
+
   // Vertex and face of the file for each of the part, if the file has several parts; otherwise empty.
   std::vector<std::uint32_t> fileVertices, fileFaces;
 };
@@ -52,6 +57,7 @@ struct SourceInstance {
   std::size_t part = 0;
   std::string name;
   glm::dmat4 worldFromObject{1.0};  // affine and invertible
+  std::string node = {};            // name of the node of glTF, which may have several instances
 };
 
 struct SourceScene {

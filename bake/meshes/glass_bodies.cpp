@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <span>
 #include <utility>
@@ -14,8 +15,6 @@
 #include <glm/vector_relational.hpp>
 
 #include "meshprep/base/error.h"
-#include "meshprep/clean/intersections.h"
-#include "meshprep/clean/select.h"
 #include "meshprep/clean/shell_nesting.h"
 
 namespace malus::bake {
@@ -25,44 +24,9 @@ namespace {
 constexpr std::size_t kSamples = 64;  // vertices of a body that are tested for being inside another one
 constexpr double kInside = 0.75;      // winding number above which they are
 
-// A pair of faces of bodies that cross, touch or coincide.
-struct Contact {
-  std::array<std::size_t, 2> mesh{};  // the smaller first
-  std::array<std::uint32_t, 2> face{};
-  glm::dvec3 at{0};
-  bool coincident = false;
-};
-
-// positions(i): those of mesh i.
-template <class Positions>
-std::vector<Contact> findContacts(const pack::Scene& scene, const GlassBodies& bodies, Positions positions) {
-  prep::Mesh all;
-  std::vector<std::uint32_t> firstFace;
-  for (const std::size_t i : bodies) {
-    const auto firstVertex = static_cast<std::uint32_t>(all.positions.size());
-    firstFace.push_back(static_cast<std::uint32_t>(all.triangles.size()));
-    const std::vector<glm::dvec3>& p = positions(i);
-    all.positions.insert(all.positions.end(), p.begin(), p.end());
-    for (const glm::uvec3& t : scene.meshes[i].triangles) all.triangles.push_back(t + firstVertex);
-  }
-  const prep::Intersections found = prep::findIntersections(all);
-  std::vector<Contact> contacts;
-  const auto add = [&](const prep::Intersections::Pair& pair, bool coincident) {
-    Contact contact;
-    const std::array<std::uint32_t, 2> faces = {pair.first, pair.second};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto body = static_cast<std::size_t>(std::upper_bound(firstFace.begin(), firstFace.end(), faces[k]) -
-                                                 firstFace.begin() - 1);
-      contact.mesh[k] = bodies[body];
-      contact.face[k] = faces[k] - firstFace[body];
-    }
-    contact.at = (prep::centroid(all, faces[0]) + prep::centroid(all, faces[1])) * 0.5 + scene.origin;
-    contact.coincident = coincident;
-    contacts.push_back(contact);
-  };
-  for (const auto& pair : found.crossing) add(pair, false);
-  for (const auto& pair : found.coincident) add(pair, true);
-  return contacts;
+// Positions as placed.
+PositionsOf placedPositions(const pack::Scene& scene) {
+  return [&scene](std::size_t i) -> const std::vector<glm::dvec3>& { return scene.meshes[i].positions; };
 }
 
 std::string describe(const pack::Scene& scene, const Contact& contact) {
@@ -85,20 +49,18 @@ std::map<std::array<std::size_t, 2>, PairContacts> groupByPair(const std::vector
   for (const Contact& contact : contacts) {
     PairContacts& pair = pairs[contact.mesh];
     if (pair.count++ == 0) pair.first = contact;
-    pair.coincident += contact.coincident ? 1u : 0u;
+    pair.coincident += contact.isCoincident ? 1u : 0u;
   }
   return pairs;
 }
 
-// Returns true if a sampled vertex of `inner` is inside the glass of `outer`.
-bool isInside(const pack::Mesh& inner, const pack::Mesh& outer) {
-  glm::dvec3 low = outer.positions.front(), high = low;
-  for (const glm::dvec3& p : outer.positions) low = glm::min(low, p), high = glm::max(high, p);
+// Returns true if a sampled vertex of `inner` is inside the glass of `outer`, which has this box.
+bool isInside(const pack::Mesh& inner, const pack::Mesh& outer, const prep::Box& box) {
   prep::Shell shell;
   const std::size_t count = std::min(kSamples, inner.positions.size());
   for (std::size_t k = 0; k < count; ++k) {
     const glm::dvec3& p = inner.positions[k * inner.positions.size() / count];
-    if (!glm::all(glm::lessThan(low, p)) || !glm::all(glm::lessThan(p, high))) continue;
+    if (!glm::all(glm::lessThan(box.low, p)) || !glm::all(glm::lessThan(p, box.high))) continue;
     if (shell.triangles.empty()) shell.triangles = outer.triangles;
     if (prep::windingNumber(shell, outer.positions, p) > kInside) return true;
   }
@@ -109,17 +71,21 @@ bool isInside(const pack::Mesh& inner, const pack::Mesh& outer) {
 template <class Report>
 void inspectNesting(const pack::Scene& scene, const GlassBodies& bodies,
                     const std::map<std::array<std::size_t, 2>, PairContacts>& touching, Report report) {
-  for (const std::size_t i : bodies)
-    for (const std::size_t j : bodies) {
-      if (i == j || touching.contains({std::min(i, j), std::max(i, j)})) continue;
-      const pack::Mesh &inner = scene.meshes[i], &outer = scene.meshes[j];
-      const double expected = scene.materials[outer.material].eta.y, found = scene.materials[inner.material].outsideEta;
-      if (std::abs(expected - found) <= 1e-9 * expected || !isInside(inner, outer)) continue;
-      report(fmt::format("mesh '{}' is inside mesh '{}'", inner.name, outer.name),
-             fmt::format("an outsideEta of {:g} in material '{}', or one mesh for a cavity", expected,
-                         scene.materials[inner.material].name),
-             fmt::format("{:g}", found));
-    }
+  const std::vector<prep::Box> boxes = meshBoxes(bodies, placedPositions(scene));
+  const auto inspect = [&](std::size_t i, std::size_t j) {
+    const pack::Mesh &inner = scene.meshes[bodies[i]], &outer = scene.meshes[bodies[j]];
+    const double expected = scene.materials[outer.material].eta.y, found = scene.materials[inner.material].outsideEta;
+    if (std::abs(expected - found) <= 1e-9 * expected || !isInside(inner, outer, boxes[j])) return;
+    report(fmt::format("mesh '{}' is inside mesh '{}'", inner.name, outer.name),
+           fmt::format("an outsideEta of {:g} in material '{}', or one mesh for a cavity", expected,
+                       scene.materials[inner.material].name),
+           fmt::format("{:g}", found));
+  };
+  for (const auto& [i, j] : overlappingPairs(boxes)) {
+    if (touching.contains({bodies[i], bodies[j]})) continue;
+    inspect(i, j);
+    inspect(j, i);
+  }
 }
 
 }  // namespace
@@ -132,10 +98,11 @@ std::vector<std::string> inspectBodies(const pack::Scene& scene, const GlassBodi
     if (!allowed) throw error;
     warnings.emplace_back(error.what());
   };
-  const auto pairs = groupByPair(findContacts(
-      scene, bodies, [&](std::size_t i) -> const std::vector<glm::dvec3>& { return scene.meshes[i].positions; }));
+  const Contacts contacts = findContactsBetween(scene, bodies, placedPositions(scene));
+  if (!contacts.isComplete)
+    warnings.emplace_back("glass: too many overlapping faces to find where bodies touch; cut long thin faces");
+  const auto pairs = groupByPair(contacts.found);
   for (const auto& [meshes, pair] : pairs) {
-    if (meshes[0] == meshes[1]) continue;  // certified alone
     const pack::Mesh &a = scene.meshes[meshes[0]], &b = scene.meshes[meshes[1]];
     if (pair.coincident == a.triangles.size() && pair.coincident == b.triangles.size())
       report(fmt::format("mesh '{}' is the same body as mesh '{}'", b.name, a.name), "each body once",
@@ -155,15 +122,17 @@ std::vector<std::string> inspectBodies(const pack::Scene& scene, const GlassBodi
 compress::Inspection glassInspection(const pack::Scene& scene, GlassBodies bodies) {
   if (bodies.empty()) return {};
   // Contacts as placed are reported by inspectBodies.
-  const std::vector<Contact> placed = findContacts(
-      scene, bodies, [&](std::size_t i) -> const std::vector<glm::dvec3>& { return scene.meshes[i].positions; });
   std::set<std::array<std::size_t, 2>> touching;
-  for (const Contact& contact : placed) touching.insert(contact.mesh);
+  for (const Contact& contact : findContactsBetween(scene, bodies, placedPositions(scene)).found)
+    touching.insert(contact.mesh);
 
-  const auto newContacts = [&scene, bodies, touching](std::span<const compress::RoundedMesh> rounded) {
-    std::vector<Contact> contacts = findContacts(
-        scene, bodies, [&](std::size_t i) -> const std::vector<glm::dvec3>& { return rounded[i].positions; });
-    std::erase_if(contacts, [&](const Contact& contact) { return touching.contains(contact.mesh); });
+  const auto within = std::make_shared<ContactsWithin>();
+  const auto newContacts = [&scene, bodies = std::move(bodies), touching,
+                            within](std::span<const compress::RoundedMesh> rounded) {
+    const PositionsOf positions = [&](std::size_t i) -> const std::vector<glm::dvec3>& { return rounded[i].positions; };
+    std::vector<Contact> contacts = within->find(scene, bodies, positions);
+    for (const Contact& contact : findContactsBetween(scene, bodies, positions).found)
+      if (!touching.contains(contact.mesh)) contacts.push_back(contact);
     return contacts;
   };
   compress::Inspection inspection;

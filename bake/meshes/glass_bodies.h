@@ -8,13 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "bake/meshes/body_contacts.h"
 #include "bake/pack/scene.h"
 #include "meshprep/compress/rounding.h"
 
 namespace malus::bake {
-
-// Bodies of glass: indices of certified, closed meshes of scene.meshes.
-using GlassBodies = std::vector<std::size_t>;
 
 // Checks the bodies as placed. Returns a warning for each pair of bodies that cross or touch: interfaces in one place
 // have no order. Throws Error that names the meshes: a body that is given twice, or is inside another one whose index

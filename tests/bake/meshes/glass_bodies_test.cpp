@@ -1,5 +1,8 @@
 #include "bake/meshes/glass_bodies.h"
 
+#include <algorithm>
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "bake/bake.h"
@@ -79,6 +82,50 @@ TEST_F(GlassBodiesTest, NestedBodiesNeedTheIndexAroundThem) {
   EXPECT_CONTAINS(errorMessage([&] { baked(); }), "'b' is inside mesh 'a'", "outsideEta", "1.5");
   scene_["meshes"][1]["material"] = "water";
   EXPECT_TRUE(baked().notes.empty());
+}
+
+TEST_F(GlassBodiesTest, CopiesAreInspectedOnce) {
+  // Copies on the grid have one shape; a rotated one has another.
+  for (int i = 0; i < 20; ++i) add(("copy" + std::to_string(i)).c_str(), {2 * i, 0, 0});
+  add("turned", {0, 8, 0});
+  scene_["meshes"].back()["instances"][0]["rotateDegrees"] = {10, 20, 30};
+  const Baked all = baked();
+  ContactsWithin within;
+  const auto positions = [&](std::size_t i) -> const std::vector<glm::dvec3>& { return all.scene.meshes[i].positions; };
+  EXPECT_TRUE(within.find(all.scene, all.glassBodies, positions).empty());
+  EXPECT_EQ(within.inspectedShapes(), 2u);
+  EXPECT_TRUE(findContactsBetween(all.scene, all.glassBodies, positions).found.empty());
+}
+
+TEST_F(GlassBodiesTest, FoldedCopiesAreAllReported) {
+  // Two copies of a cube, of which a vertex is moved through the opposite face.
+  add("a", {0, 0, 0});
+  add("b", {4, 0, 0});
+  Baked both = baked();
+  for (pack::Mesh& mesh : both.scene.meshes)
+    for (glm::dvec3& p : mesh.positions)
+      if (p == mesh.positions.front()) p.x += 3;
+  ContactsWithin within;
+  const std::vector<Contact> contacts =
+      within.find(both.scene, both.glassBodies,
+                  [&](std::size_t i) -> const std::vector<glm::dvec3>& { return both.scene.meshes[i].positions; });
+  EXPECT_EQ(within.inspectedShapes(), 1u);
+  const auto ofMesh = [&](std::size_t i) {
+    return std::count_if(contacts.begin(), contacts.end(), [&](const Contact& c) { return c.mesh[0] == i; });
+  };
+  EXPECT_GT(ofMesh(0), 0);
+  EXPECT_EQ(ofMesh(0), ofMesh(1));
+  EXPECT_NEAR(contacts.back().at.x - contacts.front().at.x, 4, 1);
+}
+
+TEST_F(GlassBodiesTest, ContactsAreFoundAmongManyBodies) {
+  // One long body crosses 20 others: more regions than are compared one by one.
+  for (int i = 0; i < 20; ++i) add(("copy" + std::to_string(i)).c_str(), {2 * i, 0, 0});
+  add("rod", {19.05, 0, 0});
+  scene_["meshes"].back()["instances"][0]["scale"] = {45, 0.3, 0.3};
+  const Baked all = baked();
+  EXPECT_EQ(all.notes.size(), 20u);
+  EXPECT_EQ(errorMessage([&] { written(all); }), "");
 }
 
 }  // namespace

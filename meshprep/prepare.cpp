@@ -133,6 +133,7 @@ class Preparation {
     step("edges-collapsed", std::move(done.degenerate.edgesCollapsed));
     step("faces-cut-beside-zero-area", std::move(done.degenerate.neighboursCut));
     step("faces-dropped-duplicate", std::move(done.duplicates.same));
+    step("faces-kept-walls", std::move(done.duplicates.walls));
     step(steps.dropOpposite ? "faces-dropped-opposite" : "faces-opposite", std::move(done.duplicates.opposite));
     step("vertices-dropped-unreferenced", std::move(done.unreferenced));
     step("edges-separated", std::move(done.fans.edges));

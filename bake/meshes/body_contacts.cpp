@@ -22,7 +22,7 @@ bool overlap(const prep::Box& a, const prep::Box& b) {
   return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
 }
 
-prep::Box boxOf(const glm::uvec3& t, const std::vector<glm::dvec3>& positions) {
+prep::Box triangleBox(const glm::uvec3& t, const std::vector<glm::dvec3>& positions) {
   const glm::dvec3 &a = positions[t.x], &b = positions[t.y], &c = positions[t.z];
   return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
 }
@@ -33,7 +33,7 @@ void appendFaces(const pack::Mesh& mesh, const std::vector<glm::dvec3>& position
   const auto firstVertex = static_cast<std::uint32_t>(all.positions.size());
   all.positions.insert(all.positions.end(), positions.begin(), positions.end());
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    const prep::Box box = boxOf(mesh.triangles[f], positions);
+    const prep::Box box = triangleBox(mesh.triangles[f], positions);
     if (regions.size() <= kMostRegions &&
         std::none_of(regions.begin(), regions.end(), [&](const prep::Box& region) { return overlap(box, region); }))
       continue;

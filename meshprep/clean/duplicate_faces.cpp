@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "meshprep/clean/disjoint_sets.h"
 #include "meshprep/clean/select.h"
 
 namespace malus::prep {
@@ -35,13 +38,86 @@ std::vector<Face> sortedFaces(const Mesh& mesh) {
   return faces;
 }
 
+constexpr std::uint32_t kNone = kNoSource;
+
+// The pairs of faces with equal vertices and orientation that could be a wall, and the edges of the pairs.
+class Walls {
+ public:
+  Walls(const Mesh& mesh, std::vector<std::array<std::uint32_t, 2>> pairs)
+      : mesh_(mesh), pairs_(std::move(pairs)), patches_(pairs_.size()) {}
+
+  // Returns the later triangles of the pairs that are walls. dropped: not kNone for triangles that will be dropped.
+  std::vector<std::uint32_t> find(const std::vector<std::uint32_t>& dropped) {
+    std::vector<std::uint32_t> walls;
+    if (pairs_.empty()) return walls;
+    collectEdges(dropped);
+
+    // Connect the pairs, and test the border edges of each connected patch.
+    for (const auto& [key, edge] : edges_)
+      for (std::size_t i = 1; i < edge.pairs.size(); ++i) patches_.merge(edge.pairs[0], edge.pairs[i]);
+    std::vector<char> hasBorder(pairs_.size(), 0), isLoose(pairs_.size(), 0);
+    for (const auto& [key, edge] : edges_) {
+      if (edge.pairs.size() != 1) continue;
+      const std::uint32_t patch = patches_.find(edge.pairs[0]);
+      hasBorder[patch] = 1;
+      if (edge.others != 2 || shareSources(pairs_[edge.pairs[0]])) isLoose[patch] = 1;
+    }
+    for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+      const std::uint32_t patch = patches_.find(i);
+      if (hasBorder[patch] != 0 && isLoose[patch] == 0) walls.push_back(pairs_[i][1]);
+    }
+    return walls;
+  }
+
+ private:
+  struct Edge {
+    std::vector<std::uint32_t> pairs;
+    std::uint32_t others = 0;  // other triangles
+  };
+
+  static std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
+    return std::uint64_t{std::min(a, b)} << 32u | std::max(a, b);
+  }
+
+  // Returns true if a vertex of the file is a corner of both triangles.
+  bool shareSources(const std::array<std::uint32_t, 2>& pair) const {
+    if (mesh_.sourceCorners.empty()) return false;
+    const glm::uvec3 &a = mesh_.sourceCorners[pair[0]], &b = mesh_.sourceCorners[pair[1]];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (a[i] == b[j]) return true;
+    return false;
+  }
+
+  void collectEdges(const std::vector<std::uint32_t>& dropped) {
+    std::vector<char> isPaired(mesh_.triangles.size(), 0);
+    for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+      for (const std::uint32_t triangle : pairs_[i]) isPaired[triangle] = 1;
+      const glm::uvec3& t = mesh_.triangles[pairs_[i][0]];
+      for (int k = 0; k < 3; ++k) edges_[edgeKey(t[k], t[(k + 1) % 3])].pairs.push_back(i);
+    }
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      if (isPaired[i] != 0 || dropped[i] != kNone) continue;
+      const glm::uvec3& t = mesh_.triangles[i];
+      for (int k = 0; k < 3; ++k)
+        if (const auto found = edges_.find(edgeKey(t[k], t[(k + 1) % 3])); found != edges_.end())
+          ++found->second.others;
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::array<std::uint32_t, 2>> pairs_;
+  DisjointSets patches_;
+  std::unordered_map<std::uint64_t, Edge> edges_;
+};
+
 }  // namespace
 
 DuplicateFaces dropDuplicateFaces(Mesh& mesh, bool dropOpposite) {
   // Find the first triangle with the same vertices, for each orientation.
-  constexpr std::uint32_t kNone = kNoSource;
   const std::vector<Face> faces = sortedFaces(mesh);
   std::vector<std::uint32_t> same(mesh.triangles.size(), kNone), opposite(mesh.triangles.size(), kNone);
+  std::vector<std::array<std::uint32_t, 2>> pairs;
   for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
     std::array<std::uint32_t, 2> first{kNone, kNone};  // per orientation
     for (; end < faces.size() && faces[end].vertices == faces[begin].vertices; ++end) {
@@ -54,13 +130,19 @@ DuplicateFaces dropDuplicateFaces(Mesh& mesh, bool dropOpposite) {
         opposite[face.triangle] = first[face.even ? 0 : 1];
       }
     }
+    if (end - begin == 2 && same[faces[begin + 1].triangle] != kNone)
+      pairs.push_back({faces[begin].triangle, faces[begin + 1].triangle});
   }
+  std::vector<char> isWall(mesh.triangles.size(), 0);
+  for (const std::uint32_t triangle : Walls(mesh, std::move(pairs)).find(same)) isWall[triangle] = 1;
 
   // Drop and report in the order of the mesh.
   DuplicateFaces result;
   std::vector<char> keep(mesh.triangles.size(), 1);
   for (std::size_t i = 0; i < keep.size(); ++i) {
-    if (same[i] != kNone) {
+    if (isWall[i] != 0) {
+      result.walls.add([&] { return findingAt(mesh, centroid(mesh, i), {i, same[i]}); });
+    } else if (same[i] != kNone) {
       result.same.add([&] { return findingAt(mesh, centroid(mesh, i), {i, same[i]}); });
       keep[i] = 0;
     } else if (opposite[i] != kNone) {

@@ -1,4 +1,6 @@
 // Surfaces of which every face occurs twice, back to back.
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "meshprep/prepare.h"
@@ -65,6 +67,53 @@ TEST(DoubledSurface, StillDropsCopiesOfTheSameSide) {
   options.flat = true;
   const Mesh once = clean(test::joined(test::sphere(5, 8), test::sphere(5, 8)), options, report);
   EXPECT_EQ(once.triangles.size(), test::sphere(5, 8).triangles.size());
+}
+
+// Cubes in a row, of which every second one is inside out: the walls between them have faces of one orientation.
+TEST(DoubledSurface, KeepsWallsBesideABodyThatIsInsideOut) {
+  Mesh bodies = test::cube();
+  for (int i = 1; i < 4; ++i) {
+    const Mesh next = test::cube(1, {i, 0, 0});
+    bodies = test::joined(bodies, i % 2 == 1 ? test::flipped(next) : next);
+    Report report;
+    const Mesh once = cleanTwice(bodies, report);
+    EXPECT_EQ(once.triangles.size(), bodies.triangles.size());
+    EXPECT_EQ(report.count("faces-kept-walls"), static_cast<std::uint64_t>(2 * i));
+    EXPECT_NEAR(volume(once), i + 1, 1e-12);
+    EXPECT_EQ(report.components.size(), static_cast<std::size_t>(i + 1));
+    for (const Component& component : report.components) EXPECT_TRUE(component.closed);
+  }
+}
+
+TEST(DoubledSurface, KeepsWallsOfCubesAroundAnEdge) {
+  // Four cubes around an edge, like a chessboard: the four walls meet at it.
+  Mesh bodies;
+  for (int i = 0; i < 4; ++i) {
+    const Mesh next = test::cube(1, {i % 2, i / 2, 0});
+    bodies = test::joined(bodies, i == 1 || i == 2 ? test::flipped(next) : next);
+  }
+  Report report;
+  const Mesh once = cleanTwice(bodies, report);
+  EXPECT_GE(once.triangles.size(), 48u);  // the common edge may be cut
+  EXPECT_NEAR(volume(once), 4, 1e-12);
+  for (const Component& component : report.components) EXPECT_TRUE(component.closed);
+}
+
+TEST(DoubledSurface, DropsAFaceThatOccursTwice) {
+  // In a closed body, at the border of an open one, and alone.
+  Mesh closed = test::cube(), open = test::cube(), alone = test::cube();
+  closed.triangles.push_back(closed.triangles[3]);
+  open.triangles.resize(10);
+  open.triangles.push_back(open.triangles.back());
+  alone.triangles.resize(1);
+  alone.triangles.push_back(alone.triangles.back());
+  for (Mesh& mesh : {std::ref(closed), std::ref(open), std::ref(alone)}) {
+    Report report;
+    Options options;
+    options.flat = true;
+    EXPECT_EQ(clean(mesh, options, report).triangles.size(), mesh.triangles.size() - 1);
+    EXPECT_EQ(report.count("faces-dropped-duplicate"), 1u);
+  }
 }
 
 }  // namespace

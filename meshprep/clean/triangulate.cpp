@@ -14,6 +14,7 @@
 #include "meshprep/clean/convex_polygon.h"
 #include "meshprep/clean/ears.h"
 #include "meshprep/clean/flat_polygon.h"
+#include "meshprep/clean/repeated_polygons.h"
 #include "meshprep/clean/shared_diagonals.h"
 
 namespace malus::prep {
@@ -48,9 +49,15 @@ class Triangulation {
   }
 
  private:
+  // Properties of a polygon that are counted.
+  struct Shape {
+    bool isConcave = false, isNonPlanar = false, isCrossing = false;
+  };
+
   void reserve();
   void addPolygon(std::size_t face);
-  void cut(std::size_t face, const FlatPolygon& flat);
+  Shape cut(std::size_t face, const FlatPolygon& flat);
+  void copyCut(const RepeatedPolygons::Match& match);
   void add(std::size_t face, const glm::uvec3& corners);
   [[noreturn]] void failTooComplex(std::size_t face) const;
 
@@ -59,6 +66,12 @@ class Triangulation {
   Mesh mesh_;
   EarCutter ears_;
   std::uint64_t tests_;
+
+  // Polygons of more than three corners, with the range of their triangles in cuts_, which have corners of the polygon.
+  RepeatedPolygons repeated_;
+  std::vector<glm::uvec3> cuts_;
+  std::vector<std::size_t> firstCut_ = {0};
+  std::vector<Shape> shapes_;
 
   // Current polygon: kept corners, their positions, and triangles of indices into these.
   std::vector<std::uint32_t> kept_;
@@ -117,24 +130,40 @@ void Triangulation::addPolygon(std::size_t face) {
   // Append the triangles. A face without area becomes one degenerate triangle, which cleaning counts.
   if (kept_.size() < 3) return add(face, {0, 1, 2});
   if (kept_.size() == 3) return add(face, {kept_[0], kept_[1], kept_[2]});
-  cut(face, flatten(positions_));
+  const auto match = repeated_.add(positions_);
+  if (match) copyCut(*match);
+  shapes_.push_back(match ? shapes_[match->polygon] : cut(face, flatten(positions_)));
+  cuts_.insert(cuts_.end(), triangles_.begin(), triangles_.end());
+  firstCut_.push_back(cuts_.size());
+  counts_.concave += shapes_.back().isConcave ? 1 : 0;
+  counts_.nonPlanar += shapes_.back().isNonPlanar ? 1 : 0;
+  counts_.crossing += shapes_.back().isCrossing ? 1 : 0;
   for (const glm::uvec3& t : triangles_) add(face, {kept_[t.x], kept_[t.y], kept_[t.z]});
 }
 
 // Triangulates as a convex polygon, by ears, or, if both fail, as a fan.
-void Triangulation::cut(std::size_t face, const FlatPolygon& flat) {
+Triangulation::Shape Triangulation::cut(std::size_t face, const FlatPolygon& flat) {
   triangles_.clear();
-  if (!flat.planar) ++counts_.nonPlanar;
-  if (isConvex(flat)) {
-    if (addConvex(flat, triangles_)) return;
+  Shape shape{.isConcave = !isConvex(flat), .isNonPlanar = !flat.planar};
+  if (!shape.isConcave) {
+    if (addConvex(flat, triangles_)) return shape;
   } else {
-    ++counts_.concave;
     const EarCutter::Outcome outcome = ears_.cut(flat, tests_, triangles_);
     if (outcome == EarCutter::Outcome::kTooMuchWork) failTooComplex(face);
-    if (outcome == EarCutter::Outcome::kDone) return;
+    if (outcome == EarCutter::Outcome::kDone) return shape;
   }
-  ++counts_.crossing;
+  shape.isCrossing = true;
   for (std::uint32_t i = 1; i + 1 < flat.points.size(); ++i) triangles_.emplace_back(0, i, i + 1);
+  return shape;
+}
+
+// Triangulates as an earlier polygon with the same corners.
+void Triangulation::copyCut(const RepeatedPolygons::Match& match) {
+  triangles_.clear();
+  for (std::size_t i = firstCut_[match.polygon]; i < firstCut_[match.polygon + 1]; ++i) {
+    const glm::uvec3 t(match.corners[cuts_[i].x], match.corners[cuts_[i].y], match.corners[cuts_[i].z]);
+    triangles_.push_back(match.reversed ? glm::uvec3(t.x, t.z, t.y) : t);
+  }
 }
 
 void Triangulation::failTooComplex(std::size_t face) const {

@@ -4,7 +4,8 @@
 // Orientation, and the order of faces are kept; triangles of a face are consecutive, and triangles of the file
 // unchanged.
 //
-// Faces that would share a diagonal are cut again (shared_diagonals.h).
+// Faces that would share a diagonal are cut again (shared_diagonals.h); copies of a face are cut as the first one
+// (repeated_polygons.h).
 //
 // The time is limited: all faces that are not convex share kEarTests, and kEarTestsPerCorner per corner of the mesh, a
 // few nanoseconds each. Measured for stars, combs, spirals, zigzags, coastlines, bows and random corners: a face of

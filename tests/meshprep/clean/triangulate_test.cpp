@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meshprep/clean/duplicate_faces.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -41,6 +42,44 @@ TEST(Triangulate, MakesAFanOfAConvexQuad) {
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(counts.polygons, 1u);
   EXPECT_EQ(counts.concave + counts.nonPlanar + counts.crossing + counts.repeatedCorners, 0u);
+}
+
+// A face that is given again from another corner, or from behind, has the same triangles, also with separate vertices.
+TEST(Triangulate, CutsCopiesOfAFaceAlike) {
+  const std::vector<glm::dvec3> quad = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}},
+                                arrow = {{0, 0, 0}, {2, -1, 0}, {0.5, 0, 0}, {2, 1, 0}},
+                                pentagon = {{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {1, 2, 0}, {-1, 1, 0}};
+  for (const std::vector<glm::dvec3>& corners : {quad, arrow, pentagon})
+    for (const bool reversed : {false, true})
+      for (std::uint32_t shift = 0; shift < corners.size(); ++shift) {
+        const auto n = static_cast<std::uint32_t>(corners.size());
+        Polygons polygons = polygon(corners);
+        for (std::uint32_t i = 0; i < n; ++i) {
+          const std::uint32_t corner = (reversed ? n - i + shift : i + shift) % n;
+          polygons.corners.push_back(n + corner);
+        }
+        polygons.closeFace();
+        polygons.positions.insert(polygons.positions.end(), corners.begin(), corners.end());
+        TriangulateCounts counts;
+        Mesh mesh = triangulate(polygons, counts);
+        ASSERT_EQ(mesh.triangles.size(), 2 * (n - 2));
+        EXPECT_NEAR(areaVector(mesh).z, reversed ? 0 : totalArea(mesh), 1e-12);
+        for (glm::uvec3& t : mesh.triangles)
+          for (int k = 0; k < 3; ++k) t[k] %= n;
+        const DuplicateFaces found = dropDuplicateFaces(mesh, true);
+        EXPECT_EQ(reversed ? found.opposite.count : found.same.count, n - 2) << reversed << " " << shift;
+        EXPECT_EQ(mesh.triangles.size(), n - 2);
+      }
+}
+
+TEST(Triangulate, CutsFacesOfOtherCornersByThemselves) {
+  // The same positions in another order: a quad that crosses itself.
+  Polygons polygons = polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  polygons.corners.insert(polygons.corners.end(), {0, 2, 1, 3});
+  polygons.closeFace();
+  TriangulateCounts counts;
+  EXPECT_EQ(triangulate(polygons, counts).triangles.size(), 4u);
+  EXPECT_EQ(counts.crossing, 1u);
 }
 
 TEST(Triangulate, ClipsEarsOfAnArrow) {

@@ -1,0 +1,41 @@
+// Polygons that are given more than once: the copies of a face, and the two sides of a doubled surface. They are cut
+// along the same diagonals, whatever corner they begin with, so that their triangles are found to be duplicates, or
+// back to back (duplicate_faces.h). Cut along different diagonals they would be a flat solid.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace malus::prep {
+
+class RepeatedPolygons {
+ public:
+  // Earlier polygon with the same corners: its number in order of add(), and for each of its corners the number of the
+  // corner at the same position.
+  struct Match {
+    std::size_t polygon;
+    std::vector<std::uint32_t> corners;
+    bool reversed;  // the order of the corners is opposite
+  };
+
+  // Adds a polygon of at least three corners. Returns the earliest one with the same positions in the same or the
+  // opposite cyclic order. Polygons that visit a position twice are not compared.
+  std::optional<Match> add(std::span<const glm::dvec3> positions);
+
+ private:
+  std::span<const glm::dvec3> polygon(std::size_t i) const {
+    return std::span(positions_).subspan(first_[i], first_[i + 1] - first_[i]);
+  }
+
+  std::vector<glm::dvec3> positions_;
+  std::vector<std::size_t> first_ = {0};
+  std::unordered_multimap<std::uint64_t, std::size_t> byHash_;  // without the copies
+};
+
+}  // namespace malus::prep

@@ -191,6 +191,7 @@ struct Tracer {
     for (const pack::PointLight& light : scene.lights) {
       const dvec3 toLight = light.position - h.position;
       const double distance = glm::length(toLight);
+      if (!(distance > 0)) continue;  // a light in the hit has no direction
       const dvec3 l = toLight / distance;
       const double c = glm::dot(h.normal, l);
       if (c <= 0 || glm::dot(h.face, l) <= 0) continue;

@@ -166,6 +166,18 @@ TEST(ClosedForms, PaintLeavesPolarized) {
   }
 }
 
+// A light in the point that a ray hits has no direction there; the pixels around it are lit.
+TEST(ClosedForms, LightOnTheSurfaceIsFinite) {
+  pack::Scene scene = test::emptyScene(0);
+  scene.width = scene.height = 3;
+  test::addMaterial(scene, test::dielectric(MaterialKind::lambert, 1, 0.5));
+  test::addSquare(scene, 0, {0, 0, 0}, {0, 1, 0}, 10);
+  test::look(scene, {0, 1, 0}, {0, 0, 0}, {0, 0, -1});
+  scene.lights.push_back({{0, 0, 0}, {8, 8, 8}});
+  const render::RenderResult result = reference::render(scene, render::defaultParameters(scene), 1);
+  for (const float value : result.pixels) EXPECT_EQ(value, 0);  // all light is grazing
+}
+
 TEST(ClosedForms, CameraInsideGlassReadsASkyTimesNSquared) {
   pack::Scene scene = test::emptyScene(2);
   scene.environment.radiance = glm::dvec3(1);

@@ -1,6 +1,7 @@
 #include "tools/command_line.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,6 +29,25 @@ void removeLeadingMark(std::vector<std::string>& arguments) {
   const auto word = std::find_if(arguments.begin(), arguments.end(),
                                  [](const std::string& a) { return a == "--" || !a.starts_with('-'); });
   if (word != arguments.end() && *word == "--") arguments.erase(word);
+}
+
+constexpr std::string_view kProtected = "./-";
+
+// Writes names behind `--` that begin with '-' as "./-name", because CLI11 takes a `--` behind an option with a list of
+// values for the end of that list only. Every argument of a command is the name of a file, or of a material.
+void protectNamesBehindMark(std::vector<std::string>& arguments) {
+  auto argument = std::find(arguments.begin(), arguments.end(), "--");
+  if (argument == arguments.end()) return;
+  for (++argument; argument != arguments.end(); ++argument)
+    if (argument->starts_with('-')) argument->replace(0, 1, kProtected);
+}
+
+// In the order that CLI11 takes.
+std::vector<std::string> prepared(std::vector<std::string> arguments) {
+  removeLeadingMark(arguments);
+  protectNamesBehindMark(arguments);
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
 }
 
 bool isVisible(const CLI::Option* option) { return !option->get_group().empty() && !option->get_positional(); }
@@ -82,9 +102,7 @@ CommandLine::CommandLine() : app_("malus: polarized mirror and glass reflections
 }
 
 bool CommandLine::run(std::vector<std::string> arguments) {
-  removeLeadingMark(arguments);
-  std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 takes
-  app_.parse(std::move(arguments));
+  app_.parse(prepared(std::move(arguments)));
   if (listsMethods_) render::listMethods();
   if (listsEffects_) bake::listEffects();
   if (listsMaterials_) bake::listMaterials();
@@ -96,10 +114,8 @@ void CommandLine::parse(std::vector<std::string> arguments) {
   struct Parsed {};
   // Called when everything is parsed, before the command.
   app_.parse_complete_callback([] { throw Parsed{}; });
-  removeLeadingMark(arguments);
-  std::reverse(arguments.begin(), arguments.end());
   try {
-    app_.parse(std::move(arguments));
+    app_.parse(prepared(std::move(arguments)));
   } catch (const Parsed&) {
   }
   app_.parse_complete_callback({});
@@ -123,13 +139,16 @@ std::string CommandLine::describeUnknown() const {
   const auto option = std::find_if(extras.begin(), extras.end(),
                                    [](const std::string& e) { return e.size() > 1 && e[0] == '-' && e != "--"; });
   const std::string prefix = parsed.empty() ? std::string() : parsed.front()->get_name() + ": ";
-  if (option == extras.end()) return fmt::format("{}unexpected argument '{}'", prefix, extras.front());
+  if (option == extras.end()) {
+    const auto behindMark =
+        std::find_if(extras.begin(), extras.end(), [](const std::string& e) { return e.starts_with(kProtected); });
+    if (behindMark == extras.end()) return fmt::format("{}unexpected argument '{}'", prefix, extras.front());
+    return fmt::format("{}unexpected argument '{}' after '--'", prefix, behindMark->substr(kProtected.size() - 1));
+  }
   std::vector<std::string> names;
   for (const CLI::App* command : parsed) appendNames(*command, names);
   appendNames(app_, names);
   const std::string name = option->substr(0, option->find('='));
-  if (std::find(names.begin(), names.end(), name) != names.end())  // CLI11 knows it, except behind `--`
-    return fmt::format("{}unexpected argument '{}' after '--'", prefix, name);
   return fmt::format("{}unknown option '{}'{}", prefix, name, nearestClause(name, names));
 }
 

@@ -232,6 +232,8 @@ TEST_F(Safety, DoubleDashEndsTheOptions) {
   EXPECT_EQ(malus({"info", "--", "-dash.pack"}, inFolder).exitCode, 0);
   EXPECT_EQ(malus({"--", "info", "--", "-dash.pack"}, inFolder).exitCode, 0);
   EXPECT_EQ(malus({"render", "-o", "-dash.exr", "--width", "8", "--", "-dash.pack"}, inFolder).exitCode, 0);
+  // Behind an option with a list of values, CLI11 takes the mark for the end of the list.
+  EXPECT_EQ(malus({"render", "--width", "8", "-o", "dash.exr", "--", "-dash.pack"}, inFolder).exitCode, 0);
   EXPECT_TRUE(fs::exists(folder_ / "-dash.exr"));
 }
 

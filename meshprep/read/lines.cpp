@@ -42,6 +42,18 @@ bool isUtf8(std::string_view text) {
   return true;
 }
 
+// Returns the begin of a comment, or npos. Old runtimes of Microsoft write numbers that are not finite
+// as 1.#IND, 1.#INF, 1.#QNAN and 1.#SNAN.
+std::size_t findComment(std::string_view line, char comment) {
+  std::size_t at = line.find(comment);
+  for (; at != std::string_view::npos && at > 0 && line[at - 1] == '.'; at = line.find(comment, at + 1)) {
+    const std::string_view word = line.substr(at + 1);
+    if (!word.starts_with("IND") && !word.starts_with("INF") && !word.starts_with("QNAN") && !word.starts_with("SNAN"))
+      break;
+  }
+  return at;
+}
+
 }  // namespace
 
 std::string_view Lines::takeRaw() {
@@ -92,7 +104,8 @@ void Lines::joinContinued(char comment) {
     const std::string_view next = takeRaw();
     raw_ = std::string_view(text_).substr(begin,
                                           static_cast<std::size_t>(next.data() - text_.data()) + next.size() - begin);
-    if (const std::size_t begins = comment != 0 ? next.find(comment) : std::string_view::npos; begins < next.size()) {
+    if (const std::size_t begins = comment != 0 ? findComment(next, comment) : std::string_view::npos;
+        begins < next.size()) {
       hasCutComments_ = true;
       blankWord(next.substr(begins));
     }
@@ -107,7 +120,7 @@ void Lines::cutFrom(std::size_t begin) {
   line_ = trimmed(line_.substr(0, begin));
 }
 
-void Lines::cutComment(char comment) { cutFrom(line_.find(comment)); }
+void Lines::cutComment(char comment) { cutFrom(findComment(line_, comment)); }
 
 void Lines::cutSeparateComment(char comment) { cutFrom(lengthWithoutComment(line_, comment)); }
 

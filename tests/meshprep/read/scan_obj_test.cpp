@@ -116,6 +116,15 @@ TEST(ScanObj, AcceptsCommentsAfterStatements) {
   EXPECT_EQ(polygons.notes, (std::vector<std::string>{"texture coordinates", "accepted: comments at line ends"}));
 }
 
+// Numbers that are not finite, as old runtimes of Microsoft write them, contain the character of comments.
+TEST(ScanObj, RefusesNumbersThatAreNotFinite) {
+  for (const char* number : {"1.#IND", "-1.#IND00", "1.#INF", "1.#QNAN", "1.#SNAN0"}) {
+    expectRefused(std::string("v 0 0 ") + number + "\n" + kSquare + "f 1 2 3\n", ".obj:1:", number);
+    expectRefused(std::string("v 0 0 0 1 1 ") + number + "\n" + kSquare + "f 1 2 3\n", ".obj:1:", number);
+  }
+  EXPECT_EQ(read("v 0 0 0.# not a number\n" + kSquare + "f 1 2 3\n").positions.size(), 5u);
+}
+
 TEST(ScanObj, KeepsHashesInNames) {
   const Polygons polygons = read("mtllib a#1.mtl\n" + kSquare + "g part#2\nusemtl Material #25\nf 1 2 3\n");
   EXPECT_EQ(polygons.parts, (std::vector<Part>{{"part#2", "Material #25"}}));

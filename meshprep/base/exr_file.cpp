@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include <ImfChannelList.h>
+#include <ImfEnvmap.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -60,21 +61,16 @@ auto channelKey(const std::string& channel) {
   return std::tuple(layer, usual - std::begin(kUsual), suffix);
 }
 
-struct Channel {
-  std::string name;
-  Imf::PixelType type;
-};
-
 // Throws std::runtime_error: channels with fewer samples than pixels.
-std::vector<Channel> listChannels(const Imf::Header& header) {
-  std::vector<Channel> result;
+std::vector<std::string> listChannels(const Imf::Header& header) {
+  std::vector<std::string> result;
   for (auto at = header.channels().begin(); at != header.channels().end(); ++at) {
     if (at.channel().xSampling != 1 || at.channel().ySampling != 1)
       throw std::runtime_error(fmt::format("channel '{}' is subsampled; expected a sample for each pixel", at.name()));
-    result.push_back({at.name(), at.channel().type});
+    result.emplace_back(at.name());
   }
   std::sort(result.begin(), result.end(),
-            [](const Channel& a, const Channel& b) { return channelKey(a.name) < channelKey(b.name); });
+            [](const std::string& a, const std::string& b) { return channelKey(a) < channelKey(b); });
   return result;
 }
 
@@ -98,8 +94,8 @@ Size windowSize(const Imath::Box2i& window) {
   return {side(window.min.x, window.max.x), side(window.min.y, window.max.y)};
 }
 
-// Reads the pixels of the data window: halves and floats as floats, integers scaled to [0, 1].
-std::vector<float> readPixels(Imf::InputFile& file, const std::vector<Channel>& channels) {
+// Reads the pixels of the data window as floats. Integers keep their value: they are counts or numbers of objects.
+std::vector<float> readPixels(Imf::InputFile& file, const std::vector<std::string>& channels) {
   const Imath::Box2i window = file.header().dataWindow();
   const Size size = windowSize(window);
   std::vector<float> pixels(static_cast<std::size_t>(size.width * size.height) * channels.size());
@@ -107,18 +103,9 @@ std::vector<float> readPixels(Imf::InputFile& file, const std::vector<Channel>& 
                     rowBytes = pixelBytes * static_cast<std::size_t>(size.width);
   Imf::FrameBuffer buffer;
   for (std::size_t c = 0; c < channels.size(); ++c)
-    buffer.insert(channels[c].name, Imf::Slice::Make(channels[c].type == Imf::UINT ? Imf::UINT : Imf::FLOAT,
-                                                     pixels.data() + c, window, pixelBytes, rowBytes));
+    buffer.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, pixels.data() + c, window, pixelBytes, rowBytes));
   file.setFrameBuffer(buffer);
   file.readPixels(window.min.y, window.max.y);
-  constexpr float kScale = 1.0f / static_cast<float>(std::numeric_limits<std::uint32_t>::max());
-  for (std::size_t c = 0; c < channels.size(); ++c)
-    if (channels[c].type == Imf::UINT)
-      for (std::size_t i = c; i < pixels.size(); i += channels.size()) {
-        std::uint32_t value = 0;
-        std::memcpy(&value, &pixels[i], sizeof value);
-        pixels[i] = static_cast<float>(value) * kScale;
-      }
   return pixels;
 }
 
@@ -175,7 +162,7 @@ std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image) {
     MemoryInput stream(bytes);
     Imf::InputFile file(stream);
     const Imath::Box2i data = file.header().dataWindow(), display = file.header().displayWindow();
-    const std::vector<Channel> channels = listChannels(file.header());
+    const std::vector<std::string> channels = listChannels(file.header());
     const Size stored = windowSize(data), shown = windowSize(display);
     for (const Size& size : {stored, shown})
       if (size.width < 1 || size.height < 1 || !size.isSupported(channels.size()) || channels.empty() ||
@@ -183,9 +170,11 @@ std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image) {
         return fmt::format("unsupported size {} x {} with {} channels", size.width, size.height, channels.size());
     image.width = static_cast<int>(shown.width);
     image.height = static_cast<int>(shown.height);
-    for (const Channel& c : channels) image.channels.push_back(c.name);
+    image.channels = channels;
     readAttributes(file.header(), image);
     readChromaticities(file.header(), image.encoding);
+    if (Imf::hasEnvmap(file.header()) && Imf::envmap(file.header()) == Imf::ENVMAP_CUBE)
+      image.encoding.notes.emplace_back("is marked as a cube map (envmap), and is read as a plain image");
     image.pixels = readPixels(file, channels);
     if (data != display) image.pixels = placeInDisplay(image.pixels, data, display, channels.size());
     return {};

@@ -96,10 +96,13 @@ std::optional<std::size_t> findChannel(const Image& image, const char* name) {
 std::optional<std::array<std::size_t, 3>> findColours(const Image& image) {
   const auto r = findChannel(image, "R"), g = findChannel(image, "G"), b = findChannel(image, "B");
   if (r && g && b) return std::array{*r, *g, *b};
+  // With RY or BY, Y is the luminance of colours. One channel alone, but for alpha, is grey whatever its name.
+  if (findChannel(image, "RY") || findChannel(image, "BY")) return std::nullopt;
   auto grey = findChannel(image, "Y");
-  if (!grey && !image.channels.empty() && image.channels.size() < 3) grey = 0;
-  if (grey) return std::array{*grey, *grey, *grey};
-  return std::nullopt;
+  const std::size_t count = image.channels.size();
+  if (!grey && (count == 1 || (count == 2 && findChannel(image, "A") == std::size_t{1}))) grey = 0;
+  if (!grey) return std::nullopt;
+  return std::array{*grey, *grey, *grey};
 }
 
 double decode(const Encoding& encoding, double v) {
@@ -153,6 +156,8 @@ std::array<double, 3> LinearColours::at(std::size_t pixel) const {
 
 void LinearColours::findNotes(std::string_view where, bool usesAlpha) {
   for (const std::string& note : image_.encoding.notes) notes_.push_back(fmt::format("{}: {}", where, note));
+  if (const std::string& name = image_.channels[channels_[0]]; isGrey() && ::strcasecmp(name.c_str(), "Y") != 0)
+    notes_.push_back(fmt::format("{}: the only channel, '{}', is read as grey", where, name));
   const std::size_t pixels = image_.pixels.size() / image_.channels.size();
   if (const auto alpha = findChannel(image_, "A"); alpha && !usesAlpha) {
     std::size_t transparent = 0;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstring>
+#include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <png.h>
@@ -97,6 +99,32 @@ Encoding readEncoding(png_structp png, png_infop info) {
   return encoding;
 }
 
+// Coding-independent code points (ITU-T H.273) of the chunk cICP, which precedes all others (PNG, third edition, 4.3)
+// and which libpng does not read.
+void readCodePoints(const std::vector<unsigned char>& bytes, Encoding& encoding) {
+  const auto text = [&](std::size_t at) { return std::string_view(reinterpret_cast<const char*>(&bytes[at]), 4); };
+  std::size_t at = 8, length = 0;
+  for (; at + 16 <= bytes.size(); at += 12 + length) {
+    length = std::size_t{bytes[at]} << 24u | std::size_t{bytes[at + 1]} << 16u | std::size_t{bytes[at + 2]} << 8u |
+             bytes[at + 3];
+    if (text(at + 4) == "IDAT") return;
+    if (text(at + 4) == "cICP" && length == 4) break;
+  }
+  if (at + 16 > bytes.size()) return;
+  const unsigned primaries = bytes[at + 8], transfer = bytes[at + 9];
+  constexpr unsigned kLinear = 8, kSrgb = 13, kRec709 = 1, kRec2020 = 9, kP3 = 12;
+  encoding = {};
+  encoding.transfer = transfer == kLinear ? Encoding::Transfer::linear : Encoding::Transfer::sRgb;
+  if (primaries == kRec2020)
+    encoding.chromaticities = {0.708, 0.292, 0.170, 0.797, 0.131, 0.046, 0.3127, 0.3290};
+  else if (primaries == kP3)
+    encoding.chromaticities = {0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0.3290};
+  if (transfer != kLinear && transfer != kSrgb)
+    encoding.notes.push_back(fmt::format("has the transfer function {} (cICP), and is read as sRGB", transfer));
+  if (primaries != kRec709 && primaries != kRec2020 && primaries != kP3)
+    encoding.notes.push_back(fmt::format("has the primaries {} (cICP), and is read as Rec. 709", primaries));
+}
+
 // Uncompressed and compressed text under its keyword; "Description" is the ImageDescription of other formats.
 void readText(png_structp png, png_infop info, Image& image) {
   png_textp texts = nullptr;
@@ -182,6 +210,7 @@ std::string decodePng(const std::vector<unsigned char>& bytes, Image& image) {
   std::string result;
   try {
     result = decode(png, info, error, image);
+    if (result.empty()) readCodePoints(bytes, image.encoding);
   } catch (const std::bad_alloc&) {
     result = "out of memory";
   }

@@ -43,7 +43,11 @@ TEST(ImageColour, ChannelsByName) {
     EXPECT_TRUE(colours.isGrey());
     EXPECT_EQ(colours.at(0), (Triple{2, 2, 2}));
   }
-  EXPECT_CONTAINS(test::errorMessage([] { LinearColours(pixel({"U", "V", "W"}, {1, 2, 3}), "a.exr"); }), "a.exr");
+  EXPECT_EQ(LinearColours(pixel({"Y"}, {2}), "").notes().size(), 0u);
+  EXPECT_EQ(LinearColours(pixel({"Z"}, {2}), "").notes().size(), 1u);  // perhaps no colour
+  for (const auto& other : {pixel({"U", "V", "W"}, {1, 2, 3}), pixel({"R", "G"}, {1, 2}),
+                            pixel({"R", "B", "A"}, {1, 2, 1}), pixel({"BY", "RY", "Y"}, {0.1f, 0.2f, 1})})
+    EXPECT_CONTAINS(test::errorMessage([&] { LinearColours(other, "a.exr"); }), "a.exr");
 }
 
 // ACES2065-1 to linear Rec. 709 with Bradford's adaptation from D60 to D65 (ACES, TB-2014-004 and CTL of its output

@@ -224,6 +224,48 @@ TEST_F(ImageModules, EncodingOfPngFilesIsThatOfTheirChunks) {
   EXPECT_EQ(encoding("/layers.exr").transfer, Transfer::linear);
 }
 
+// A PNG with the chunk cICP in front of its data.
+std::vector<unsigned char> withCodePoints(const std::string& path, unsigned char primaries, unsigned char transfer) {
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  // Length, name, content and checksum, which is not checked for chunks that libpng does not know.
+  const std::vector<unsigned char> chunk = {0, 0, 0, 4, 'c', 'I', 'C', 'P', primaries, transfer, 0, 1, 0, 0, 0, 0};
+  bytes.insert(bytes.begin() + 8 + 25, chunk.begin(), chunk.end());  // behind signature and header
+  return bytes;
+}
+
+TEST_F(ImageModules, CodePointsOfPngFilesPrecedeOtherChunks) {
+  const struct {
+    unsigned char primaries, transfer;
+    Transfer expected;
+    bool isWide;
+    std::size_t notes;
+  } kCases[] = {{1, 8, Transfer::linear, false, 0}, {1, 13, Transfer::sRgb, false, 0},
+                {9, 8, Transfer::linear, true, 0},  {12, 13, Transfer::sRgb, true, 0},
+                {9, 16, Transfer::sRgb, true, 1},   {5, 18, Transfer::sRgb, false, 2}};
+  for (const char* name : {"/rgb8.png", "/rgb16-gamma.png", "/icc-wide.png"})
+    for (const auto& c : kCases) {
+      write("points.png", withCodePoints(std::string(MALUS_IMAGE_FILES) + name, c.primaries, c.transfer));
+      const Encoding encoding = readBoth(file("points.png")).encoding;
+      EXPECT_EQ(encoding.transfer, c.expected) << name << " " << int{c.transfer};
+      EXPECT_EQ(encoding.chromaticities.has_value(), c.isWide) << name << " " << int{c.primaries};
+      EXPECT_EQ(encoding.notes.size(), c.notes) << name;
+    }
+}
+
+// integers.exr: 3 x 2 pixels; R counts from 0, G is 1, B counts from 70000, id is 2^24.
+TEST_F(ImageModules, IntegersOfExrFilesKeepTheirValue) {
+  const Image image = readBoth(std::string(MALUS_IMAGE_FILES) + "/integers.exr");
+  ASSERT_EQ(image.channels, (std::vector<std::string>{"R", "G", "B", "id"}));
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto count = static_cast<float>(i);
+    const std::vector<float> expected = {count, 1, 70000 + count, 16777216};
+    EXPECT_EQ(std::vector<float>(image.pixels.begin() + static_cast<std::ptrdiff_t>(4 * i),
+                                 image.pixels.begin() + static_cast<std::ptrdiff_t>(4 * i + 4)),
+              expected);
+  }
+}
+
 TEST_F(ImageModules, InterlacedPalettesAreExpanded) {
   const Image image = readBoth(std::string(MALUS_IMAGE_FILES) + "/palette-interlaced.png");
   ASSERT_EQ(image.channels.size(), 4u);

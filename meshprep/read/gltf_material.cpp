@@ -1,5 +1,6 @@
 #include "meshprep/read/gltf_material.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -15,18 +16,27 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMaxEmission = 1e12;  // of factor and strength
+constexpr double kDefaultIor = 1.5;
 
 // Bounds of the numbers of one material.
 class BoundsCheck {
  public:
-  explicit BoundsCheck(const std::string& location) : location_(location) {}
+  BoundsCheck(const std::string& location, std::vector<std::string>& notes, bool strict)
+      : location_(location), notes_(notes), strict_(strict) {}
 
+  // Returns the value, or `otherwise` if it is out of range.
+  double replaced(std::string_view key, double value, double low, double high, double otherwise) const {
+    if (value >= low && value <= high) return value;
+    const Error error(fmt::format("{}.{}", location_, key), "is out of range",
+                      high == kInfinity ? fmt::format("{} or more", low) : fmt::format("{} to {}", low, high),
+                      fmt::to_string(value));
+    if (strict_) throw Error(error);
+    addNote(notes_, fmt::format("{}{}; {} is used", kAcceptedNote, error.what(), otherwise));
+    return otherwise;
+  }
+  // Returns the value, clamped to the range.
   double operator()(std::string_view key, double value, double low, double high) const {
-    if (!(value >= low && value <= high))
-      throw Error(fmt::format("{}.{}", location_, key), "is out of range",
-                  high == kInfinity ? fmt::format("{} or more", low) : fmt::format("{} to {}", low, high),
-                  fmt::to_string(value));
-    return value;
+    return replaced(key, value, low, high, std::clamp(value, low, high));
   }
 
   // Red, green and blue from 0 to 1.
@@ -37,13 +47,15 @@ class BoundsCheck {
 
  private:
   const std::string& location_;
+  std::vector<std::string>& notes_;
+  bool strict_;
 };
 
 }  // namespace
 
 SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& location,
-                            std::vector<std::string>& notes) {
-  const BoundsCheck checked(location);
+                            std::vector<std::string>& notes, bool strict) {
+  const BoundsCheck checked(location, notes, strict);
   SourceMaterial result;
   result.name = material.name;
 
@@ -60,14 +72,12 @@ SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& l
   if (material.alphaMode != "OPAQUE") addNote(notes, "alpha coverage");
 
   // Transmission and volume. KHR_materials_ior reserves 0 for older shading models.
-  result.ior = material.ior == 0 ? 1.5 : checked("ior", material.ior, 1, kInfinity);
+  result.ior = material.ior == 0 ? kDefaultIor : checked.replaced("ior", material.ior, 1, kInfinity, kDefaultIor);
   result.transmission = checked("transmissionFactor", material.transmissionFactor, 0, 1);
   result.hasVolume = material.volumeThicknessFactor > 0;
   result.attenuationColour = checked("attenuationColor", material.attenuationColor);
-  result.attenuationDistance = material.attenuationDistance;
-  if (!(result.attenuationDistance > 0))
-    throw Error(location + ".attenuationDistance", "is out of range", "a positive distance in metres",
-                fmt::to_string(result.attenuationDistance));
+  result.attenuationDistance = checked.replaced("attenuationDistance", material.attenuationDistance,
+                                                std::numeric_limits<double>::min(), kInfinity, kInfinity);
   // Without a volume, or with one of thickness 0, KHR_materials_volume makes the material thin-walled.
   result.isThinWalled = result.transmission > 0 && !result.hasVolume;
   if (result.transmission > 0 && result.hasVolume && result.baseColour != glm::dvec3(1.0))

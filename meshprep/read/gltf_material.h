@@ -14,8 +14,9 @@
 
 namespace malus::prep {
 
-// location: "FILE: materials[0]". Throws Error if a number is out of the range of glTF and its extensions.
+// location: "materials[0]". A number out of the range of glTF and its extensions is clamped with a note, or replaced by
+// the default if the range has no end; if `strict` it is an Error.
 SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& location,
-                            std::vector<std::string>& notes);
+                            std::vector<std::string>& notes, bool strict = false);
 
 }  // namespace malus::prep

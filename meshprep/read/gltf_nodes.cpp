@@ -139,7 +139,13 @@ std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::s
     const auto [index, worldFromParent] = stack.back();
     stack.pop_back();
     const gltf::Node& node = document.nodes[index];
-    const glm::dmat4 worldFromObject = worldFromParent * localTransform(node, nodeLocation(where, index));
+    glm::dmat4 worldFromObject(1.0);
+    try {
+      worldFromObject = worldFromParent * localTransform(node, nodeLocation(where, index));
+    } catch (const Error& error) {
+      leaveOut(error);
+      continue;
+    }
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       stack.emplace_back(*child, worldFromObject);
     if (!node.mesh) continue;

@@ -20,9 +20,10 @@ struct GltfPlacement {
 };
 
 // Returns the placements in depth-first order. Adds notes about ignored content. Calls leaveOut(error) for a node whose
-// mesh does not exist or whose transform is singular or out of range. Throws Error: a node or scene that does not
-// exist, a node with two parents, a cycle, a scene with a duplicate node or one that has a parent, a matrix whose last
-// row is not (0, 0, 0, 1), a rotation of length 0, more than `most` placements.
+// mesh does not exist or whose transform is singular or out of range, and for a node and its descendants if its matrix
+// has a last row other than (0, 0, 0, 1) or its rotation has length 0. Throws Error: a node or scene that does not
+// exist, a node with two parents, a cycle, a scene with a duplicate node or one that has a parent, more than `most`
+// placements.
 std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
                                           std::vector<std::string>& notes,
                                           const std::function<void(const Error&)>& leaveOut);

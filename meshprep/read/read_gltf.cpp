@@ -312,8 +312,8 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
 
   // Convert the materials.
   for (std::size_t i = 0; i < document.materials.size(); ++i)
-    scene.materials.push_back(
-        gltfMaterial(document.materials[i], fmt::format("{}: materials[{}]", where, i), scene.notes));
+    scene.materials.push_back(gltfMaterial(
+        document.materials[i], fmt::format("{}materials[{}]", strict ? where + ": " : "", i), scene.notes, strict));
 
   // Place the meshes. Meshes without a placement are not read.
   const std::vector<GltfPlacement> placements =

@@ -36,18 +36,18 @@ Format detectFormat(const std::filesystem::path& path, std::string& extension) {
               extension.empty() ? "no extension" : extension);
 }
 
-Scan scanFile(Format format, std::string& bytes, const std::string& where) {
+Scan scanFile(Format format, std::string& bytes, const std::string& where, bool strict) {
   switch (format) {
     case Format::kObj:
-      return scanObj(bytes, where);
+      return scanObj(bytes, where, strict);
     case Format::kPly:
-      return scanPly(bytes, where);
+      return scanPly(bytes, where, strict);
     case Format::kStl:
-      return scanStl(bytes, where);
+      return scanStl(bytes, where, strict);
     case Format::kOff:
       break;
   }
-  return scanOff(bytes, where);
+  return scanOff(bytes, where, strict);
 }
 
 }  // namespace
@@ -64,10 +64,16 @@ Polygons readMesh(const std::filesystem::path& path, bool strict) {
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
     throw Error(where, "file is UTF-16 text", "ASCII or UTF-8");
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);
-  Scan scan = scanFile(format, bytes, where);
+  Scan scan = scanFile(format, bytes, where, strict);
   const Polygons& polygons = scan.polygons;
-  if (polygons.positions.empty()) throw Error(where, "file has no vertices", "a mesh");
-  if (polygons.faceCount() == 0) throw Error(where, "file has no faces", "a mesh");
+  if (polygons.positions.empty()) {
+    if (scan.firstInvalid) throw Error(*scan.firstInvalid);
+    throw Error(where, "file has no vertices", "a mesh");
+  }
+  if (polygons.faceCount() == 0) {
+    if (scan.firstInvalid) throw Error(*scan.firstInvalid);
+    throw Error(where, "file has no faces", "a mesh");
+  }
   const std::size_t mostCorners = kMinCornerLimit + kMaxCornersPerVertex * polygons.positions.size();
   if (polygons.corners.size() > mostCorners)
     throw Error(where, "too many corners",

@@ -14,6 +14,7 @@
 
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/read/invalid_parts.h"
 #include "meshprep/read/scan.h"
 
 namespace malus::prep {
@@ -78,11 +79,29 @@ SourceMaterial convertMaterial(const Statements& from, std::vector<std::string>&
   return result;
 }
 
+// Reports a number out of range, which convertMaterial() clamps.
+void requireRange(std::string_view keyword, double value, const Lines& at, InvalidParts& invalid) {
+  constexpr std::array<std::string_view, 7> kShares = {"Kd", "Ks", "Tf", "Tr", "d", "Pm", "Pr"};
+  const bool isShare = std::find(kShares.begin(), kShares.end(), keyword) != kShares.end();
+  const bool isPositive = keyword == "Ke" || keyword == "Ns";
+  if ((!isShare && !isPositive) || (value >= 0 && (isPositive || value <= 1))) return;
+  try {
+    at.fail(fmt::format("{} is out of range and is clamped", keyword), isShare ? "0 to 1" : "0 or more",
+            fmt::to_string(value));
+  } catch (const Error& error) {
+    invalid.addReplaced("values of materials", error);
+  }
+}
+
 // Parses one statement of a material.
 void parseStatement(std::string_view keyword, std::string_view rest, const Lines& at, Statements& material,
-                    std::vector<std::string>& notes) {
+                    std::vector<std::string>& notes, InvalidParts& invalid) {
   const auto note = [&](std::string text) { addNote(notes, std::move(text)); };
-  const auto number = [&] { return coordinate(takeWord(rest), at); };
+  const auto number = [&] {
+    const double value = coordinate(takeWord(rest), at);
+    requireRange(keyword, value, at, invalid);
+    return value;
+  };
   const auto colour = [&](std::optional<glm::dvec3>& value) {
     std::string_view ahead = rest;
     const std::string_view first = takeWord(ahead);
@@ -136,12 +155,15 @@ void parseStatement(std::string_view keyword, std::string_view rest, const Lines
 
 }  // namespace
 
-std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, std::vector<std::string>& notes) {
+std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, std::vector<std::string>& notes,
+                                     bool strict) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw Error(where, "file is UTF-16 text", "ASCII or UTF-8");
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
   const bool padded = removePadding(text);
   std::vector<Statements> statements;
+  InvalidParts invalid(strict);
+  bool isNamed = false;  // the current material has a name
   Lines lines(text, where);
   while (lines.nextStatement('#')) {
     std::string_view rest = lines.line();
@@ -150,7 +172,12 @@ std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, s
       lines.cutSeparateComment('#');
       rest = lines.line().substr(keyword.size());
       rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-      if (rest.empty()) lines.fail("material without a name", "newmtl NAME");
+      isNamed = !rest.empty();
+      if (!isNamed) {
+        invalid.add("materials",
+                    Error(fmt::format("{}:{}", where, lines.number()), "material without a name", "newmtl NAME"));
+        continue;
+      }
       if (statements.size() == kMaxMaterials)
         lines.fail("too many materials", fmt::format("at most {}", kMaxMaterials));
       statements.emplace_back();
@@ -159,9 +186,14 @@ std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, s
     }
     lines.cutComment('#');
     rest = lines.line().substr(keyword.size());
-    if (statements.empty()) lines.fail("statement outside of a material", "newmtl NAME first", quoted(keyword));
-    parseStatement(keyword, rest, lines, statements.back(), notes);
+    try {
+      if (!isNamed) lines.fail("statement outside of a material", "newmtl NAME first", quoted(keyword));
+      parseStatement(keyword, rest, lines, statements.back(), notes, invalid);
+    } catch (const Error& error) {
+      invalid.add("statements", error);
+    }
   }
+  invalid.addNotes(notes);
   std::vector<SourceMaterial> materials;
   materials.reserve(statements.size());
   for (const Statements& material : statements) materials.push_back(convertMaterial(material, notes));
@@ -171,8 +203,8 @@ std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, s
   return materials;
 }
 
-std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notes) {
-  return parseMtl(readTextFile(path), path.string(), notes);
+std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notes, bool strict) {
+  return parseMtl(readTextFile(path), path.string(), notes, strict);
 }
 
 namespace {
@@ -234,7 +266,8 @@ std::vector<std::filesystem::path> listMaterialFiles(const std::filesystem::path
   return files;
 }
 
-void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files) {
+void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files,
+                       bool strict) {
   // Read the descriptions by name.
   std::map<std::string, SourceMaterial> described;
   std::vector<std::string> missing;
@@ -247,7 +280,14 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
       missing.push_back(path.filename().string());
       continue;
     }
-    for (SourceMaterial& material : readMtl(path, scene.notes)) {
+    std::vector<SourceMaterial> materials;
+    try {
+      materials = readMtl(path, scene.notes, strict);
+    } catch (const Error& error) {
+      if (strict) throw;
+      addNote(scene.notes, fmt::format("a material file: {}", error.what()));
+    }
+    for (SourceMaterial& material : materials) {
       const std::string name = material.name;
       if (!described.emplace(name, std::move(material)).second)
         addNote(scene.notes, fmt::format("a duplicate material {}", prep::quoted(name)));

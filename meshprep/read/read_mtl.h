@@ -18,7 +18,8 @@
 //
 // Comments after a statement are accepted with a note; in a newmtl statement, blanks must enclose their '#'.
 //
-// A single number stands for three equal ones. Numbers out of range are clamped.
+// A single number stands for three equal ones. Numbers out of range are clamped, with a note. A statement that is
+// invalid or outside of a material is left out with a note.
 //
 // Source: Wavefront Technologies, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1, "MTL format"; width
 // of the lobe: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Pm
@@ -35,16 +36,19 @@
 namespace malus::prep {
 
 // Returns the materials in the order of the file, including duplicate names. `where` is the path for messages. Throws
-// Error at "WHERE:LINE": a number that is missing or not finite, a statement before the first newmtl, bytes that are
-// not text.
-std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, std::vector<std::string>& notes);
-std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notes);
+// Error at "WHERE:LINE": bytes that are not text, too many materials or invalid statements; and if `strict`, an invalid
+// statement (a number that is missing, not finite or out of range, a statement before the first newmtl).
+std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, std::vector<std::string>& notes,
+                                     bool strict = false);
+std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notes,
+                                    bool strict = false);
 
 // Sets the scene's materials, which must have names, by the files of the mtllib statements. The first description of a
 // name is used; others leave a note. A material without description leaves a note, with the missing files, and becomes
 // diffuse with base colour 0.8. If a name has no description, the description of the same name up to a '#' is used,
-// with a note.
-void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files);
+// with a note. A file that cannot be read leaves a note, or an Error if `strict`.
+void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, const std::vector<std::string>& files,
+                       bool strict = false);
 
 // Returns the files of mtllib statements: the whole argument if that is a file, otherwise its words. If there is no
 // such file, backslashes are read as slashes, and quotes and the text from a '#' on are ignored.

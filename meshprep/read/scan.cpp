@@ -14,6 +14,14 @@ void noteAccepted(Polygons& polygons, std::string_view what) {
   noteOnce(polygons, std::string(kAcceptedNote) + std::string(what));
 }
 
+void leaveOutInvalid(Scan& scan, InvalidParts& invalid, std::string_view where) {
+  dropInvalidFaces(scan.polygons, invalid, where);
+  if (!invalid.any()) return;
+  invalid.addNotes(scan.polygons.notes);
+  scan.firstInvalid = invalid.first();
+  scan.openMeshReads = false;
+}
+
 void noteLines(Polygons& polygons, const Lines& lines) {
   if (lines.hasCrLineEnds()) noteAccepted(polygons, "CR line ends");
   if (lines.hasCutComments()) noteAccepted(polygons, "comments at line ends");

@@ -1,9 +1,9 @@
 // Wavefront OBJ: positions, faces, corner normals, groups, objects, names of materials and smoothing groups. Texture
 // coordinates, colours, points, lines and faces of fewer than three corners are ignored with a note. Comments after a
 // statement and empty slots of corners ("1/", "1//") are accepted with a note; in a statement with names, blanks must
-// enclose the '#' of a comment. Free-form surfaces, statements that include a file and unknown statements are errors. A
-// backslash does not continue a comment. Source: Wavefront Technologies, "Object Files (.obj)", Advanced Visualizer
-// Manual, appendix B1.
+// enclose the '#' of a comment. Invalid vertices, normals, faces and smoothing groups, and unknown statements
+// (free-form surfaces, statements that include a file) are left out; a vertex keeps its number. A backslash does not
+// continue a comment. Source: Wavefront Technologies, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -52,9 +52,10 @@ constexpr std::array<std::string_view, 3> kKinds = {"vertex", "texture coordinat
 
 class ObjScan {
  public:
-  ObjScan(std::string& bytes, std::string_view where) : lines_(bytes, where), where_(where) {}
+  ObjScan(std::string& bytes, std::string_view where, bool strict)
+      : lines_(bytes, where), where_(where), strict_(strict), invalid_(strict) {}
 
-  Polygons run() {
+  Scan run() {
     while (lines_.nextStatement('#')) {
       joinStatement();
       std::string_view rest = lines_.line();
@@ -69,16 +70,20 @@ class ObjScan {
       }
     }
     finish();
-    return std::move(polygons_);
+    Scan scan;
+    scan.polygons = std::move(polygons_);
+    leaveOutInvalid(scan, invalid_, where_);
+    return scan;
   }
 
  private:
   void joinStatement();
   void scanVertex(std::string_view rest);
+  glm::dvec3 parsePosition(std::string_view rest);
   void scanFace(std::string_view rest);
   void scanCorner(std::string_view word);
   void acceptEmptySlots(std::string_view corner);
-  long long resolve(std::string_view word, std::size_t kind);
+  long long resolve(std::string_view word, std::size_t kind) const;
   void scanNormal(std::string_view rest);
   void scanSmoothing(std::string_view rest);
   void scanMaterialFiles(std::string_view rest);
@@ -87,6 +92,8 @@ class ObjScan {
 
   Lines lines_;
   std::string_view where_;
+  bool strict_;
+  InvalidParts invalid_;
   Polygons polygons_;
   PartList parts_;
 
@@ -112,6 +119,19 @@ void ObjScan::joinStatement() {
 }
 
 void ObjScan::scanVertex(std::string_view rest) {
+  glm::dvec3 position(0);
+  try {
+    position = parsePosition(rest);
+  } catch (const Error& error) {
+    position = kInvalidPosition;  // here: GCC 12 assigns the result of a call that throws
+    invalid_.add("vertices", error);
+  }
+  polygons_.positions.push_back(position);
+  polygons_.vertexLocations.push_back(lines_.number());
+  ++counts_[0];
+}
+
+glm::dvec3 ObjScan::parsePosition(std::string_view rest) {
   std::array<double, 7> numbers{};  // x y z, or with a colour: x y z r g b, x y z r g b a, x y z weight r g b
   std::size_t count = 0;
   const char* afterPosition = nullptr;
@@ -127,14 +147,19 @@ void ObjScan::scanVertex(std::string_view rest) {
     lines_.fail("rational vertex is not supported", "a weight of 1", fmt::to_string(numbers[3]));
   if (count == 7) lines_.blank(static_cast<std::size_t>(afterPosition - lines_.line().data()));
   if (count > 4) noteOnce(polygons_, "colours of vertices");
-  polygons_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
-  polygons_.vertexLocations.push_back(lines_.number());
-  ++counts_[0];
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 void ObjScan::scanFace(std::string_view rest) {
   const std::size_t first = polygons_.corners.size();
-  for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) scanCorner(word);
+  try {
+    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) scanCorner(word);
+  } catch (const Error& error) {
+    polygons_.corners.resize(first);
+    if (!normalOf_.empty()) normalOf_.resize(first);
+    invalid_.add("faces", error);
+    return;
+  }
   const std::size_t corners = polygons_.corners.size() - first;
   if (corners < 3) noteOnce(polygons_, kFewCorners);
   polygons_.closeFace();
@@ -177,7 +202,7 @@ void ObjScan::acceptEmptySlots(std::string_view corner) {
 }
 
 // Converts an index from 1, or from -1 for the last vertex so far, to one from 0. finish() checks the upper bound.
-long long ObjScan::resolve(std::string_view word, std::size_t kind) {
+long long ObjScan::resolve(std::string_view word, std::size_t kind) const {
   const long long index = wholeNumber(word, "integers as v, v/vt, v//vn or v/vt/vn", lines_);
   const long long resolved = index > 0 ? index - 1 : counts_[kind] + index;
   if (index == 0 || resolved < 0 || resolved > kMaxIndex)
@@ -186,10 +211,16 @@ long long ObjScan::resolve(std::string_view word, std::size_t kind) {
   return resolved;
 }
 
+// An invalid normal has length 0, as a corner without one.
 void ObjScan::scanNormal(std::string_view rest) {
   glm::dvec3 n(0);
-  for (int axis = 0; axis < 3; ++axis) n[axis] = coordinate(takeWord(rest), lines_);
-  if (!takeWord(rest).empty()) lines_.fail("too many numbers in a normal", "x y z");
+  try {
+    for (int axis = 0; axis < 3; ++axis) n[axis] = coordinate(takeWord(rest), lines_);
+    if (!takeWord(rest).empty()) lines_.fail("too many numbers in a normal", "x y z");
+  } catch (const Error& error) {
+    n = glm::dvec3(0);
+    invalid_.add("normals", error);
+  }
   normals_.emplace_back(n);
   ++counts_[2];
 }
@@ -215,12 +246,26 @@ void ObjScan::scanOther(std::string_view keyword, std::string_view rest) {
   if (keyword == "vn") return scanNormal(rest);
   if (keyword == "g" || keyword == "o") return parts_.setName(parseName(rest, lines_));
   if (keyword == "usemtl") return parts_.setMaterial(parseName(rest, lines_));
-  if (keyword == "s") return scanSmoothing(rest);
+  if (keyword == "s") {
+    try {
+      scanSmoothing(rest);
+    } catch (const Error& error) {
+      smoothingGroup_ = 0;
+      invalid_.add("smoothing groups", error);
+    }
+    return;
+  }
   if (keyword == "mtllib") return scanMaterialFiles(rest);
   const auto* const skipped =
       std::find_if(kSkipped.begin(), kSkipped.end(), [&](const Skipped& s) { return s.keyword == keyword; });
-  if (skipped == kSkipped.end())
-    lines_.fail("unknown statement", "a statement of a polygonal OBJ file", quoted(keyword));
+  if (skipped == kSkipped.end()) {
+    try {
+      lines_.fail("unknown statement", "a statement of a polygonal OBJ file", quoted(keyword));
+    } catch (const Error& error) {
+      invalid_.add("statements", error);
+    }
+    return;
+  }
   if (keyword == "vt") ++counts_[1];
   noteOnce(polygons_, skipped->note);
 }
@@ -228,16 +273,18 @@ void ObjScan::scanOther(std::string_view keyword, std::string_view rest) {
 void ObjScan::finish() {
   noteLines(polygons_, lines_);
 
-  // Check the highest indices: a corner may refer to a vertex that follows it.
+  // Check the highest indices: a corner may refer to a vertex that follows it. Faces without a vertex are removed
+  // later; texture coordinates have no effect, and a corner without a normal gets one.
   for (std::size_t kind = 0; kind < 3; ++kind)
-    if (highest_[kind] >= counts_[kind])
-      throw Error(fmt::format("{}:{}", where_, highestAt_[kind]), fmt::format("invalid {} index", kKinds[kind]),
-                  fmt::format("1 to {}", counts_[kind]), fmt::to_string(highest_[kind] + 1));
+    if (highest_[kind] >= counts_[kind] && (kind > 0 || strict_))
+      invalid_.add(fmt::format("{} indices", kKinds[kind]),
+                   Error(fmt::format("{}:{}", where_, highestAt_[kind]), fmt::format("invalid {} index", kKinds[kind]),
+                         fmt::format("1 to {}", counts_[kind]), fmt::to_string(highest_[kind] + 1)));
 
   // Resolve the normals of the corners.
   polygons_.cornerNormals.reserve(normalOf_.size());
   for (const std::uint32_t normal : normalOf_)
-    polygons_.cornerNormals.push_back(normal == kNoNormal ? glm::vec3(0) : normals_[normal]);
+    polygons_.cornerNormals.push_back(normal < normals_.size() ? normals_[normal] : glm::vec3(0));
 
   // Drop the list of parts if it is one part without name and material.
   polygons_.parts = parts_.take();
@@ -249,10 +296,9 @@ void ObjScan::finish() {
 
 }  // namespace
 
-Scan scanObj(std::string& bytes, std::string_view where) {
-  Scan scan;
+Scan scanObj(std::string& bytes, std::string_view where, bool strict) {
   const bool padded = removePadding(bytes);
-  scan.polygons = ObjScan(bytes, where).run();
+  Scan scan = ObjScan(bytes, where, strict).run();
   if (padded) noteOnce(scan.polygons, kPaddingNote);
   return scan;
 }

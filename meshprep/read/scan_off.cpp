@@ -57,7 +57,8 @@ void blankFrom(std::string_view rest, Lines& lines) {
 // Reads a file from its header to its last face.
 class OffScanner {
  public:
-  OffScanner(std::string& bytes, std::string_view where) : bytes_(bytes), where_(where), lines_(bytes, where) {}
+  OffScanner(std::string& bytes, std::string_view where, bool strict)
+      : bytes_(bytes), where_(where), lines_(bytes, where), invalid_(strict) {}
 
   Scan scan() {
     scanFirstLine();
@@ -67,6 +68,7 @@ class OffScanner {
     if (lines_.nextStatement('#'))
       lines_.fail("content after the elements of the header", "the end of the file", quoted(lines_.line()));
     noteLines(scan_.polygons, lines_);
+    leaveOutInvalid(scan_, invalid_, where_);
     bytes_.erase(0, headerBegin_);  // OpenMesh expects the header in the first line
     return std::move(scan_);
   }
@@ -128,20 +130,38 @@ class OffScanner {
   void scanVertex(std::size_t i) {
     Polygons& polygons = scan_.polygons;
     std::string_view rest = nextLine(fmt::format("{} vertices, of which {} were read", vertices_, i));
-    polygons.positions.push_back(scanVector(rest));
+    polygons.positions.push_back(kInvalidPosition);
     polygons.vertexLocations.push_back(lines_.number());
+    if (header_.normals) polygons.normals.emplace_back(0);
     std::string_view more = rest;
-    if (header_.normals) polygons.normals.emplace_back(scanVector(more));
+    try {
+      const glm::dvec3 position = scanVector(rest);
+      more = rest;
+      if (header_.normals) polygons.normals.back() = glm::vec3(scanVector(more));
+      polygons.positions.back() = position;
+    } catch (const Error& error) {
+      return invalid_.add("vertices", error);
+    }
     if (!takeWord(more).empty())
       noteOnce(polygons, header_.textured && !header_.coloured ? "texture coordinates" : "colours of vertices");
     if (header_.textured && header_.coloured) noteOnce(polygons, "texture coordinates");
     blankFrom(rest, lines_);
   }
 
-  // Parses a line with a face: number of corners, corners, optional colour.
   void scanFace(std::size_t i) {
+    const std::string_view rest = nextLine(fmt::format("{} faces, of which {} were read", faces_, i));
+    const std::size_t first = scan_.polygons.corners.size();
+    try {
+      parseFace(rest);
+    } catch (const Error& error) {
+      scan_.polygons.corners.resize(first);
+      invalid_.add("faces", error);
+    }
+  }
+
+  // Parses a line with a face: number of corners, corners, optional colour.
+  void parseFace(std::string_view rest) {
     Polygons& polygons = scan_.polygons;
-    std::string_view rest = nextLine(fmt::format("{} faces, of which {} were read", faces_, i));
     const long long corners = wholeNumber(takeWord(rest), "a number of corners", lines_);
     if (corners < 0) lines_.fail("invalid number of corners", "0 or more", fmt::to_string(corners));
     if (corners < 3) noteOnce(polygons, kFewCorners);
@@ -163,6 +183,7 @@ class OffScanner {
   std::string& bytes_;
   std::string_view where_;
   Lines lines_;
+  InvalidParts invalid_;
   Header header_;
   std::size_t headerBegin_ = 0, vertices_ = 0, faces_ = 0;
   std::string_view rest_;  // of the line with the counts
@@ -171,9 +192,9 @@ class OffScanner {
 
 }  // namespace
 
-Scan scanOff(std::string& bytes, std::string_view where) {
+Scan scanOff(std::string& bytes, std::string_view where, bool strict) {
   const bool padded = removePadding(bytes);
-  Scan scan = OffScanner(bytes, where).scan();
+  Scan scan = OffScanner(bytes, where, strict).scan();
   if (padded) noteOnce(scan.polygons, kPaddingNote);
   return scan;
 }

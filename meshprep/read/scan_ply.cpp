@@ -26,18 +26,22 @@ using ply::Role;
 
 class PlyScan {
  public:
-  PlyScan(const ply::Header& header, ply::Source& source) : header_(header), source_(source) {
+  PlyScan(const ply::Header& header, ply::Source& source, bool strict)
+      : header_(header), source_(source), invalid_(strict) {
     polygons_.locationsAreBytes = source.locationsAreBytes();
   }
 
-  Polygons run() {
+  Scan run(std::string_view where) {
     for (const Element& element : header_.elements) scanElement(element);
     source_.endFile();
     if (source_.hasPadding()) noteOnce(polygons_, kPaddingNote);
     if (header_.hasCrLineEnds || source_.hasCrLineEnds()) noteAccepted(polygons_, "CR line ends");
     if (header_.hasCrLfLineEnds && source_.locationsAreBytes())
       noteAccepted(polygons_, "CR LF line ends in the header of a binary file");
-    return std::move(polygons_);
+    Scan scan;
+    scan.polygons = std::move(polygons_);
+    leaveOutInvalid(scan, invalid_, where);
+    return scan;
   }
 
  private:
@@ -47,12 +51,15 @@ class PlyScan {
   void scanStrip(const Property& list);
   void addStripTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   std::size_t listLength(const Property& list);
-  std::uint32_t corner(std::int64_t index) const;
+  double coordinate(ply::Type type);
+  std::uint32_t corner(std::int64_t index);
   void skip(const Property& property);
   void noteSkipped(const Element& element);
 
   const ply::Header& header_;
   ply::Source& source_;
+  InvalidParts invalid_;
+  bool isValid_ = true;  // false: a coordinate of the current vertex is not
   Polygons polygons_;
 };
 
@@ -92,16 +99,17 @@ void PlyScan::scanElement(const Element& element) {
 
 void PlyScan::scanVertex(const Element& element) {
   glm::dvec3 p(0), n(0);
+  isValid_ = true;
   for (const Property& property : element.properties) {
     if (property.role >= Role::kX && property.role <= Role::kZ) {
-      p[static_cast<int>(property.role) - static_cast<int>(Role::kX)] = source_.coordinate(property.type);
+      p[static_cast<int>(property.role) - static_cast<int>(Role::kX)] = coordinate(property.type);
     } else if (property.role >= Role::kNormalX && property.role <= Role::kNormalZ) {
       n[static_cast<int>(property.role) - static_cast<int>(Role::kNormalX)] = source_.real(property.type);
     } else {
       skip(property);
     }
   }
-  polygons_.positions.push_back(p);
+  polygons_.positions.push_back(isValid_ ? p : kInvalidPosition);
   polygons_.vertexLocations.push_back(source_.location());
   if (!header_.hasNormals) return;
   constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max());
@@ -151,11 +159,33 @@ std::size_t PlyScan::listLength(const Property& list) {
   return static_cast<std::size_t>(length);
 }
 
-std::uint32_t PlyScan::corner(std::int64_t index) const {
-  if (index < 0 || static_cast<std::uint64_t>(index) >= header_.vertices)
+// Returns a coordinate of the current vertex. The end of the file is an error.
+double PlyScan::coordinate(ply::Type type) {
+  constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max());
+  double value = 0;
+  if (source_.locationsAreBytes()) value = source_.real(type);
+  try {
+    if (!source_.locationsAreBytes()) value = source_.coordinate(type);
+    if (!(std::abs(value) <= kLargest))
+      source_.fail(fmt::format("invalid number in vertex {}", polygons_.positions.size()),
+                   "a finite number within the range of float", fmt::to_string(value));
+  } catch (const Error& error) {
+    if (isValid_) invalid_.add("vertices", error);
+    isValid_ = false;
+  }
+  return value;
+}
+
+// Returns the index, or kInvalidCorner.
+std::uint32_t PlyScan::corner(std::int64_t index) {
+  if (index >= 0 && static_cast<std::uint64_t>(index) < header_.vertices) return static_cast<std::uint32_t>(index);
+  try {
     source_.fail("invalid vertex index", fmt::format("an index of 0 or more and below {}", header_.vertices),
                  fmt::to_string(index));
-  return static_cast<std::uint32_t>(index);
+  } catch (const Error& error) {
+    invalid_.add("vertex indices", error);
+  }
+  return kInvalidCorner;
 }
 
 void PlyScan::skip(const Property& property) {
@@ -179,16 +209,15 @@ void PlyScan::noteSkipped(const Element& element) {
 
 }  // namespace
 
-Scan scanPly(std::string& bytes, std::string_view where) {
+Scan scanPly(std::string& bytes, std::string_view where, bool strict) {
   // Text may be padded too.
   constexpr std::string_view kText = "format ascii";
   const bool padded = bytes.find(kText) < bytes.find("end_header") && removePadding(bytes);
   const ply::Header header = ply::scanHeader(bytes, where);
   const std::unique_ptr<ply::Source> source = ply::openSource(bytes, where, header);
-  Scan scan;
-  scan.polygons = PlyScan(header, *source).run();
+  Scan scan = PlyScan(header, *source, strict).run(where);
   if (padded) noteOnce(scan.polygons, kPaddingNote);
-  scan.openMeshReads = header.openMeshReads;
+  scan.openMeshReads = scan.openMeshReads && header.openMeshReads;
   return scan;
 }
 

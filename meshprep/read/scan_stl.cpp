@@ -34,8 +34,9 @@ bool equalsIgnoringCase(std::string_view word, std::string_view lower) {
   return true;
 }
 
-Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t faces) {
+Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t faces, bool strict) {
   Scan scan;
+  InvalidParts invalid(strict);
   scan.isBinary = true;
   Polygons& polygons = scan.polygons;
   polygons.locationsAreBytes = true;
@@ -55,9 +56,11 @@ Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t face
       for (int axis = 0; axis < 3; ++axis, offset += 4) {
         p[axis] = static_cast<double>(std::bit_cast<float>(littleEndian(bytes, offset)));
         if (!std::isfinite(p[axis]))
-          throw Error(fmt::format("{}, byte {}", where, offset), fmt::format("invalid number in face {}", f),
-                      "a finite number", fmt::to_string(p[axis]));
+          invalid.add("numbers",
+                      Error(fmt::format("{}, byte {}", where, offset), fmt::format("invalid number in face {}", f),
+                            "a finite number", fmt::to_string(p[axis])));
       }
+      if (!std::isfinite(p.x + p.y + p.z)) p = kInvalidPosition;
       polygons.corners.push_back(static_cast<std::uint32_t>(polygons.positions.size()));
       polygons.positions.push_back(p);
     }
@@ -66,6 +69,7 @@ Scan scanBinary(std::string_view bytes, std::string_view where, std::size_t face
     coloured = coloured || bytes[attribute] != 0 || bytes[attribute + 1] != 0;
   }
   if (coloured) noteOnce(polygons, "colours of faces");
+  leaveOutInvalid(scan, invalid, where);
   return scan;
 }
 
@@ -78,8 +82,9 @@ std::string_view expectWords(std::string_view expected, const Lines& at) {
   return rest;
 }
 
-Scan scanAscii(std::string& bytes, std::string_view where) {
+Scan scanAscii(std::string& bytes, std::string_view where, bool strict) {
   Scan scan;
+  InvalidParts invalid(strict);
   Polygons& polygons = scan.polygons;
   Lines lines(bytes, where);
   const auto nextLine = [&](std::string_view expected) {
@@ -120,8 +125,13 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
         if (lines.number() != expectedNumber) scan.openMeshReads = false;
         rest = expectWords("vertex", lines);
         glm::dvec3 p(0);
-        for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
-        if (!takeWord(rest).empty()) lines.fail("too many numbers in a corner", "x y z");
+        try {
+          for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(takeWord(rest), lines);
+          if (!takeWord(rest).empty()) lines.fail("too many numbers in a corner", "x y z");
+        } catch (const Error& error) {
+          p = kInvalidPosition;
+          invalid.add("vertices", error);
+        }
         polygons.corners.push_back(static_cast<std::uint32_t>(polygons.positions.size()));
         polygons.positions.push_back(p);
         polygons.vertexLocations.push_back(lines.number());
@@ -135,6 +145,7 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
   }
   if (inSolid) throw Error(where, "unexpected end of file", "endsolid");
   noteLines(polygons, lines);
+  leaveOutInvalid(scan, invalid, where);
 
   // Drop the list of parts if it is one unnamed part.
   if (polygons.parts == std::vector<Part>{Part{}}) {
@@ -146,14 +157,14 @@ Scan scanAscii(std::string& bytes, std::string_view where) {
 
 }  // namespace
 
-Scan scanStl(std::string& bytes, std::string_view where) {
+Scan scanStl(std::string& bytes, std::string_view where, bool strict) {
   // Decide by size, because binary files may begin with "solid" too.
   if (bytes.size() >= kHeaderBytes) {
     const std::size_t faces = littleEndian(bytes, 80), size = kHeaderBytes + faces * kFaceBytes;
     if (size <= bytes.size() && isPadding(std::string_view(bytes).substr(size))) {
       const bool padded = size < bytes.size();
       bytes.resize(size);
-      Scan scan = scanBinary(bytes, where, faces);
+      Scan scan = scanBinary(bytes, where, faces, strict);
       if (padded) noteOnce(scan.polygons, kPaddingNote);
       return scan;
     }
@@ -161,7 +172,7 @@ Scan scanStl(std::string& bytes, std::string_view where) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && equalsIgnoringCase(std::string_view(bytes).substr(first, 5), "solid")) {
     const bool padded = removePadding(bytes);
-    Scan scan = scanAscii(bytes, where);
+    Scan scan = scanAscii(bytes, where, strict);
     if (padded) noteOnce(scan.polygons, kPaddingNote);
     return scan;
   }

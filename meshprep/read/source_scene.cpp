@@ -113,10 +113,10 @@ SourceScene splitByMaterial(Polygons polygons) {
 
 SourceScene readSourceScene(const std::filesystem::path& path, bool strict) {
   if (isGltf(path)) return readGltf(path, strict);
-  Polygons polygons = readMesh(path);
+  Polygons polygons = readMesh(path, strict);
   const std::vector<std::string> files = polygons.materialFiles;
   SourceScene scene = splitByMaterial(std::move(polygons));
-  if (!scene.materials.empty() || !files.empty()) describeMaterials(scene, path, files);
+  if (!scene.materials.empty() || !files.empty()) describeMaterials(scene, path, files, strict);
   for (std::size_t i = 0; i < scene.parts.size(); ++i)
     if (scene.parts[i].name.empty()) scene.parts[i].name = scene.instances[i].name = path.stem().string();
   return scene;

@@ -137,10 +137,13 @@ TEST(ReadLimits, ObjOfLongLines) {
   expectRefused(".obj", kPoints + kFace + fill("\\\n"), "continued lines without an end");
   expectRead(".obj", kPoints + kFace + "#" + fill("x"), "a comment");
   expectRefused(".obj", kPoints + kFace + "g " + fill("x"), "a name");
-  expectRefused(".obj", kPoints + kFace + fill("x"), "a keyword");
-  expectRefused(".obj", kPoints + kFace + "f " + fill("1/"), "a corner");
+  expectRead(".obj", kPoints + kFace + fill("x"), "a keyword");
+  expectRead(".obj", kPoints + kFace + "f " + fill("1/"), "a corner");
   expectRead(".obj", kPoints + kFace + "v 0 0 0" + fill("0"), "a number of zeros");
-  expectRefused(".obj", kPoints + kFace + "v 0 0 1" + fill("0"), "a number");
+  expectRead(".obj", kPoints + kFace + "v 0 0 1" + fill("0"), "a number");
+  expectRead(".obj", kPoints + kFace + "v x\n" + fill("f 1 2 4\n"), "faces of an invalid vertex");
+  expectRefused(".obj", kPoints + kFace + fill("f x\n"), "invalid faces");
+  expectRefused(".obj", kPoints + kFace + fill("v x\n"), "invalid vertices");
   expectRead(".obj", kPoints + kFace + fill(" "), "blanks");
 }
 

@@ -22,7 +22,7 @@ SourceMaterial one(const std::string& statements) {
 std::string errorIn(const std::string& text) {
   return errorMessage([&] {
     std::vector<std::string> ignored;
-    parseMtl(text, "a.mtl", ignored);
+    parseMtl(text, "a.mtl", ignored, true);
   });
 }
 
@@ -175,6 +175,43 @@ TEST(ReadMtl, ReportsTheLineOfInvalidStatements) {
   EXPECT_CONTAINS(errorIn("\xff\xfen"), "UTF-16");
   EXPECT_EQ(errorIn("\xef\xbb\xbfnewmtl a\n"), "");
   EXPECT_EQ(errorIn(""), "");
+}
+
+TEST(ReadMtl, LeavesOutInvalidStatements) {
+  std::vector<std::string> found;
+  const std::vector<SourceMaterial> materials = parseMtl(
+      "Kd 1 1 1\nnewmtl a\nKd 0.5 nan 0.5\nillum 99\nd 0.25\nnewmtl\nKd 0 0 0\nnewmtl b\nKd 0.5\n", "a.mtl", found);
+  ASSERT_EQ(materials.size(), 2u);
+  EXPECT_EQ(materials[0].baseColour, glm::dvec3(0.8));
+  EXPECT_EQ(materials[0].transmission, 0.75);
+  EXPECT_EQ(materials[1].baseColour, glm::dvec3(0.5));
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_CONTAINS(found[0], "invalid statements: 4", "a.mtl:1");
+  EXPECT_CONTAINS(found[1], "invalid materials: 1", "a.mtl:6");
+}
+
+TEST(ReadMtl, ReportsValuesThatAreClamped) {
+  for (const char* text : {"Kd 2 0 0\n", "Ks 0 -1 0\n", "d 1.5\n", "Tr -1\n", "Pm 3\n", "Ns -2\n", "Ke -1 0 0\n"}) {
+    one(text);
+    ASSERT_EQ(notes.size(), 1u) << text;
+    EXPECT_CONTAINS(notes[0], "a.mtl:2", "out of range", std::string(text).substr(0, 2));
+    EXPECT_CONTAINS(errorIn(std::string("newmtl m\n") + text), "a.mtl:2", "out of range");
+  }
+  one("Kd 1 0 1\nKs 1\nNs 1000\nKe 40 0 0\nd 1\n");
+  EXPECT_TRUE(notes.empty());
+}
+
+TEST(ReadMtl, AMaterialFileThatIsUnreadableIsLeftOut) {
+  const test::TemporaryFile file(".mtl", "\xff\xfen");
+  SourceScene scene;
+  scene.materials.resize(1);
+  scene.materials[0].name = "red";
+  const std::vector<std::string> files = {file.path().filename().string()};
+  describeMaterials(scene, file.path(), files);
+  EXPECT_EQ(scene.materials[0].baseColour, glm::dvec3(0.8));
+  ASSERT_EQ(scene.notes.size(), 2u);
+  EXPECT_CONTAINS(scene.notes[0], "material file", "UTF-16");
+  EXPECT_CONTAINS(errorMessage([&] { describeMaterials(scene, file.path(), files, true); }), "UTF-16");
 }
 
 TEST(ReadMtl, AcceptsBlanksInNames) {

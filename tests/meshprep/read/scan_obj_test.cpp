@@ -19,9 +19,12 @@ Polygons read(const std::string& text) { return test::readCrosschecked(".obj", t
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-// Expects an error with the location and this part of the message.
+// Expects an error of a strict reading, with the location and this part of the message.
 void expectRefused(const std::string& text, const std::string& location, const std::string& part) {
-  const std::string error = errorMessage([&] { read(text); });
+  const std::string error = errorMessage([&] {
+    const TemporaryFile file(".obj", text);
+    readMesh(file.path(), true);
+  });
   EXPECT_TRUE(contains(error, location)) << text << "\n" << error;
   EXPECT_TRUE(contains(error, part)) << text << "\n" << error;
 }
@@ -103,6 +106,40 @@ TEST(ScanObj, RefusesInvalidIndices) {
 TEST(ScanObj, RefusesInvalidFaces) {
   expectRefused(kSquare + "f 1/1/1/1 2 3\n", ".obj:5:", "v/vt");
   expectRefused(kSquare + "f /1 2 3\n", ".obj:5:", "nothing");
+}
+
+TEST(ScanObj, LeavesOutInvalidParts) {
+  // Invalid vertices keep their numbers; faces that use them, and invalid faces, are left out.
+  const Polygons polygons =
+      read(kSquare + "v nan 0 0\nv 2 0\nv 9 9 9\nvn 0 x 0\nvn 0 0 1\n" +
+           "s 1\ng a\nf 1 2 3\nf 1 2 5\ng b\nf 1 2 99\nf 1 x 3\nf 6 1 2\ns 2\nf 1//2 2//1 7//9\nf 0 1 2\nbmat a b\n");
+  EXPECT_EQ(polygons.positions.size(), 7u);
+  for (const glm::dvec3& p : polygons.positions) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+  EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 6}));
+  EXPECT_EQ(polygons.firstCorner, (std::vector<std::size_t>{0, 3, 6}));
+  EXPECT_EQ(polygons.smoothingGroups, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(polygons.partOf, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(polygons.faceLocations, (std::vector<std::uint64_t>{12, 19}));
+  ASSERT_EQ(polygons.cornerNormals.size(), 6u);
+  EXPECT_EQ(polygons.cornerNormals[3], glm::vec3(0, 0, 1));
+  EXPECT_EQ(polygons.cornerNormals[4], glm::vec3(0));  // invalid
+  EXPECT_EQ(polygons.cornerNormals[5], glm::vec3(0));  // missing
+  const auto hasNote = [&](std::string_view what, std::string_view location) {
+    return std::any_of(polygons.notes.begin(), polygons.notes.end(),
+                       [&](const std::string& note) { return contains(note, what) && contains(note, location); });
+  };
+  EXPECT_TRUE(hasNote("invalid vertices: 2", ".obj:5:"));
+  EXPECT_TRUE(hasNote("invalid normals: 1", ".obj:8:"));
+  EXPECT_TRUE(hasNote("invalid faces: 5", ".obj:16:"));
+  EXPECT_TRUE(hasNote("invalid statements: 1", "bmat"));
+}
+
+TEST(ScanObj, RefusesAFileOfInvalidLines) {
+  EXPECT_CONTAINS(errorMessage([&] { read(kSquare + "f 1 2 9\n"); }), ".obj:5:", "1 to 4, found 9");
+  EXPECT_CONTAINS(errorMessage([&] { read("v 0 0 nan\n"); }), ".obj:1:", "nan");
+  std::string text = kSquare + "f 1 2 3\n";
+  for (int i = 0; i < 10'001; ++i) text += "f x y z\n";
+  EXPECT_CONTAINS(errorMessage([&] { read(text); }), "too many invalid");
 }
 
 TEST(ScanObj, AcceptsCommentsAfterStatements) {

@@ -14,7 +14,10 @@ using test::TemporaryFile;
 Polygons read(const std::string& text) { return test::readCrosschecked(".off", text); }
 
 void expectRefused(const std::string& text, const std::string& location, const std::string& part) {
-  const std::string error = errorMessage([&] { read(text); });
+  const std::string error = errorMessage([&] {
+    const test::TemporaryFile file(".off", text);
+    readMesh(file.path(), true);
+  });
   EXPECT_TRUE(contains(error, location)) << text << "\n" << error;
   EXPECT_TRUE(contains(error, part)) << text << "\n" << error;
 }
@@ -109,6 +112,15 @@ TEST(ScanOff, RefusesOtherVariants) {
   expectRefused("4 1 0\n", ".off:1:", "dimension");
   expectRefused("SKEL\n", ".off:1:", "OFF");
   expectRefused("OFF\n0 0 0\n", ".off", "no vertices");
+}
+
+TEST(ScanOff, LeavesOutInvalidVerticesAndFaces) {
+  const Polygons polygons = read("OFF\n5 5 0\n" + kPoints + "nan 0 0\n3 0 1 2\n3 0 1 9\n3 0 1\n3 0 1 4\n3 0 1 3\n");
+  EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 3}));
+  EXPECT_EQ(polygons.faceLocations.size(), 2u);
+  ASSERT_EQ(polygons.notes.size(), 2u);
+  EXPECT_TRUE(contains(polygons.notes[0], "invalid vertices: 1")) << polygons.notes[0];
+  EXPECT_TRUE(contains(polygons.notes[1], "invalid faces: 3")) << polygons.notes[1];
 }
 
 }  // namespace

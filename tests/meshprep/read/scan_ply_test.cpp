@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -21,7 +22,10 @@ using test::TemporaryFile;
 Polygons read(const std::string& text) { return test::readCrosschecked(".ply", text); }
 
 void expectRefused(const std::string& text, const std::string& location, const std::string& part) {
-  const std::string error = errorMessage([&] { read(text); });
+  const std::string error = errorMessage([&] {
+    const test::TemporaryFile file(".ply", text);
+    readMesh(file.path(), true);
+  });
   EXPECT_TRUE(contains(error, location)) << text.substr(0, 400) << "\n" << error;
   EXPECT_TRUE(contains(error, part)) << text.substr(0, 400) << "\n" << error;
 }
@@ -211,6 +215,22 @@ TEST(ScanPly, RefusesInvalidHeaders) {
   expectRefused(
       replaced(ascii("property list uchar int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n"), "face 1", "face 0"), ".ply",
       "no faces");
+}
+
+TEST(ScanPly, LeavesOutInvalidVerticesAndFaces) {
+  const std::string list = "property list uchar int vertex_indices\n";
+  for (const char* bad : {"nan 0 0\n", "0 1e99 0\n", "0 0,5 0\n"}) {
+    const Polygons polygons = read(replaced(
+        replaced(ascii(list, std::string("0 0 0\n1 0 0\n0 1 0\n") + bad + "3 0 1 2\n3 0 1 3\n3 0 1 9\n3 -1 1 2\n"),
+                 "face 1", "face 4"),
+        "vertex 3", "vertex 4"));
+    EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_EQ(polygons.positions.size(), 4u);
+    EXPECT_TRUE(std::isfinite(polygons.positions[3].x));
+    ASSERT_EQ(polygons.notes.size(), 3u);
+    EXPECT_TRUE(contains(polygons.notes[0], "invalid vertices: 1") && contains(polygons.notes[0], ".ply:13")) << bad;
+    EXPECT_TRUE(contains(polygons.notes[2], "invalid faces: 3")) << polygons.notes[2];
+  }
 }
 
 }  // namespace

@@ -27,7 +27,10 @@ using Notes = std::vector<std::string>;
 Polygons read(const std::string& text) { return test::readCrosschecked(".ply", text); }
 
 std::string refusal(const std::string& text) {
-  return errorMessage([&] { read(text); });
+  return errorMessage([&] {
+    const test::TemporaryFile file(".ply", text);
+    readMesh(file.path(), true);
+  });
 }
 
 const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";

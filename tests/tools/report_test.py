@@ -208,7 +208,7 @@ class Report(unittest.TestCase):
                 entry["error"] = error(0, 0.004)
         page = self.page()
         # A ninth of the reference's light is half polarized, so a filter would show it.
-        for text in ("needs no polarization", "<code>fresnel</code> is within 0.40 % of the reference", "mosaics",
+        for text in ("needs no polarization", "the error of <code>fresnel</code> is at most 0.40 %", "mosaics",
                      "0 % in the median pixel and at most 50 %",
                      "use <code>fresnel</code>, which shows no significant difference"):
             self.assertIn(text, page)

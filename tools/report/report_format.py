@@ -32,6 +32,12 @@ def percent(share) -> str:
     return f"{value:,.{decimals}f} %"
 
 
+def at_most(share) -> str:
+    """Formats a share as a bound."""
+    text = percent(share)
+    return text if text.startswith("under") or share == 0 else f"at most {text}"
+
+
 def ratio(value) -> str:
     return "–" if value is None else f"{value:.3f}"
 

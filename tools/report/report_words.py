@@ -3,7 +3,7 @@ import html
 
 from report_colours import kSignificantDoLP
 from report_data import has_enough_rounds, kFewestRounds, number, timed
-from report_format import listed, percent, plain, ratio
+from report_format import at_most, listed, percent, plain, ratio
 
 kEverywhere = 0.01  # largest relative error for "everywhere"
 kRounding = 1e-5  # relative RMS error that an exact method has in float
@@ -74,8 +74,8 @@ def first_sentence(wrong, polarization, row, degrees, polarizer) -> str:
     seen = filter_words(polarizer)
     share = number(row, "error", "shareOver1Percent")
     if wrong.largest <= kEverywhere:
-        return (f"The intensity {seen} needs no polarization: {code('fresnel')} is within {percent(wrong.largest)} of "
-                f"the reference everywhere. {polarized_words(degrees, polarizer)}")
+        return (f"The intensity {seen} needs no polarization: the error of {code('fresnel')} is {at_most(wrong.largest)} "
+                f"everywhere. {polarized_words(degrees, polarizer)}")
     if polarization.share == 0:
         return (f"The intensity {seen} needs no polarization: {code('fresnel')} has an error above 1 % only where "
                 f"{code('stokes')} has one too ({percent(share)} of the pixels, rounding at edges). "
@@ -179,7 +179,7 @@ def second_sentence(group) -> str:
         # cost_words names schlick already.
         names = [code(r["method"]) for r in others if r["method"] != "schlick"]
         if names:
-            text += f" or {listed(names, 'or')}" if "no significant difference" in text else (
+            text += f", or from {listed(names, 'or')}" if "no significant difference" in text else (
                 f" and shows no significant difference in time from {listed(names, 'or')}")
         parts.append(text)
     return f"For an error above 1 % in at most {percent(allowed)} of the pixels, {'; '.join(parts)}."

@@ -83,7 +83,7 @@ void addCompareImagesCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare-images", "Measure the difference of two images, in linear light");
   command->add_option("a", a->a, "First image")->required()->type_name("FILE");
   command->add_option("b", a->b, "Second image")->required()->type_name("FILE");
-  command->add_option("--channels", a->channels, "Channels to compare")->capture_default_str();
+  command->add_option("--channels", a->channels, "Channels to compare")->delimiter(',')->capture_default_str();
   command->add_option("--threshold", a->threshold, "Difference above which a pixel is an outlier")
       ->transform(nonNegativeNumber())
       ->capture_default_str();

@@ -249,6 +249,8 @@ TEST_F(Command, CompareImages) {
 
   expectRefusal(malus({"compare-images", a, output_ / "small.exr"}), "size");
   expectRefusal(malus({"compare-images", a, b, "--channels", "S1.R"}), "S1.R");
+  expectRefusal(malus({"compare-images", a, b, "--channels", "R,S1.R"}), "channel S1.R");
+  EXPECT_EQ(malus({"compare-images", a, b, "--channels", "G,R"}).exitCode, 0);
   expectRefusal(malus({"compare-images", a, output_ / "missing.exr"}), "missing.exr");
   expectRefusal(malus({"compare-images", a, pack()}), "tiny.pack");
   writeText(output_ / "cut.exr", readText(a).substr(0, readText(a).size() / 2));

@@ -125,13 +125,13 @@ compress::Inspection certificateInspection(const Arguments& arguments, const Mes
   inspection.refuse = [contacts, &arguments](std::span<const compress::RoundedMesh> rounded) {
     const Findings found = contacts(rounded.front());
     const compress::Grid& grid = rounded.front().grid;
-    throw Error(
-        arguments.input,
-        fmt::format("mesh is not certified as glass after rounding: {} touch or cross with {} position bits, "
-                    "first {}",
-                    found.count == 1 ? "1 pair of faces" : fmt::format("{} pairs of faces", found.count),
-                    grid.positionBits, describe(found.first.front())),
-        fmt::format("faces at least {:.2g} m apart, a smaller mesh, or more bits (--position-bits)", 2 * grid.step));
+    throw Error(arguments.input,
+                fmt::format("mesh is not certified as glass after rounding: {} touch or cross with {} position bits, "
+                            "first {}",
+                            found.count == 1 ? "1 pair of faces" : fmt::format("{} pairs of faces", found.count),
+                            grid.positionBits, describe(found.first.front())),
+                fmt::format("faces at least {:.2g} m apart, or a smaller mesh{}", 2 * grid.step,
+                            grid.positionBits < compress::kMaxPositionBits ? ", or more bits (--position-bits)" : ""));
   };
   return inspection;
 }

@@ -16,6 +16,7 @@
 
 #include "meshprep/base/error.h"
 #include "meshprep/clean/shell_nesting.h"
+#include "meshprep/compress/draco_mesh.h"
 
 namespace malus::bake {
 
@@ -145,16 +146,11 @@ compress::Inspection glassInspection(const pack::Scene& scene, GlassBodies bodie
     const std::vector<Contact> contacts = newContacts(rounded);
     if (contacts.empty()) return;
     const Contact& first = contacts.front();
-    double moved = 0;
-    for (const std::size_t i : first.mesh)
-      for (std::size_t v = 0; v < rounded[i].positions.size(); ++v)
-        moved = std::max(moved, glm::distance(rounded[i].positions[v], scene.meshes[i].positions[v]));
-    throw Error(
-        "glass",
-        fmt::format("rounding makes {} touch, with {} position bits", describe(scene, first),
-                    std::max(rounded[first.mesh[0]].grid.positionBits, rounded[first.mesh[1]].grid.positionBits)),
-        fmt::format("faces that are at least {:.2g} m apart, a smaller mesh, or more bits (--position-bits)",
-                    2 * moved));
+    const compress::Grid &a = rounded[first.mesh[0]].grid, &b = rounded[first.mesh[1]].grid;
+    const int bits = std::max(a.positionBits, b.positionBits);
+    throw Error("glass", fmt::format("rounding makes {} touch, with {} position bits", describe(scene, first), bits),
+                fmt::format("faces that are at least {:.2g} m apart, or a smaller mesh{}", 2 * std::max(a.step, b.step),
+                            bits < compress::kMaxPositionBits ? ", or more bits (--position-bits)" : ""));
   };
   return inspection;
 }

@@ -27,15 +27,21 @@ bool readResolution(const std::string& line, RadianceHeader& header) {
 
 bool isFactor(double value) { return std::isfinite(value) && value > 0; }
 
-// False: a factor is not positive and finite.
+// False: a variable has too few numbers, or a factor is not positive and finite.
 bool readVariable(const std::string& line, RadianceHeader& header) {
   double v[8];
-  if (std::sscanf(line.c_str(), "EXPOSURE=%lf", v) == 1) header.exposure *= v[0];
-  if (std::sscanf(line.c_str(), "COLORCORR=%lf %lf %lf", v, v + 1, v + 2) == 3)
+  if (line.starts_with("EXPOSURE=")) {
+    if (std::sscanf(line.c_str(), "EXPOSURE=%lf", v) != 1) return false;
+    header.exposure *= v[0];
+  } else if (line.starts_with("COLORCORR=")) {
+    if (std::sscanf(line.c_str(), "COLORCORR=%lf %lf %lf", v, v + 1, v + 2) != 3) return false;
     for (std::size_t c = 0; c < 3; ++c) header.colourCorrection[c] *= v[c];
-  if (std::sscanf(line.c_str(), "PRIMARIES=%lf %lf %lf %lf %lf %lf %lf %lf", v, v + 1, v + 2, v + 3, v + 4, v + 5,
-                  v + 6, v + 7) == 8)
+  } else if (line.starts_with("PRIMARIES=")) {
+    if (std::sscanf(line.c_str(), "PRIMARIES=%lf %lf %lf %lf %lf %lf %lf %lf", v, v + 1, v + 2, v + 3, v + 4, v + 5,
+                    v + 6, v + 7) != 8)
+      return false;
     header.primaries = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]};
+  }
   return isFactor(header.exposure) && isFactor(header.colourCorrection[0]) && isFactor(header.colourCorrection[1]) &&
          isFactor(header.colourCorrection[2]);
 }

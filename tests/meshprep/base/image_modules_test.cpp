@@ -317,7 +317,8 @@ TEST_F(ImageModules, AxesAndExposureOfRadianceFiles) {
                             static_cast<float>(value(x, y)) * 2 / static_cast<float>(1 << c))
                 << first << second << " " << x << " " << y;
     }
-  for (const char* line : {"EXPOSURE=0", "EXPOSURE=-1", "COLORCORR=1 0 1", "EXPOSURE=nan"}) {
+  for (const char* line :
+       {"EXPOSURE=0", "EXPOSURE=-1", "COLORCORR=1 0 1", "EXPOSURE=nan", "EXPOSURE=two", "EXPOSURE=", "COLORCORR=1 2"}) {
     const std::string text = std::string("#?RADIANCE\n") + line + "\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\1\1\1\200";
     write("bad.hdr", {text.begin(), text.end()});
     Image image;

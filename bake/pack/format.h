@@ -23,7 +23,8 @@ inline constexpr std::uint32_t kOptional = 1;  // flag: a reader that does not k
 // Bounds of the schema. Geometry beyond them does not fit the renderers' 32-bit indices; squares of larger lengths and
 // radiances overflow a float.
 inline constexpr double kMaxLength = 1e15;          // metres
-inline constexpr double kMaxLight = 1e15;           // radiance, intensity, irradiance
+inline constexpr double kMaxLight = 1e15;           // radiance, intensity
+inline constexpr double kMaxIrradiance = 4e15;      // of an environment of kMaxLight: pi times that
 inline constexpr double kMaxUnitComponent = 1.001;  // of a unit vector before its length is checked
 inline constexpr std::uint32_t kMaxMeshes = 65536;
 inline constexpr std::uint32_t kMaxMaterials = 4096;

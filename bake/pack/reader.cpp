@@ -53,7 +53,8 @@ void readEnvironment(ByteReader r, std::uint32_t version, Environment& environme
     for (glm::vec3& t : environment.texels)
       for (int i = 0; i < 3; ++i) {
         t[i] = storage.isFloat ? r.f32() : static_cast<float>(floatFromHalf(r.u16()) * storage.scale);
-        if (!(t[i] >= 0 && t[i] <= static_cast<float>(kMaxLight)))
+        // Halves err by up to 2^-11 of the value.
+        if (!(t[i] >= 0 && t[i] <= static_cast<float>(kMaxLight * (1 + 0x1p-11))))
           r.fail("environment texel is out of range", fmt::format("a radiance of 0 to {:g}", kMaxLight),
                  fmt::format("{}", t[i]));
       }

@@ -72,8 +72,8 @@ void visitEnvironment(Visitor&& visit, Environments&... e) {
         e.ambientIrradiance...);
   visit(
       Field{.name = "irradiance",
-            .low = -kMaxLight,
-            .high = kMaxLight,
+            .low = -kMaxIrradiance,
+            .high = kMaxIrradiance,
             .unit = "W/m^2",
             .text = "coefficients of 1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2, multiplied by the factors of the clamped "
                     "cosine (`irradiancePolynomial` in `shaders/optics/environment.h`)"},

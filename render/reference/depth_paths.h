@@ -1,8 +1,8 @@
 // Light of a pixel by the number of specular interactions on its paths, without a limit of the depth: the tracer of the
 // reference in the other direction, from the camera. A path carries an importance vector per colour (a row of the
 // Mueller matrices up to the camera), so that polarization is that of the reference. The paths with the largest
-// importance are followed first, until a pixel has used its rays. Template of the tracer, which is private to
-// renderer.cpp.
+// importance are followed first, until a pixel has used its rays; the light of the others is estimated. Template of the
+// tracer, which is private to renderer.cpp.
 #pragma once
 
 #include <algorithm>
@@ -34,12 +34,14 @@ class DepthPaths {
   void followPixel(const dvec3& origin, const dvec3& direction) {
     waiting_ = {};
     push({origin, origin, direction, unpolarized(dvec3(1)), 0, false});
+    endedLight_ = endedImportance_ = 0;
     for (std::uint32_t ray = 0; ray < kRaysPerPixel && !waiting_.empty(); ++ray) {
       const Path path = waiting_.top();
       waiting_.pop();
       follow(path);
     }
     unfollowed += waiting_.size();
+    estimateRest();
   }
 
  private:
@@ -60,28 +62,49 @@ class DepthPaths {
   void push(const Path& path) {
     if (path.size() >= kLeastImportance && path.interactions <= kMostInteractions) waiting_.push(path);
   }
-  void record(const Light& importance, const Light& light, std::uint32_t interactions) {
+  void add(double light, std::uint32_t interactions) {
+    energy[std::min<std::size_t>(interactions, energy.size() - 1)] += light;
+  }
+  static double dot(const Light& importance, const Light& light) {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) sum += glm::dot(importance[c], light[c]);
-    energy[std::min<std::size_t>(interactions, energy.size() - 1)] += sum;
+    return sum;
+  }
+  void record(const Light& importance, const Light& light, std::uint32_t interactions) {
+    add(dot(importance, light), interactions);
+  }
+  // Records light at the end of a path.
+  void end(const Light& importance, const Light& light, std::uint32_t interactions) {
+    record(importance, light, interactions);
+    endedLight_ += dot(importance, light);
+    endedImportance_ += sum(importance);
+  }
+  static double sum(const Light& importance) { return importance[0][0] + importance[1][0] + importance[2][0]; }
+
+  // Estimates the light of the paths that are left: the mean radiance at the ends of the others, after the interactions
+  // that they have had, which is the least. A body of a high index has hundreds of paths of little importance each.
+  void estimateRest() {
+    if (!(endedImportance_ > 0)) return;
+    for (; !waiting_.empty(); waiting_.pop())
+      add(sum(waiting_.top().importance) * (endedLight_ / endedImportance_), waiting_.top().interactions);
   }
 
   void follow(const Path& p) {
     Hit h{};
     h.d = p.d;
     if (!tracer_.intersect(p.origin, p.queryOrigin, p.d, h)) {
-      record(p.importance, tracer_.environmentLight(p.d), p.interactions);
+      end(p.importance, tracer_.environmentLight(p.d), p.interactions);
       return;
     }
     const pack::Material& m = *h.surface.material;
     const Light row = scaled(p.importance, transmittanceOver(Tracer::absorptionAt(h), h.travelled));
     if (pack::isEmitter(m.kind)) {
       if (!h.outside && !m.twoSided) darkBacks[h.materialIndex] = true;
-      record(row, tracer_.emittedLight(h), p.interactions);
+      end(row, tracer_.emittedLight(h), p.interactions);
     } else if (!pack::isInterface(m.kind)) {
       dvec3 diffuse, highlight;
       tracer_.directLight(h, 1, h.normal, diffuse, highlight);
-      record(row, unpolarized(diffuse), p.interactions);
+      end(row, unpolarized(diffuse), p.interactions);
     } else if (pack::isPolarizingElement(m.kind)) {
       const dmat4 rotation = toSurface(p.d, f64::sDirection(p.d, glm::cross(h.face, m.axis)));
       const Light behind = times(times(times(row, glm::transpose(rotation)), polarizingElementMatrix(m)), rotation);
@@ -138,6 +161,7 @@ class DepthPaths {
 
   Tracer& tracer_;
   std::priority_queue<Path> waiting_;
+  double endedLight_ = 0, endedImportance_ = 0;  // of the current pixel
 };
 
 // The shares of bake::DepthProbe::beyond.

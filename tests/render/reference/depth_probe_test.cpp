@@ -58,6 +58,26 @@ TEST(DepthProbe, MeasuresTheLightBeyondADepth) {
   EXPECT_EQ(reference::Renderer(scene, 1).probeDepth().beyond, probe.beyond);
 }
 
+// Panes of high indices have more paths of little light than a pixel has rays. Light with more than d interactions has
+// entered, T = 1 - R, and was reflected d - 1 times inside.
+TEST(DepthProbe, EstimatesTheLightOfPathsThatAreLeft) {
+  for (const double eta : {30.0, 300.0, 1000.0}) {
+    pack::Scene scene = test::emptyScene(64);
+    scene.environment.radiance = glm::dvec3(1);
+    test::addMaterial(scene, test::dielectric(pack::MaterialKind::glass, eta));
+    test::addSquare(scene, 0, {0, 0.01, 0}, {0, 1, 0}, 4);
+    test::addSquare(scene, 0, {0, -0.01, 0}, {0, -1, 0}, 4);
+    scene.camera.verticalFovDegrees = 1;
+    test::look(scene, {0, 1, 0}, {0, 0, 0}, {0, 0, -1});
+    const std::vector<double> beyond = reference::Renderer(scene, 1).probeDepth().beyond;
+    const double r = std::pow((eta - 1) / (eta + 1), 2);
+    for (const std::uint32_t depth : {2u, 20u, 64u, 200u}) {
+      const double expected = (1 - r) * std::pow(r, depth - 1);
+      EXPECT_NEAR(bake::shareBeyond(beyond, depth), expected, 0.05 * expected + 1e-4) << eta << " " << depth;
+    }
+  }
+}
+
 TEST(DepthProbe, EndsWhereNoLightIsLost) {
   pack::Scene scene = test::emptyScene(1);
   scene.environment.radiance = glm::dvec3(1);

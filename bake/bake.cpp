@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include <draco/core/draco_version.h>
@@ -12,6 +13,7 @@
 
 #include "bake/effects/effects.h"
 #include "bake/environment/octahedral_map.h"
+#include "bake/materials/absorption_precision.h"
 #include "bake/materials/film_precision.h"
 #include "bake/meshes/meshes.h"
 #include "bake/pack/format.h"
@@ -140,6 +142,22 @@ void addFilmNotes(const std::vector<pack::Material>& materials, std::vector<std:
           m.name, film->waves, film->difference, kFilmPrecision, film->limitWaves));
 }
 
+// Reports media whose absorption the single-precision renderers do not reproduce, the worst mesh of each material.
+void addAbsorptionNotes(const pack::Scene& scene, std::vector<std::string>& notes) {
+  std::map<std::uint32_t, std::pair<std::string, AbsorptionPrecision>> worst;
+  for (const pack::Mesh& mesh : scene.meshes)
+    if (const auto found = insufficientAbsorptionPrecision(mesh, scene.materials[mesh.material]);
+        found && (!worst.contains(mesh.material) || worst.at(mesh.material).second.error < found->error))
+      worst.insert_or_assign(mesh.material, std::pair(mesh.name, *found));
+  for (const auto& [material, found] : worst)
+    notes.push_back(fmt::format(
+        "material '{}': the single-precision renderers (embree, vulkan) take ways through its medium for up to {:.1e} "
+        "m "
+        "too short at mesh '{}', a relative error of {:.1e} of the transmittance; expected at most {:g}: use smaller "
+        "faces and meshes, or --backend reference",
+        scene.materials[material].name, found.second.distance, found.first, found.second.error, kAbsorptionPrecision));
+}
+
 Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
            const std::function<void(std::string_view)>& progress, const BakeOptions& options) {
   Baked baked;
@@ -173,6 +191,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     mesh.triangles = std::move(source.world.triangles);
     requireAxisInPlane(mesh, scene.materials[mesh.material], d.file);
   }
+  addAbsorptionNotes(scene, baked.notes);
   scene.camera = makeCamera(d, scene.origin);
   for (const pack::PointLight& light : d.lights)
     scene.lights.push_back({light.position - scene.origin, light.intensity});

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bake/bake.h"
+#include "bake/materials/absorption_precision.h"
 #include "render/embree/renderer.h"
 #include "render/reference/renderer.h"
 #include "render/scene/methods.h"
@@ -176,6 +177,33 @@ TEST(ClosedForms, LightOnTheSurfaceIsFinite) {
   scene.lights.push_back({{0, 0, 0}, {8, 8, 8}});
   const render::RenderResult result = reference::render(scene, render::defaultParameters(scene), 1);
   for (const float value : result.pixels) EXPECT_EQ(value, 0);  // all light is grazing
+}
+
+// A pane of `size` metres that absorbs half of the light. The float renderers start rays off its large faces, so that
+// the way through it is too short: the error is at most the one that a bake reports, and not far below.
+TEST(ClosedForms, AbsorptionOfLargeThinPanesErrsAsReported) {
+  for (const auto& [size, thickness] : {std::pair(20.0, 0.05), std::pair(100.0, 2e-3), std::pair(1000.0, 2e-3)}) {
+    pack::Scene scene = test::emptyScene(2);
+    scene.environment.radiance = glm::dvec3(1);
+    pack::Material glass = test::dielectric(MaterialKind::glass, 1.0001);
+    glass.absorption = glm::dvec3(std::log(2.0) / thickness);
+    test::addMaterial(scene, glass);
+    test::addSquare(scene, 0, {0, thickness / 2, 0}, {0, 1, 0}, size);
+    test::addSquare(scene, 0, {0, -thickness / 2, 0}, {0, -1, 0}, size);
+    test::look(scene, {0, 1, 0}, {0, 0, 0}, {0, 0, -1});
+    const double exact = reference(scene)[0];
+    EXPECT_NEAR(exact, 0.5, 1e-3);
+    const double error = embreeColour(scene, "fresnel") / exact - 1;
+    const auto reported = bake::insufficientAbsorptionPrecision(scene.meshes[0], scene.materials[0]);
+    if (size < 100) {
+      EXPECT_FALSE(reported);
+      EXPECT_LE(std::abs(error), bake::kAbsorptionPrecision);
+    } else {
+      ASSERT_TRUE(reported) << size;
+      EXPECT_GT(error, reported->error / 4) << size;
+      EXPECT_LT(error, reported->error * 1.5) << size;
+    }
+  }
 }
 
 TEST(ClosedForms, CameraInsideGlassReadsASkyTimesNSquared) {

@@ -6,9 +6,9 @@
 namespace malus::image {
 
 // Returns true if the profile describes sRGB: the curves of its red, green and blue (or of its grey) are those of
-// sRGB within 0.5 %, and its colorants those of sRGB within 0.002 (ICC.1:2010, sections 7, 9 and 10). A profile
-// without curves and colorants is compared by its description.
-bool isSrgbProfile(std::span<const unsigned char> profile);
+// sRGB within 0.005, and its colorants those of sRGB within 0.002. A profile without curves and colorants is compared
+// by its description. Returns false for a damaged profile.
+bool isSrgbProfile(std::span<const unsigned char> bytes);
 
 // Note of an image with another profile (Encoding::notes).
 inline constexpr const char* kForeignProfile =

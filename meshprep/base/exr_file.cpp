@@ -85,8 +85,9 @@ void readAttributes(const Imf::Header& header, Image& image) {
 
 struct Size {
   std::int64_t width, height;
-  bool isSupported(std::size_t channels) const {
-    return std::max(width, height) <= kMaxSide && static_cast<std::uint64_t>(width * height) * channels <= kMaxValues;
+  bool isSupported(std::size_t channels, std::uint64_t fileBytes) const {
+    return std::max(width, height) <= kMaxSide &&
+           static_cast<std::uint64_t>(width * height) * channels <= mostValues(fileBytes);
   }
 };
 Size windowSize(const Imath::Box2i& window) {
@@ -165,7 +166,7 @@ std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image) {
     const std::vector<std::string> channels = listChannels(file.header());
     const Size stored = windowSize(data), shown = windowSize(display);
     for (const Size& size : {stored, shown})
-      if (size.width < 1 || size.height < 1 || !size.isSupported(channels.size()) || channels.empty() ||
+      if (size.width < 1 || size.height < 1 || !size.isSupported(channels.size(), bytes.size()) || channels.empty() ||
           channels.size() > kMaxChannels)
         return fmt::format("unsupported size {} x {} with {} channels", size.width, size.height, channels.size());
     image.width = static_cast<int>(shown.width);

@@ -52,7 +52,7 @@ struct Image {
 // window does not store are 0, those outside the display window are left out. HDR values are divided by EXPOSURE and
 // COLORCORR. The orientation that HDR, TIFF and JPEG files state is applied. Colours are not multiplied by alpha:
 // integers that the file stores multiplied are divided by it; the floats of EXR stay as stored. Limits: 65536 pixels
-// per side, 64 channels, 2^30 values.
+// per side, 64 channels, 2^30 values, 32768 values per byte of the file.
 Image read(const std::filesystem::path& path);
 
 // Writes a ZIP-compressed EXR of 32-bit floats with all attributes. Equal images give identical files. The file is

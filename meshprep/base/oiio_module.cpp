@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -99,7 +100,7 @@ std::string readByOpenImageIo(const std::string& path, std::string_view start, I
   const ImageSpec spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 ||
       spec.nchannels < 1 || spec.nchannels > kMaxChannels ||
-      spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMaxValues)
+      spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > mostValues(std::filesystem::file_size(path)))
     return fmt::format("unsupported size {} x {} with {} channels", spec.width, spec.height, spec.nchannels);
   const std::string_view format = input->format_name();
   std::optional<RadianceHeader> header;

@@ -149,11 +149,12 @@ std::string unsupportedSize(const Decoded& d) {
   return fmt::format("unsupported size {} x {} with {} channels", d.width, d.height, d.channels);
 }
 
-std::string decode(png_structp png, png_infop info, const std::string& error, Image& image) {
+std::string decode(png_structp png, png_infop info, std::size_t fileBytes, const std::string& error, Image& image) {
   Decoded decoded;
   if (!readHeader(png, info, decoded)) return error;
   const std::size_t rowBytes = png_get_rowbytes(png, info), height = static_cast<std::size_t>(decoded.height);
-  if (rowBytes * height / static_cast<std::size_t>(decoded.bits / 8) > kMaxValues) return unsupportedSize(decoded);
+  if (rowBytes * height / static_cast<std::size_t>(decoded.bits / 8) > mostValues(fileBytes))
+    return unsupportedSize(decoded);
   decoded.samples.resize(rowBytes * height);
   for (std::size_t y = 0; y < height; ++y) decoded.rows.push_back(decoded.samples.data() + y * rowBytes);
   if (!readRows(png, decoded)) return error;
@@ -209,7 +210,7 @@ std::string decodePng(const std::vector<unsigned char>& bytes, Image& image) {
   png_set_read_fn(png, &source, readBytes);
   std::string result;
   try {
-    result = decode(png, info, error, image);
+    result = decode(png, info, bytes.size(), error, image);
     if (result.empty()) readCodePoints(bytes, image.encoding);
   } catch (const std::bad_alloc&) {
     result = "out of memory";

@@ -167,7 +167,7 @@ std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, s
   Lines lines(text, where);
   while (lines.nextStatement('#')) {
     std::string_view rest = lines.line();
-    const std::string_view keyword = takeWord(rest);
+    std::string_view keyword = takeWord(rest);
     if (keyword == "newmtl") {
       lines.cutSeparateComment('#');
       rest = lines.line().substr(keyword.size());
@@ -184,8 +184,9 @@ std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, s
       statements.back().name = parseName(rest, lines);
       continue;
     }
-    lines.cutComment('#');
-    rest = lines.line().substr(keyword.size());
+    lines.cutComment('#');  // which may begin within the keyword
+    rest = lines.line();
+    keyword = takeWord(rest);
     try {
       if (!isNamed) lines.fail("statement outside of a material", "newmtl NAME first", quoted(keyword));
       parseStatement(keyword, rest, lines, statements.back(), notes, invalid);

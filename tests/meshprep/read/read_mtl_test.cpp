@@ -135,6 +135,11 @@ TEST(ReadMtl, FindsFilesOfOtherSpellings) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(ReadMtl, CommentsBeginWithinKeywords) {
+  EXPECT_EQ(one("d#1.0\nKd 0.25 0.5 0.75#x\nNs#\n").baseColour, glm::dvec3(0.25, 0.5, 0.75));
+  EXPECT_TRUE(contains(errorIn("newmtl m\nd# 1.0\n"), "a.mtl:2"));
+}
+
 TEST(ReadMtl, FindsNamesWithComments) {
   const test::TemporaryFile file(".mtl", "newmtl red\nKd 1 0 0\nnewmtl blue#2\nKd 0 0 1\nnewmtl #8\nKd 0 0 0\n");
   SourceScene scene;

@@ -3,17 +3,10 @@
 #pragma once
 
 #include "render/embree/tile.h"
-#include "shaders/effects.h"
+#include "render/embree/tile_effects.h"
 #include "shaders/methods/methods.h"
 
 namespace malus::embree {
-
-// Effects compiled into this translation unit.
-static constexpr std::uint32_t kTileEffects = 0
-#define MALUS_SHADER_ROW(id, macro, build, name, alias, description) \
-  | (MALUS_EFFECT_##macro * shaders::effectBit(shaders::Effect::k##id))
-#include "shaders/effects.def"
-    ;
 
 struct SceneAccess {
   explicit SceneAccess(const TileInput& tile)
@@ -42,7 +35,24 @@ struct SceneAccess {
 
   const gpu::MaterialExtra& materialExtra(gpu::uint material) const { return extras[material]; }
 
-  bool visible(const glm::vec3& origin, const glm::vec3& way) {
+  glm::vec3 environmentTexel(float x, float y) const {
+    return environmentTexels[static_cast<int>(y) * (camera.environmentSize + 2) + static_cast<int>(x)];
+  }
+
+  glm::vec3 texel(gpu::uint index, float x, float y) const {
+    const gpu::Texture& t = textures[index];
+    const int width = static_cast<int>(t.width), height = static_cast<int>(t.height);
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    const auto repeated = [](int i, int size) { return i < 0 ? i + size : i >= size ? i - size : i; };
+    return textureTexels[static_cast<int>(t.first) + repeated(row, height) * width + repeated(column, width)];
+  }
+
+  void textureSize(gpu::uint index, float& width, float& height) const {
+    width = static_cast<float>(textures[index].width);
+    height = static_cast<float>(textures[index].height);
+  }
+
+  bool visible([[maybe_unused]] bool needed, const glm::vec3& origin, const glm::vec3& way) {
     ++rays;
     return bvh.visible(origin, way, 1);
   }

@@ -15,7 +15,9 @@
 #define word uint
 #define FN
 #define FN_INLINE
+#define SELECT(m, a, b) ((m) ? (a) : (b))
 #define CONST const
+#define CONST_REAL(name, value) const real name = R(value)
 #define IN(T) T
 #define OUT(T) out T
 #define INOUT(T) inout T

@@ -7,6 +7,7 @@
 // clang-format off
 #include "shaders/surfaces/shared.h"
 #include "shaders/iterative/path.h"
+#include "shaders/iterative/path_light.h"
 // clang-format on
 
 FN CameraPath startPath(real3 direction, real behind0, real behind1, real behind2, real behind3) {
@@ -16,22 +17,6 @@ FN CameraPath startPath(real3 direction, real behind0, real behind1, real behind
   p.depth = real(camera.depth);
   p.throughput = startThroughput(direction, camera.up, behind0, behind1, behind2, behind3);
   return p;
-}
-
-FN PathLight environmentLight(IN(CameraPath) p) {
-  if (kEffectSky) {
-    real degree;
-    real3 radiance = skyRadiance(p.d, degree);
-    return polarizedLight(p.throughput, p.d, camera.sun, radiance, degree);
-  }
-  return unpolarizedLight(p.throughput, environmentRadiance(p.d));
-}
-
-FN PathLight sourceLight(IN(Hit) h, IN(Material) m, IN(Throughput) c) {
-  if (kEffectEmitter) {
-    if (m.kind == kEmitter) return emitterLight(h, m, c);
-  }
-  return unpolarizedLight(c, directLight(h, m, h.normal).diffuse);
 }
 
 // Checks the light that reaches the camera from here, and that the throughput is finite.
@@ -60,14 +45,14 @@ FN real3 traceCameraPath(real3 direction, real behind0, real behind1, real behin
     Hit h;
     if (!findHit(p.origin, p.d, p.depth, h)) {
       h = environmentHit(p.d, p.depth);
-      light = environmentLight(p);
+      light = environmentLight(p.throughput, p.d);
     } else {
       Material m = materialAt(h);
       if (kEffectAbsorption) scaleThroughput(p.throughput, mediumTransmittance(h));
       if (isSource(m.kind)) {
-        light = sourceLight(h, m, p.throughput);
+        light = sourceLight(h, m, m.kind, p.throughput);
       } else if (h.depth > R(0.5) || hasBase(m.kind)) {  // others are black where no interaction is left
-        Scattering s = surfaceScattering(h, m);
+        Scattering s = surfaceScattering(h, m, m.kind);
         rotateToSurface(p.throughput, h.d, s.frameNormal);
         DirectLight direct = noDirectLight();
         if (s.reflects) direct = directLight(h, m, s.reflected);
@@ -116,8 +101,8 @@ FN real3 cameraPathPixel(uint x, uint y, real behind0, real behind1, real behind
   real3 sum = splat3(R(0.0));
   for (uint j = 0u; j < camera.samples; ++j)
     for (uint i = 0u; i < camera.samples; ++i)
-      sum = sum + traceCameraPath(sampleDirection(x * camera.samples + i, y * camera.samples + j), behind0, behind1,
-                                  behind2, behind3);
+      sum = sum + traceCameraPath(sampleDirection(real(x * camera.samples + i), real(y * camera.samples + j)), behind0,
+                                  behind1, behind2, behind3);
   return sum * (camera.basicToRadiance / real(camera.samples * camera.samples));
 }
 

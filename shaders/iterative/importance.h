@@ -11,7 +11,7 @@ struct Throughput {
   ImportanceVector r;  // of red, or of all colours
   ImportanceVector g;
   ImportanceVector b;
-  mask split;  // green and blue have their own vectors
+  real split;  // 1: green and blue have their own vectors; else 0
 };
 
 // d: direction of the camera ray; behind: first row of the Mueller matrix in front of the camera.
@@ -24,16 +24,17 @@ FN Throughput startThroughput(real3 d, real3 up, real behind0, real behind1, rea
   c.r.v = behind3;
   c.g = c.r;
   c.b = c.r;
-  c.split = false;
+  c.split = R(0.0);
   return c;
 }
 
-FN real3 colourWeights(IN(Throughput) c) { return select3(c.split, make3(c.r.w, c.g.w, c.b.w), splat3(c.r.w)); }
-FN real3 colourLinear(IN(Throughput) c) { return select3(c.split, make3(c.r.q, c.g.q, c.b.q), splat3(c.r.q)); }
+FN mask isSplit(IN(Throughput) c) { return lessR(R(0.5), c.split); }
+FN real3 colourWeights(IN(Throughput) c) { return select3(isSplit(c), make3(c.r.w, c.g.w, c.b.w), splat3(c.r.w)); }
+FN real3 colourLinear(IN(Throughput) c) { return select3(isSplit(c), make3(c.r.q, c.g.q, c.b.q), splat3(c.r.q)); }
 
 // Unpolarized light: the first component of each vector.
 FN real3 unpolarizedContribution(IN(Throughput) c, real3 radiance) { return colourWeights(c) * radiance; }
-FN real maxComponent(IN(Throughput) c) { return selectR(c.split, maxR(c.r.w, maxR(c.g.w, c.b.w)), c.r.w); }
+FN real maxComponent(IN(Throughput) c) { return selectR(isSplit(c), maxR(c.r.w, maxR(c.g.w, c.b.w)), c.r.w); }
 
 // Without polarization components a vector is the same in every frame.
 FN mask isUnpolarized(ImportanceVector r) {
@@ -55,9 +56,9 @@ FN ImportanceVector dropSmallPolarization(ImportanceVector r, real tolerance) {
 FN void dropPolarization(INOUT(Throughput) c, real tolerance) {
   if (!anyM(lessR(R(0.0), tolerance))) return;
   c.r = dropSmallPolarization(c.r, tolerance);
-  if (!anyM(c.split)) return;
-  c.g = selectImportance(c.split, dropSmallPolarization(c.g, tolerance), c.g);
-  c.b = selectImportance(c.split, dropSmallPolarization(c.b, tolerance), c.b);
+  if (!anyM(isSplit(c))) return;
+  c.g = selectImportance(isSplit(c), dropSmallPolarization(c.g, tolerance), c.g);
+  c.b = selectImportance(isSplit(c), dropSmallPolarization(c.b, tolerance), c.b);
 }
 
 // Into the frame of a surface with normal n, from n's components perpendicular to the ray. At normal incidence, where
@@ -71,13 +72,13 @@ FN_INLINE void rotateToSurface(INOUT(Throughput) c, real3 d, real3 n) {
   if (!anyM(inclined)) return;
   real root = R(1.0) / sqrtR(sum);
   c.x = select3(inclined, c.x * (R(0.0) - ny * root) + y * (nx * root), c.x);
-  mask rotates = andM(inclined, orM(c.split, notM(isUnpolarized(c.r))));
+  mask rotates = andM(inclined, orM(isSplit(c), notM(isUnpolarized(c.r))));
   if (!anyM(rotates)) return;
   real inverse = root * root;
   real cos2 = (ny - nx) * (ny + nx) * inverse;
   real sin2 = R(-2.0) * nx * ny * inverse;
   c.r = selectImportance(rotates, rotateImportance(c.r, cos2, sin2), c.r);
-  mask splitRotates = andM(rotates, c.split);
+  mask splitRotates = andM(rotates, isSplit(c));
   if (!anyM(splitRotates)) return;
   c.g = selectImportance(splitRotates, rotateImportance(c.g, cos2, sin2), c.g);
   c.b = selectImportance(splitRotates, rotateImportance(c.b, cos2, sin2), c.b);
@@ -85,11 +86,11 @@ FN_INLINE void rotateToSurface(INOUT(Throughput) c, real3 d, real3 n) {
 
 // Gives green and blue their own vectors where `coloured`.
 FN void splitColours(INOUT(Throughput) c, mask coloured) {
-  mask splits = andM(coloured, notM(c.split));
+  mask splits = andM(coloured, notM(isSplit(c)));
   if (!anyM(splits)) return;
   c.g = selectImportance(splits, c.r, c.g);
   c.b = selectImportance(splits, c.r, c.b);
-  c.split = orM(c.split, splits);
+  c.split = selectR(splits, R(1.0), c.split);
 }
 
 // Light with a degree of linear polarization along the s direction of a surface with normal n.
@@ -101,9 +102,9 @@ FN real3 polarizedContribution(Throughput c, real3 d, real3 n, real3 radiance, r
 FN void scaleThroughput(INOUT(Throughput) c, real3 scale) {
   splitColours(c, notM(andM(equalR(scale.x, scale.y), equalR(scale.y, scale.z))));
   c.r = scaleImportance(c.r, scale.x);
-  if (!anyM(c.split)) return;
-  c.g = selectImportance(c.split, scaleImportance(c.g, scale.y), c.g);
-  c.b = selectImportance(c.split, scaleImportance(c.b, scale.z), c.b);
+  if (!anyM(isSplit(c))) return;
+  c.g = selectImportance(isSplit(c), scaleImportance(c.g, scale.y), c.g);
+  c.b = selectImportance(isSplit(c), scaleImportance(c.b, scale.z), c.b);
 }
 
 // Diffuse light from below the interface: unpolarized, transmitted with 1 - R_s and 1 - R_p.
@@ -117,7 +118,7 @@ FN real3 diffuseExit(IN(Throughput) c, IN(FresnelTerms) f, real3 radiance) {
 FN_INLINE void applyInterface(INOUT(Throughput) c, IN(FresnelTerms) f, mask coloured) {
   splitColours(c, coloured);
   c.r = applyInterfaceTransposed(c.r, f.rs.x, f.rp.x, f.xRe.x, f.xIm.x);
-  if (!anyM(c.split)) return;
-  c.g = selectImportance(c.split, applyInterfaceTransposed(c.g, f.rs.y, f.rp.y, f.xRe.y, f.xIm.y), c.g);
-  c.b = selectImportance(c.split, applyInterfaceTransposed(c.b, f.rs.z, f.rp.z, f.xRe.z, f.xIm.z), c.b);
+  if (!anyM(isSplit(c))) return;
+  c.g = selectImportance(isSplit(c), applyInterfaceTransposed(c.g, f.rs.y, f.rp.y, f.xRe.y, f.xIm.y), c.g);
+  c.b = selectImportance(isSplit(c), applyInterfaceTransposed(c.b, f.rs.z, f.rp.z, f.xRe.z, f.xIm.z), c.b);
 }

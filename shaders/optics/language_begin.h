@@ -3,7 +3,9 @@
 #define FN static inline                     // a function
 #define FN_INLINE [[gnu::always_inline]] FN  // a function that is worth inlining at every call
 #define CONST static constexpr               // a constant
-#define IN(T) const T&                       // a large parameter that is read
-#define OUT(T) T&                            // a parameter that is written
-#define INOUT(T) T&                          // a parameter that is read and written
-#define R(x) static_cast<real>(x)            // a literal
+#define CONST_REAL(name, value) CONST real name = static_cast<real>(value)
+#define IN(T) const T&                     // a large parameter that is read
+#define OUT(T) T&                          // a parameter that is written
+#define INOUT(T) T&                        // a parameter that is read and written
+#define R(x) static_cast<real>(x)          // a literal
+#define SELECT(m, a, b) ((m) ? (a) : (b))  // of two structs; a and b may both be evaluated

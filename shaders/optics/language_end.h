@@ -2,7 +2,9 @@
 #undef FN
 #undef FN_INLINE
 #undef CONST
+#undef CONST_REAL
 #undef IN
 #undef OUT
 #undef INOUT
 #undef R
+#undef SELECT

@@ -1,6 +1,6 @@
 // Functions of vectors and numbers, built on math.h alone.
 
-CONST real kPi = R(3.14159265358979323846);
+CONST_REAL(kPi, 3.14159265358979323846);
 
 FN real3 select3(mask m, real3 a, real3 b) {
   return make3(selectR(m, a.x, b.x), selectR(m, a.y, b.y), selectR(m, a.z, b.z));
@@ -18,7 +18,7 @@ FN real square(real x) { return x * x; }
 
 // Sizes below it count as 0 before they divide: a device may flush a denormal to 0 in the division, and not in the
 // comparison before it.
-CONST real kNegligible = R(1e-37);
+CONST_REAL(kNegligible, 1e-37);
 
 // Divisor for the size x >= 0: x, or 1 where x is negligible.
 FN real divisor(real x) { return selectR(lessR(x, kNegligible), R(1.0), x); }

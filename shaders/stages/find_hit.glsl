@@ -18,7 +18,7 @@ bool findHit(vec3 origin, vec3 direction, float depth, out Hit h) {
   return true;
 }
 
-bool visible(vec3 origin, vec3 way) {
+bool visible(bool needed, vec3 origin, vec3 way) {
   countRay();
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, 0xffu, origin, 0.0,
@@ -42,7 +42,7 @@ bool findHit(vec3 origin, vec3 direction, float depth, out Hit h) {
   return true;
 }
 
-bool visible(vec3 origin, vec3 way) {
+bool visible(bool needed, vec3 origin, vec3 way) {
   countRay();
   hitRecord.mesh = 0u;
   traceRayEXT(tlas, gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT,

@@ -10,7 +10,7 @@ Payload traceRay(vec3 origin, vec3 direction, float depth) {
   return childPayload;
 }
 
-bool visible(vec3 origin, vec3 way) {
+bool visible(bool needed, vec3 origin, vec3 way) {
   countRay();
   shadowPayload = 1u;
   traceRayEXT(tlas, gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT,

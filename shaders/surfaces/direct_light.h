@@ -31,18 +31,23 @@ FN real3 environmentIrradiance(real3 n) {
 FN void addPointLight(INOUT(DirectLight) sum, IN(Hit) h, IN(Material) m, IN(PointLight) light, real3 reflected,
                       mask diffuse, mask glossy) {
   LightSample s = sampleLight(h, m, light, reflected, diffuse, glossy);
-  if (!s.lit) return;
+  mask lit = s.lit;
+  if (!anyM(lit)) return;
   if (kEffectShadows) {
     if (camera.shadows != 0u) {
       ShadowRay ray = shadowRay(h, s);
-      if (!visible(ray.origin, ray.way)) return;
+      lit = andM(lit, visible(lit, ray.origin, ray.way));
+      if (!anyM(lit)) return;
     }
   }
+  real3 none = splat3(R(0.0));
   real3 irradiance = lightIrradiance(h, light, s);
-  if (diffuse)
-    sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, irradiance * s.cosine,
-                                                enteringTransmittance(m, h.material, minR(s.cosine, R(1.0))));
-  sum.highlight = sum.highlight + irradiance * s.lobe;
+  if (anyM(diffuse)) {
+    real3 radiance =
+        lambertRadiance(m.albedo, irradiance * s.cosine, enteringTransmittance(m, h.material, minR(s.cosine, R(1.0))));
+    sum.diffuse = sum.diffuse + select3(andM(lit, diffuse), radiance, none);
+  }
+  sum.highlight = sum.highlight + select3(lit, irradiance * s.lobe, none);
 }
 
 // reflected: direction of the mirror ray, for the highlight.
@@ -50,12 +55,12 @@ FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 reflected) {
   DirectLight sum = noDirectLight();
   mask diffuse = lessR(R(0.0), maxR(m.albedo.x, maxR(m.albedo.y, m.albedo.z)));
   if (kEffectPointLights) {
-    mask glossy = m.highlightStrength > R(0.0) && h.depth > R(0.5);
-    if (diffuse || glossy)
+    mask glossy = andM(lessR(R(0.0), m.highlightStrength), lessR(R(0.5), h.depth));
+    if (anyM(orM(diffuse, glossy)))
       for (int i = 0; i < camera.lightCount; ++i) addPointLight(sum, h, m, lights[i], reflected, diffuse, glossy);
   }
   if (kEffectAmbient) {
-    if (diffuse && camera.ambientIrradiance > R(0.0))
+    if (anyM(andM(diffuse, lessR(R(0.0), camera.ambientIrradiance))))
       sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, environmentIrradiance(h.normal) * camera.ambientIrradiance,
                                                   m.hemisphereTransmittance);
   }

@@ -2,10 +2,10 @@
 FN real3 environmentRadiance(real3 d) {
   if (!kEffectEnvironmentMap || camera.environmentSize == 0) return camera.environment;
   TexelPosition p = environmentTexelPosition(d, real(camera.environmentSize));
-  int row = camera.environmentSize + 2;
-  int at = int(p.y) * row + int(p.x);
-  return bilinear(environmentTexels[at], environmentTexels[at + 1], environmentTexels[at + row],
-                  environmentTexels[at + row + 1], p.fx, p.fy);
+  real right = p.x + R(1.0);
+  real below = p.y + R(1.0);
+  return bilinear(environmentTexel(p.x, p.y), environmentTexel(right, p.y), environmentTexel(p.x, below),
+                  environmentTexel(right, below), p.fx, p.fy);
 }
 
 // The same under a clear sky: a map contains its radiance already, a constant is its mean. degree: of linear
@@ -14,6 +14,6 @@ FN real3 skyRadiance(real3 d, OUT(real) degree) {
   real cosine = dot3(d, camera.sun);
   degree = rayleighDegree(cosine, camera.skyDegree);
   real3 radiance = environmentRadiance(d);
-  if (camera.environmentSize == 0 && dot3(camera.sun, camera.sun) > R(0.0)) radiance = radiance * rayleighPhase(cosine);
-  return radiance;
+  if (camera.environmentSize != 0) return radiance;
+  return select3(lessR(R(0.0), dot3(camera.sun, camera.sun)), radiance * rayleighPhase(cosine), radiance);
 }

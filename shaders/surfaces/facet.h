@@ -2,7 +2,7 @@
 // rough surface of a path is treated so; later ones are smooth, so that rays do not multiply. A depth with a fraction
 // of a quarter marks a path behind a rough surface.
 
-CONST real kBehindRough = R(0.25);
+CONST_REAL(kBehindRough, 0.25);
 
 FN mask isRough(IN(Hit) h) {
   real fraction = h.depth - floorR(h.depth);

@@ -14,11 +14,11 @@ struct Hit {
   real travelled;  // distance from the ray's origin, set by findHit; only with absorption
 };
 
-CONST real kUnitRoundoff = R(5.9604644775390625e-8);  // 2^-24, of float
+CONST_REAL(kUnitRoundoff, 5.9604644775390625e-8);  // 2^-24, of float
 
 // A triangle of more times the ray's length moves the hit onto the ray: barycentric coordinates then err by more than
 // 1e-5 of the ray's length.
-CONST real kLargeTriangle = R(64.0);
+CONST_REAL(kLargeTriangle, 64.0);
 
 // Hit of a ray that starts at `from` in direction d. p0, p1, p2: corners of the triangle relative to the mesh's origin,
 // counter-clockwise seen from outside; b1, b2: barycentric coordinates of p1 and p2; interpolated: normal interpolated

@@ -18,8 +18,15 @@
 //   bool findHit(origin, direction, depth, out hit)
 //     Returns whether the ray meets a surface, and the nearest hit. Iterative methods, and recursive ones without
 //     recursion (shade_stack.h).
-//   mask visible(origin, way)
-//     Returns whether no surface is between origin and origin + way.
+//   mask visible(needed, origin, way)
+//     Returns whether no surface is between origin and origin + way. Called only if a lane needs it; the result means
+//     nothing in the others.
+//   real3 environmentTexel(x, y)
+//     Texel of the environment map, border included; x and y are whole numbers.
+//   real3 texel(texture, x, y)
+//     Texel of a repeated texture; x and y are whole numbers, at most one texel outside. Not kNoTexture in a lane that
+//     uses the result. Only with MALUS_EFFECT_TEXTURES, as is
+//   void textureSize(texture, out width, out height)
 //   void noteFault(hit, stokes, kind, colour, slack)
 //     Records an unphysical value: its kind (shaders/gpu/fault.h), the colour's index, the rounding error allowed.
 //     Called only if kCheckNumerics.
@@ -40,11 +47,27 @@ MaterialExtra materialExtra(word material) {
 #endif
 }
 
+real3 environmentTexel(real x, real y) { return environmentTexels[int(y) * (camera.environmentSize + 2) + int(x)]; }
+
+#if MALUS_EFFECT_TEXTURES
+real3 texel(word index, real x, real y) {
+  Texture t = textures[index];
+  real column = x < 0.0 ? x + real(t.width) : x >= real(t.width) ? x - real(t.width) : x;
+  real row = y < 0.0 ? y + real(t.height) : y >= real(t.height) ? y - real(t.height) : y;
+  return textureTexels[int(t.first) + int(row) * int(t.width) + int(column)];
+}
+
+void textureSize(word index, OUT(real) width, OUT(real) height) {
+  width = real(textures[index].width);
+  height = real(textures[index].height);
+}
+#endif
+
 #ifdef MALUS_STACK_SIZE
 bool findHit(real3 origin, real3 direction, real depth, OUT(Hit) hit);
 #else
 Payload traceRay(real3 origin, real3 direction, real depth);
 #endif
-mask visible(real3 origin, real3 way);
+mask visible(mask needed, real3 origin, real3 way);
 void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack);
 #endif

@@ -1,5 +1,5 @@
 // Stokes vector of the radiance that the camera records at one sample, in the camera frame of that ray.
-FN Stokes cameraSample(uint column, uint row) {
+FN Stokes cameraSample(real column, real row) {
   real3 d = sampleDirection(column, row);
   real cos2;
   real sin2;
@@ -13,7 +13,7 @@ FN Stokes cameraPixel(uint x, uint y) {
   Stokes sum = stokesUnpolarized(splat3(R(0.0)));
   for (uint j = 0u; j < camera.samples; ++j)
     for (uint i = 0u; i < camera.samples; ++i)
-      sum = stokesAdd(sum, cameraSample(x * camera.samples + i, y * camera.samples + j));
+      sum = stokesAdd(sum, cameraSample(real(x * camera.samples + i), real(y * camera.samples + j)));
   real scale = camera.basicToRadiance / real(camera.samples * camera.samples);
   sum.s0 = sum.s0 * scale;
   sum.s1 = sum.s1 * scale;

@@ -2,7 +2,7 @@
 // shade_stack.h) trace the rays.
 // slack: rounding error of the light that has met the surface so far (check.h).
 
-FN bool canScatter(IN(Hit) h) { return h.depth > R(0.5); }
+FN mask canScatter(IN(Hit) h) { return lessR(R(0.5), h.depth); }
 
 FN Payload black() { return payloadUnpolarized(splat3(R(0.0))); }
 

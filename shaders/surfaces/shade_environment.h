@@ -6,7 +6,11 @@ FN Payload shadeEnvironment(real3 d, real depth) {
     real degree;
     real3 radiance = skyRadiance(d, degree);
     sent = payloadUnpolarized(radiance);
-    if (degree > R(0.0)) sent = payloadFromSurface(lightPolarized(radiance, degree), d, surfaceS(d, camera.sun));
+    mask polarized = lessR(R(0.0), degree);
+    if (anyM(polarized)) {
+      SurfaceLight light = lightPolarized(radiance, degree);
+      sent = SELECT(polarized, payloadFromSurface(light, d, surfaceS(d, camera.sun)), sent);
+    }
     slack = radiance * (R(8.0) * kUnitRoundoff);
   } else {
     sent = payloadUnpolarized(environmentRadiance(d));

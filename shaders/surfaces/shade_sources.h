@@ -16,8 +16,11 @@ FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
   if (kEffectPolarizedEmitters) {
     // Unpolarized light has no s direction, which the methods of the paper distinguish from degree 0.
     real degree = materialExtra(h.material).degree;
-    if (degree > R(0.0))
-      sent = payloadFromSurface(lightPolarized(radiance, degree), h.d, surfaceS(h.d, emissionNormal(h)));
+    mask polarized = lessR(R(0.0), degree);
+    if (anyM(polarized)) {
+      SurfaceLight light = lightPolarized(radiance, degree);
+      sent = SELECT(polarized, payloadFromSurface(light, h.d, surfaceS(h.d, emissionNormal(h))), sent);
+    }
     slack = radiance * (R(8.0) * kUnitRoundoff);
   }
   if (kCheckNumerics) checkSent(h, sent, slack);
@@ -25,11 +28,11 @@ FN Payload shadeEmitter(IN(Hit) h, IN(Material) m) {
 }
 
 // The light of a surface that ends the path.
-FN Payload shadeSource(IN(Hit) h, IN(Material) m) {
+FN Payload shadeSource(IN(Hit) h, IN(Material) m, uint kind) {
 #define MALUS_SURFACE_ROW(id, macro, build, name, alias, description)
 #define MALUS_SOURCE_ROW(id, macro, build, name, alias, description) \
   if (kEffect##id) {                                                 \
-    if (m.kind == k##id) return shade##id(h, m);                     \
+    if (kind == k##id) return shade##id(h, m);                       \
   }
 #include "shaders/effects.def"
   return black();

@@ -128,11 +128,11 @@ FN Payload traceRay(real3 origin, real3 direction, real depth) {
     } else {
       Material m = materialAt(h);
       if (isSource(m.kind)) {
-        sent = shadeSource(h, m);
+        sent = shadeSource(h, m, m.kind);
       } else if (!canScatter(h) && !hasBase(m.kind)) {
         sent = black();
       } else {
-        Scattering s = surfaceScattering(h, m);
+        Scattering s = surfaceScattering(h, m, m.kind);
         real3 slack;
         PendingSurface p = meetSurface(h, m, s, ray, slack);
         follows = canScatter(h);

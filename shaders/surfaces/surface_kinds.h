@@ -1,7 +1,8 @@
-// Steps of each kind of surface, selected by the rows of shaders/effects.def.
+// Steps of each kind of surface, selected by the rows of shaders/effects.def. kind: Material.kind, which is the same in
+// all lanes.
 
 // Whether a surface ends the path: it emits, or is diffuse without an interface.
-FN bool isSource(word kind) {
+FN bool isSource(uint kind) {
 #define MALUS_SURFACE_ROW(id, macro, build, name, alias, description)
 #define MALUS_SOURCE_ROW(id, macro, build, name, alias, description) \
   if (kEffect##id) {                                                 \
@@ -12,14 +13,14 @@ FN bool isSource(word kind) {
 }
 
 // Whether diffuse light of a layer below leaves through the interface.
-FN bool hasBase(word kind) { return kind == kPaint || kind == kMetal; }
+FN bool hasBase(uint kind) { return kind == kPaint || kind == kMetal; }
 
 // Scattering of a surface that is not a source.
-FN Scattering surfaceScattering(INOUT(Hit) h, IN(Material) m) {
+FN Scattering surfaceScattering(INOUT(Hit) h, IN(Material) m, uint kind) {
 #define MALUS_SOURCE_ROW(id, macro, build, name, alias, description)
 #define MALUS_SURFACE_ROW(id, macro, build, name, alias, description) \
   if (kEffect##id) {                                                  \
-    if (m.kind == k##id) return scatter##id(h, m);                    \
+    if (kind == k##id) return scatter##id(h, m);                      \
   }
 #include "shaders/effects.def"
   return scatterPaint(h, m);

@@ -1,36 +1,35 @@
 // Material at a hit: textures in place of, or multiplied with, its constants. Parallel projection, repeated, bilinear.
 
 #if MALUS_EFFECT_TEXTURES
-// Texel of a repeated texture; x and y at most one texel outside.
-FN real3 texel(Texture t, int x, int y) {
-  int width = int(t.width);
-  int height = int(t.height);
-  int column = x < 0 ? x + width : x >= width ? x - width : x;
-  int row = y < 0 ? y + height : y >= height ? y - height : y;
-  return textureTexels[int(t.first) + row * width + column];
+FN real3 textureAt(word index, real u, real v) {
+  real width;
+  real height;
+  textureSize(index, width, height);
+  TexelPosition p = textureTexelPosition(u, v, width, height);
+  real right = p.x + R(1.0);
+  real below = p.y + R(1.0);
+  return bilinear(texel(index, p.x, p.y), texel(index, right, p.y), texel(index, p.x, below),
+                  texel(index, right, below), p.fx, p.fy);
 }
 
-FN real3 textureAt(word index, real u, real v) {
-  Texture t = textures[index];
-  TexelPosition p = textureTexelPosition(u, v, real(t.width), real(t.height));
-  int x = int(p.x);
-  int y = int(p.y);
-  return bilinear(texel(t, x, y), texel(t, x + 1, y), texel(t, x, y + 1), texel(t, x + 1, y + 1), p.fx, p.fy);
-}
+FN mask isMapped(word index) { return notM(equalW(index, kNoTexture)); }
 
 FN Material materialAt(IN(Hit) h) {
   Material m = materials[h.material];
   MaterialExtra e = materialExtra(h.material);
-  if (e.albedoMap == kNoTexture && e.etaMap == kNoTexture && e.kMap == kNoTexture) return m;
+  mask albedo = isMapped(e.albedoMap);
+  mask eta = isMapped(e.etaMap);
+  mask k = isMapped(e.kMap);
+  if (!anyM(orM(albedo, orM(eta, k)))) return m;
   real3 p = h.position - e.mapOrigin;
   real u = dot3(p, e.mapU);
   real v = dot3(p, e.mapV);
-  if (e.albedoMap != kNoTexture) m.albedo = m.albedo * textureAt(e.albedoMap, u, v);
-  if (e.etaMap != kNoTexture) {
-    m.eta = textureAt(e.etaMap, u, v);
-    m.contrast = (m.eta - splat3(m.outsideEta)) - splat3(e.outsideResidue);
+  if (anyM(albedo)) m.albedo = select3(albedo, m.albedo * textureAt(e.albedoMap, u, v), m.albedo);
+  if (anyM(eta)) {
+    m.eta = select3(eta, textureAt(e.etaMap, u, v), m.eta);
+    m.contrast = select3(eta, (m.eta - splat3(m.outsideEta)) - splat3(e.outsideResidue), m.contrast);
   }
-  if (e.kMap != kNoTexture) m.k = textureAt(e.kMap, u, v);
+  if (anyM(k)) m.k = select3(k, textureAt(e.kMap, u, v), m.k);
   return m;
 }
 #else

@@ -231,8 +231,8 @@ TYPED_TEST(EmulatedSurfaces, ImportancePathsStayPhysical) {
       const auto& c = path.throughput;
       slack += std::abs(before);
       expectImportance(c.r, slack, "red");
-      expectImportance(c.split ? c.g : c.r, slack, "green");
-      expectImportance(c.split ? c.b : c.r, slack, "blue");
+      expectImportance(steps.isSplit(c) ? c.g : c.r, slack, "green");
+      expectImportance(steps.isSplit(c) ? c.b : c.r, slack, "blue");
       expectUnit(c.x, "frame", bounce + 1);
       for (const Real x : toVec(steps.unpolarizedContribution(c, m.albedo))) EXPECT_GE(x, -16 * kUnit * slack);
     }

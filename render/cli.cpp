@@ -187,6 +187,7 @@ void printResult(const RenderArguments& a, const Job& job, const std::string& sc
       {"method", job.method()},
       {"device", result.device},
       {"vulkanPath", orNull(result.vulkanPath != VulkanPath::automatic, vulkanPathName(result.vulkanPath))},
+      {"embreePath", orNull(result.embreePath != EmbreePath::automatic, embreePathName(result.embreePath))},
       {"withoutRecursion", orNull(!result.withoutRecursion.empty(), result.withoutRecursion)},
       {"width", result.width},
       {"height", result.height},

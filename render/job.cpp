@@ -66,6 +66,7 @@ RenderParameters renderParameters(const JobSettings& settings, const pack::Scene
   parameters.tolerance = settings.tolerance;
   parameters.stokes = settings.stokes;
   parameters.vulkanPath = settings.vulkanPath;
+  parameters.embreePath = settings.embreePath;
   return parameters;
 }
 

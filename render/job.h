@@ -20,6 +20,7 @@ struct JobSettings {
   std::string device;              // as RendererOptions::device
   unsigned threads = 0;            // 0: all
   VulkanPath vulkanPath = VulkanPath::automatic;
+  EmbreePath embreePath = EmbreePath::automatic;
 
   std::uint32_t width = 0, height = 0;  // in pixels; 0: the pack's, or what keeps its aspect
   std::vector<std::uint32_t> region;    // x, y, width, height in pixels; empty: the whole image

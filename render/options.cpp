@@ -1,6 +1,6 @@
 #include "render/options.h"
 
-#include <map>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -33,16 +33,25 @@ void addDevice(CLI::App& command, std::string& device, unsigned& threads) {
                      "Vulkan device: number or part of its name from --list-devices (default: the best)");
 }
 
-void addVulkanPath(CLI::App& command, VulkanPath& path) {
-  std::map<std::string, VulkanPath> paths;
-  for (const VulkanPath p : {VulkanPath::automatic, VulkanPath::pipeline, VulkanPath::query})
-    paths[vulkanPathName(p)] = p;
-  command
-      .add_option_function<std::string>(
-          "--vulkan-path", [&path, paths](const std::string& name) { path = paths.at(name); },
-          "Rays of the Vulkan renderer: by pipelines or by ray queries")
-      ->check(CLI::IsMember(std::vector<std::string>(kVulkanPathNames.begin(), kVulkanPathNames.end())))
-      ->default_str(vulkanPathName(path));
+namespace {
+// An option whose values are the names of an enumeration, in its order.
+template <class Enum, std::size_t N>
+void addNamed(CLI::App& command, const char* option, Enum& value, const std::array<const char*, N>& names,
+              const char* description) {
+  const auto choose = [&value, names](const std::string& name) {
+    value = static_cast<Enum>(std::ranges::find(names, name) - names.begin());
+  };
+  command.add_option_function<std::string>(option, choose, description)
+      ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())))
+      ->default_str(names[static_cast<std::size_t>(value)]);
+}
+}  // namespace
+
+void addPaths(CLI::App& command, VulkanPath& vulkan, EmbreePath& embree) {
+  addNamed(command, "--vulkan-path", vulkan, kVulkanPathNames,
+           "Rays of the Vulkan renderer: by pipelines or by ray queries");
+  addNamed(command, "--embree-path", embree, kEmbreePathNames,
+           "Rays of the Embree renderer: in SIMD packets or one at a time");
 }
 
 void addExposure(CLI::App& command, std::optional<double>& exposure) {
@@ -64,7 +73,7 @@ void addJobOptions(CLI::App& command, std::string& pack, JobSettings& settings) 
       ->transform(wholeNumberBetween(0, pack::kMaxResolution))
       ->expected(4);
   addDevice(command, settings.device, settings.threads);
-  addVulkanPath(command, settings.vulkanPath);
+  addPaths(command, settings.vulkanPath, settings.embreePath);
 }
 
 void requireStokes(Backend backend, std::string_view method, const std::string& option) {

@@ -15,11 +15,11 @@
 
 namespace malus::render {
 
-// --backend, --method, --device, --threads, --vulkan-path
+// --backend, --method, --device, --threads, --vulkan-path and --embree-path
 void addBackend(CLI::App& command, Backend& backend);
 void addMethod(CLI::App& command, std::string& method);
 void addDevice(CLI::App& command, std::string& device, unsigned& threads);
-void addVulkanPath(CLI::App& command, VulkanPath& path);
+void addPaths(CLI::App& command, VulkanPath& vulkan, EmbreePath& embree);
 
 // --exposure in stops; unset: the pack's.
 void addExposure(CLI::App& command, std::optional<double>& exposure);

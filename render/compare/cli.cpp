@@ -217,7 +217,7 @@ void addCompareCommand(CLI::App& app) {
       ->transform(nonNegativeNumber())
       ->capture_default_str();
   addDevice(*command, settings.device, settings.threads);
-  addVulkanPath(*command, settings.vulkanPath);
+  addPaths(*command, settings.vulkanPath, settings.embreePath);
   command
       ->add_option("--polarizer", settings.polarizerDegrees,
                    "Linear polarizer in front of the camera, from the image's x axis, counter-clockwise [degrees]")

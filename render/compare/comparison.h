@@ -33,8 +33,9 @@ struct ComparisonSettings {
   unsigned threads = 0;  // 0: all
   std::string device;    // as RendererOptions::device
   VulkanPath vulkanPath = VulkanPath::automatic;  // automatic: iterative methods by each path that the device has
-  std::optional<double> polarizerDegrees;         // filter in front of the camera
-  std::vector<std::string> gpuFamilies;           // for a compiler's static estimates: navi21, navi31, ...
+  EmbreePath embreePath = EmbreePath::automatic;
+  std::optional<double> polarizerDegrees;  // filter in front of the camera
+  std::vector<std::string> gpuFamilies;    // for a compiler's static estimates: navi21, navi31, ...
 };
 
 // One method on one renderer with one view of one scene.

@@ -255,6 +255,7 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
             {"backends", backends},
             {"threads", settings.threads},
             {"vulkanPath", vulkanPathName(settings.vulkanPath)},
+            {"embreePath", embreePathName(settings.embreePath)},
             {"effects", "auto"},
             {"exposureEv", exposure},
             {"polarizerDegrees", settings.polarizerDegrees ? json(*settings.polarizerDegrees) : json()}}},

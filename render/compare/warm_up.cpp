@@ -64,6 +64,7 @@ std::vector<RenderParameters> views(const pack::Scene& scene, const ComparisonSe
     if (settings.polarizerDegrees) size.analyser = linearPolarizer(*settings.polarizerDegrees);
     for (const std::uint32_t depth : settings.depths.empty() ? std::vector{scene.depth} : settings.depths) {
       size.depth = depth;
+      size.embreePath = settings.embreePath;
       result.push_back(renderParameters(size, scene));
     }
   }

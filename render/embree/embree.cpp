@@ -76,6 +76,50 @@ void Bvh::attachInstance(RTCScene instanced, const glm::vec3& origin) {
   rtcReleaseGeometry(instance);
 }
 
+namespace {
+// Calls a query of Embree 3 or 4 with its arguments.
+#if RTC_VERSION_MAJOR >= 4
+template <class Query, class Packet>
+void callIntersect(Query query, const int* valid, RTCScene scene, Packet& packet, bool coherent) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  query(valid, scene, &packet, &arguments);
+}
+template <class Query, class Packet>
+void callOccluded(Query query, const int* valid, RTCScene scene, Packet& packet) {
+  query(valid, scene, &packet, nullptr);
+}
+#else
+template <class Query, class Packet>
+void callIntersect(Query query, const int* valid, RTCScene scene, Packet& packet, bool coherent) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  query(valid, scene, &context, &packet);
+}
+template <class Query, class Packet>
+void callOccluded(Query query, const int* valid, RTCScene scene, Packet& packet) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  query(valid, scene, &context, &packet);
+}
+#endif
+}  // namespace
+
+void Bvh::nearest(const int* valid, RTCRayHit4& packet, bool coherent) const {
+  callIntersect(rtcIntersect4, valid, scene_, packet, coherent);
+}
+void Bvh::nearest(const int* valid, RTCRayHit8& packet, bool coherent) const {
+  callIntersect(rtcIntersect8, valid, scene_, packet, coherent);
+}
+void Bvh::nearest(const int* valid, RTCRayHit16& packet, bool coherent) const {
+  callIntersect(rtcIntersect16, valid, scene_, packet, coherent);
+}
+void Bvh::occluded(const int* valid, RTCRay4& packet) const { callOccluded(rtcOccluded4, valid, scene_, packet); }
+void Bvh::occluded(const int* valid, RTCRay8& packet) const { callOccluded(rtcOccluded8, valid, scene_, packet); }
+void Bvh::occluded(const int* valid, RTCRay16& packet) const { callOccluded(rtcOccluded16, valid, scene_, packet); }
+
 Bvh::~Bvh() {
   if (scene_) rtcReleaseScene(scene_);
   if (device_) rtcReleaseDevice(device_);

@@ -26,6 +26,29 @@ struct Intersection {
   float b1 = 0, b2 = 0;   // barycentric coordinates of its second and third corner
 };
 
+// Packets of N rays, N is 4, 8 or 16, in Embree's structure-of-arrays form.
+template <std::size_t N>
+struct PacketTypes;
+template <>
+struct PacketTypes<4> {
+  using Ray = RTCRay4;
+  using RayHit = RTCRayHit4;
+};
+template <>
+struct PacketTypes<8> {
+  using Ray = RTCRay8;
+  using RayHit = RTCRayHit8;
+};
+template <>
+struct PacketTypes<16> {
+  using Ray = RTCRay16;
+  using RayHit = RTCRayHit16;
+};
+template <std::size_t N>
+using RayPacket = typename PacketTypes<N>::Ray;
+template <std::size_t N>
+using RayHitPacket = typename PacketTypes<N>::RayHit;
+
 // As in Vulkan, a triangle at distance 0 is not hit, so that a camera exactly on a face does not see that face.
 inline constexpr float kNearest = std::numeric_limits<float>::min();
 
@@ -40,6 +63,15 @@ class Bvh {
   Intersection nearest(const glm::vec3& origin, const glm::vec3& direction) const;
   // Whether there is no triangle within `distance` lengths of direction, which may have any length but 0.
   bool visible(const glm::vec3& origin, const glm::vec3& direction, float distance) const;
+
+  // The same for packets. valid: -1 for each ray that is traced, else 0. coherent: the rays have similar origins and
+  // directions. A ray that meets nothing keeps its hit.geomID; one that is not visible gets a negative tfar.
+  void nearest(const int* valid, RTCRayHit4& packet, bool coherent) const;
+  void nearest(const int* valid, RTCRayHit8& packet, bool coherent) const;
+  void nearest(const int* valid, RTCRayHit16& packet, bool coherent) const;
+  void occluded(const int* valid, RTCRay4& packet) const;
+  void occluded(const int* valid, RTCRay8& packet) const;
+  void occluded(const int* valid, RTCRay16& packet) const;
 
   static std::string version();  // "Embree 3.13.5"
 

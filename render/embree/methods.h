@@ -4,10 +4,12 @@
 
 #include <vector>
 
+#include "render/embree/packets/packets.h"
 #include "render/embree/tile.h"
 
 namespace malus::embree {
 
 const std::vector<const Method*>& allMethods();
+const std::vector<const PacketMethod*>& allPacketMethods();  // in the same order
 
 }  // namespace malus::embree

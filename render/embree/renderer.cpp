@@ -7,46 +7,90 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range2d.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "meshprep/base/error.h"
 #include "render/embree/methods.h"
+#include "render/embree/packets/packets.h"
 #include "render/embree/tile.h"
 #include "render/scene/compiled_effects.h"
 #include "render/scene/methods.h"
 #include "render/scene/render_scene.h"
+#include "shaders/effects.h"
 
 namespace malus::embree {
 using Clock = std::chrono::steady_clock;
 
 namespace {
+constexpr std::uint32_t kTileSide = 16;  // of the scalar path
+
 double sinceMs(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-constexpr std::size_t kTileSide = 16;
 
-// Returns the first build of a method that contains all effects and, if asked for, the numeric checks.
-const Method& findBuild(std::string_view name, std::uint32_t effects, bool checks) {
-  const Method* found = nullptr;
-  for (const Method* m : allMethods())
-    if (m->name == name && (effects & ~m->effects) == 0 && (!checks || m->renderTileChecked) && !found) found = m;
-  return *found;  // the last build contains every effect and the checks
+// The first build of a method that contains all effects; the last one contains every effect.
+template <class Build>
+const Build& findBuild(const std::vector<const Build*>& builds, std::string_view name, std::uint32_t effects) {
+  return **std::ranges::find_if(
+      builds, [&](const Build* build) { return build->name == name && (effects & ~build->effects) == 0; });
+}
+
+// Only the build with every effect checks numerics.
+constexpr std::uint32_t kEveryEffect = ~0u >> (32 - shaders::kCompiledEffects.size());
+
+// Throws Error if packets are asked for and the processor cannot run them.
+bool tracesSingleRays(const render::RenderParameters& parameters) {
+  if (parameters.checkNumerics || parameters.embreePath == render::EmbreePath::scalar) return true;
+  if (hasPacketInstructions()) return false;
+  if (parameters.embreePath == render::EmbreePath::packet)
+    throw Error("--embree-path", "this processor has no instructions for packets", "SSE4.2, AVX2 or AVX-512", "none");
+  return true;
+}
+
+// Calls renderTile(tile) for the tiles of an image, in parallel, and adds up what it returns.
+template <class RenderTile>
+void renderTiles(const TileInput& image, int threads, std::uint32_t tileWidth, std::uint32_t tileHeight,
+                 render::RenderResult& result, RenderTile renderTile) {
+  std::atomic<std::uint64_t> tracedRays{0};
+  std::mutex merging;
+  tbb::task_arena arena(threads);
+  const gpu::CameraParameters& camera = *image.camera;
+  const std::uint32_t columns = (camera.regionWidth + tileWidth - 1) / tileWidth;
+  const std::uint32_t rows = (camera.regionHeight + tileHeight - 1) / tileHeight;
+  arena.execute([&] {
+    tbb::parallel_for(0u, columns * rows, [&](std::uint32_t i) {
+      TileInput tile = image;
+      tile.beginX = i % columns * tileWidth;
+      tile.beginY = i / columns * tileHeight;
+      tile.endX = std::min(tile.beginX + tileWidth, camera.regionWidth);
+      tile.endY = std::min(tile.beginY + tileHeight, camera.regionHeight);
+      const TileOutput output = renderTile(tile);
+      tracedRays += output.rays;
+      if (output.faults.count == 0) return;
+      const std::scoped_lock lock(merging);
+      result.faults.add(output.faults, camera.width);
+    });
+  });
+  result.cost.rays = tracedRays;
 }
 }  // namespace
 
 struct Renderer::Impl {
+  explicit Impl(const pack::Scene& packed) : source(&packed), scene(render::makeRenderScene(packed)), order(scene) {}
+
   pack::Scene const* source;
   render::RenderScene scene;
-  int threads;
+  ShadingOrder order;
+  int threads = 1;
   double buildMs = 0;
   std::unique_ptr<Bvh> bvh;
 };
 
-Renderer::Renderer(const pack::Scene& scene, unsigned threads) : impl_(std::make_unique<Impl>()) {
+Renderer::Renderer(const pack::Scene& scene, unsigned threads) {
   const auto start = Clock::now();
-  impl_->source = &scene;
-  impl_->scene = render::makeRenderScene(scene);
+  impl_ = std::make_unique<Impl>(scene);
   impl_->threads = static_cast<int>(threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
   impl_->bvh = std::make_unique<Bvh>(impl_->scene, threads);
   impl_->buildMs = sinceMs(start);
@@ -60,8 +104,6 @@ std::vector<std::string> Renderer::methods() const { return render::methodNames(
 
 render::RenderResult Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
   const render::MethodInfo& info = render::methodNamed(name);
-  const Method& method = findBuild(name, render::compiledEffects(*impl_->source, parameters), parameters.checkNumerics);
-
   render::RenderResult result;
   result.width = parameters.region.width;
   result.height = parameters.region.height;
@@ -69,28 +111,25 @@ render::RenderResult Renderer::render(std::string_view name, const render::Rende
   result.pixels.resize(result.channels * result.width * result.height);
   result.device = device();
   const gpu::CameraParameters camera = render::makeCameraParameters(*impl_->source, parameters);
+  const TileInput image{
+      impl_->bvh.get(), &impl_->scene, &camera, 0, 0, 0, 0, result.pixels.data(), render::hasStokes(info, parameters)};
+  const std::uint32_t effects = render::compiledEffects(*impl_->source, parameters);
+  const bool scalar = tracesSingleRays(parameters);
+  result.embreePath = scalar ? render::EmbreePath::scalar : render::EmbreePath::packet;
 
   const auto start = Clock::now();
-  std::atomic<std::uint64_t> rays{0};
-  std::mutex merging;
-  tbb::task_arena arena(impl_->threads);
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range2d<std::uint32_t>(0, parameters.region.height, kTileSide, 0,
-                                                          parameters.region.width, kTileSide),
-                      [&](const tbb::blocked_range2d<std::uint32_t>& r) {
-                        const auto renderTile = parameters.checkNumerics ? method.renderTileChecked : method.renderTile;
-                        const TileOutput tile = renderTile({impl_->bvh.get(), &impl_->scene, &camera, r.cols().begin(),
-                                                            r.rows().begin(), r.cols().end(), r.rows().end(),
-                                                            result.pixels.data(), render::hasStokes(info, parameters)});
-                        rays += tile.rays;
-                        if (tile.faults.count == 0) return;
-                        const std::scoped_lock lock(merging);
-                        result.faults.add(tile.faults, camera.width);
-                      });
-  });
+  if (scalar) {
+    const Method& method = findBuild(allMethods(), name, parameters.checkNumerics ? kEveryEffect : effects);
+    const auto renderTile = parameters.checkNumerics ? method.renderTileChecked : method.renderTile;
+    renderTiles(image, impl_->threads, kTileSide, kTileSide, result, renderTile);
+  } else {
+    const PacketMethod& method = findBuild(allPacketMethods(), name, effects);
+    tbb::enumerable_thread_specific<PacketMemory> memory([&] { return PacketMemory(impl_->order); });
+    renderTiles(image, impl_->threads, kPacketTileWidth, kPacketTileHeight, result,
+                [&](const TileInput& tile) { return method.renderTile(tile, impl_->order, memory.local()); });
+  }
   result.cost.traceMs = result.cost.wallMs = sinceMs(start);
   result.cost.buildMs = impl_->buildMs;
-  result.cost.rays = rays;
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bake/pack/scene.h"
+#include "render/scene/embree_path.h"
 #include "render/scene/vulkan_path.h"
 
 namespace malus::render {
@@ -50,6 +51,7 @@ struct RenderParameters {
   bool stokes = false;         // of iterative methods: Stokes vectors too, by four analysers
   bool checkNumerics = false;  // find unphysical values (fault.h); slow
   VulkanPath vulkanPath = VulkanPath::automatic;  // of the Vulkan renderer; ignored by others
+  EmbreePath embreePath = EmbreePath::automatic;  // of the Embree renderer; ignored by others
 };
 
 // The settings of the pack.

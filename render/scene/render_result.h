@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/scene/embree_path.h"
 #include "render/scene/fault.h"
 #include "render/scene/vulkan_path.h"
 #include "shaders/gpu/constants.h"
@@ -35,6 +36,7 @@ struct RenderResult {
   Faults faults;  // if RenderParameters::checkNumerics is set
   std::string device;
   VulkanPath vulkanPath = VulkanPath::automatic;  // the path taken; automatic: not by the Vulkan renderer
+  EmbreePath embreePath = EmbreePath::automatic;  // the same of the Embree renderer
   std::string withoutRecursion;  // reason if a stack replaced the recursion of a recursive method; else empty
 };
 

@@ -1,0 +1,210 @@
+// Driver of the iterative methods on packets, as members of a tracer: the paths of a batch are followed together by the
+// steps of shaders/iterative/camera_path.h, and the paths that go on make the next batch. Included once per instruction
+// set; no include guard.
+
+#include "shaders/iterative/path.h"
+#include "shaders/iterative/path_light.h"
+
+// Rays with the throughput of their paths, a row per field, and the pixel of each in the tile.
+struct Paths {
+  Rays rays;
+  HWY_ALIGN_MAX float throughput[kFields<Throughput>][kBatch + kLanes];
+  HWY_ALIGN_MAX std::uint32_t pixel[kBatch + kLanes];
+};
+
+// Rough surfaces whose facets are followed after the other paths.
+struct RoughPacket {
+  Hit h;
+  Material m;
+  Scattering s;
+  Throughput throughput;
+  mask rough;
+  word pixel;
+};
+
+// What one level keeps while the next one works. At most one ray of each kind leaves per path, so that each fits.
+struct Level {
+  Intersections found;
+  Paths reflected;  // also those of one facet each
+  Paths transmitted;
+  RoughPacket rough[kEffectRoughness ? kBatch / kLanes + gpu::kSurfaceKinds : 1];
+  std::size_t roughCount;
+};
+Level* levels[embree::kMostLevels] = {};
+HWY_ALIGN_MAX float sums[3][kBatch + kLanes];  // radiance that the camera records, by pixel
+real threshold;                                // paths with a smaller throughput end
+
+Throughput loadThroughput(const Paths& paths, word path) {
+  Throughput c;
+  for (std::size_t i = 0; i < kFields<Throughput>; ++i) setField(c, i, gatherR(paths.throughput[i], path));
+  return c;
+}
+
+void addPaths(Paths& paths, mask chosen, const CameraPath& p, word pixel) {
+  chosen = andM(chosen, active);
+  if (!anyM(chosen)) return;
+  const std::uint32_t at = paths.rays.count;
+  for (std::size_t i = 0; i < kFields<Throughput>; ++i)
+    storeChosen(getField(p.throughput, i), chosen, paths.throughput[i] + at);
+  hn::StoreU(hn::Compress(pixel.v, hn::RebindMask(Words(), chosen.m)), Words(), paths.pixel + at);
+  addRays(paths.rays, chosen, p.origin, p.d, p.depth);
+}
+
+// Adds light to the pixels of the active lanes. Each pixel has one path in a batch.
+void record(const real3& light, word pixel) {
+  pixel = parked(pixel);
+  scatterR(gatherR(sums[0], pixel) + light.x, sums[0], pixel);
+  scatterR(gatherR(sums[1], pixel) + light.y, sums[1], pixel);
+  scatterR(gatherR(sums[2], pixel) + light.z, sums[2], pixel);
+}
+
+// Rays that leave a surface, and the light that it adds to the paths that met it.
+void meetSurface(std::uint32_t kind, Hit& h, CameraPath& p, word pixel, Level& level) {
+  const Material m = materialAt(h);
+  if (kEffectAbsorption) scaleThroughput(p.throughput, mediumTransmittance(h));
+  if (isSource(kind)) {
+    record(sourceLight(h, m, kind, p.throughput).recorded, pixel);
+    return;
+  }
+  const mask scatters = andM(active, lessR(0.5f, h.depth));
+  if (!hasBase(kind) && !anyM(scatters)) return;
+  const Scattering s = surfaceScattering(h, m, kind);
+  rotateToSurface(p.throughput, h.d, s.frameNormal);
+  DirectLight direct = noDirectLight();
+  if (anyM(s.reflects)) direct = directLight(h, m, s.reflected);
+  real3 light = splat3(0.0f);
+  if (hasBase(kind)) light = diffuseExit(p.throughput, s.reflection, direct.diffuse);
+  const mask transmits = andM(scatters, s.transmits);
+  if (anyM(transmits)) {
+    CameraPath through;
+    through.throughput = p.throughput;
+    followTransmission(through, h, s, camera.tolerance);
+    addPaths(level.transmitted, andM(transmits, lessR(threshold, maxComponent(through.throughput))), through, pixel);
+  }
+  const mask reflects = andM(scatters, s.reflects);
+  if (anyM(reflects)) {
+    mask rough = false;
+    if (kEffectRoughness) {
+      if (hasBase(kind)) rough = andM(reflects, isRough(h));
+      if (anyM(rough)) level.rough[level.roughCount++] = {h, m, s, p.throughput, rough, pixel};
+    }
+    applyInterface(p.throughput, s.reflection, s.coloured);
+    light = light + select3(reflects, unpolarizedContribution(p.throughput, direct.highlight), splat3(0.0f));
+    followReflection(p, h, s, camera.tolerance);
+    const mask goesOn = andM(reflects, notM(rough));
+    addPaths(level.reflected, andM(goesOn, lessR(threshold, maxComponent(p.throughput))), p, pixel);
+  }
+  record(light, pixel);
+}
+
+// The paths of one facet of each rough surface.
+void addFacetPaths(std::uint32_t i, Level& level) {
+  level.reflected.rays.count = 0;
+  for (std::size_t k = 0; k < level.roughCount; ++k) {
+    const RoughPacket& r = level.rough[k];
+    loadExtra(r.h.material);
+    active = r.rough;
+    const Facet facet = sampleFacet(r.h, camera.facets[i].x, camera.facets[i].y);
+    CameraPath p;
+    p.throughput = r.throughput;
+    followFacet(p, r.h, r.m, facet, r.s.coloured, camera.tolerance);
+    const mask shows = lessR(threshold * (1.0f / static_cast<float>(gpu::kFacets)), maxComponent(p.throughput));
+    addPaths(level.reflected, andM(andM(r.rough, lessR(0.0f, facet.weight)), shows), p, r.pixel);
+  }
+}
+
+// Follows a batch of paths to their ends. depth: of the recursion.
+void followPaths(std::size_t depth, const Paths& paths, bool coherent) {
+  if (paths.rays.count == 0) return;
+  if (levels[depth] == nullptr) levels[depth] = new Level;
+  Level& level = *levels[depth];
+  intersect(paths.rays, level.found, coherent);
+  level.reflected.rays.count = level.transmitted.rays.count = 0;
+  level.roughCount = 0;
+  forEachPacket(
+      level.found,
+      [&](word path) HWY_ATTR {
+        const real3 d = rayDirection(paths.rays, path);
+        record(environmentLight(loadThroughput(paths, path), d).recorded, gatherW(paths.pixel, path));
+      },
+      [&](std::uint32_t kind, word path) HWY_ATTR {
+        CameraPath p;
+        p.throughput = loadThroughput(paths, path);
+        Hit h = gatherHit(paths.rays, level.found, path);
+        loadExtra(h.material);
+        meetSurface(kind, h, p, gatherW(paths.pixel, path), level);
+      });
+  followPaths(depth + 1, level.reflected, false);
+  for (std::uint32_t i = 0; kEffectRoughness && level.roughCount > 0 && i < gpu::kFacets; ++i) {
+    addFacetPaths(i, level);
+    followPaths(depth + 1, level.reflected, false);
+  }
+  followPaths(depth + 1, level.transmitted, false);
+}
+
+Paths primary;
+
+// Mean over the samples of each pixel of a tile, behind an analyser.
+void tracePixels(const embree::TileInput& tile, const glm::vec4& behind) {
+  std::memset(sums, 0, sizeof sums);
+  threshold = camera.tolerance * behind.x;
+  for (std::uint32_t j = 0; j < camera.samples; ++j)
+    for (std::uint32_t i = 0; i < camera.samples; ++i) {
+      cameraRays(tile, i, j, primary.rays);
+      for (std::uint32_t at = 0; at < primary.rays.count; at += static_cast<std::uint32_t>(kLanes)) {
+        const word path = addW(hn::Iota(Words(), 0), at);
+        const Throughput c =
+            startThroughput(rayDirection(primary.rays, path), camera.up, behind.x, behind.y, behind.z, behind.w);
+        for (std::size_t f = 0; f < kFields<Throughput>; ++f) storeR(getField(c, f), primary.throughput[f] + at);
+        hn::StoreU(path.v, Words(), primary.pixel + at);
+      }
+      followPaths(0, primary, true);
+    }
+}
+
+real3 recorded(std::uint32_t at) {
+  const real scale = camera.basicToRadiance / static_cast<float>(camera.samples * camera.samples);
+  return real3(loadR(sums[0] + at), loadR(sums[1] + at), loadR(sums[2] + at)) * scale;
+}
+
+// By four analysers: S0, S0 + S1, S0 + S2, S0 + S3 (shaders/iterative/camera_path.h).
+HWY_ALIGN_MAX float analysedSums[4][3][kBatch + kLanes];
+void renderStokes(const embree::TileInput& tile) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    tracePixels(tile, {1, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f, k == 3 ? 1.0f : 0.0f});
+    for (std::uint32_t at = 0; at < primary.rays.count; at += static_cast<std::uint32_t>(kLanes)) {
+      const real3 light = recorded(at);
+      storeR(light.x, analysedSums[k][0] + at);
+      storeR(light.y, analysedSums[k][1] + at);
+      storeR(light.z, analysedSums[k][2] + at);
+    }
+  }
+  for (std::uint32_t at = 0; at < primary.rays.count; at += static_cast<std::uint32_t>(kLanes)) {
+    const auto light = [&](std::size_t k) HWY_ATTR {
+      return real3(loadR(analysedSums[k][0] + at), loadR(analysedSums[k][1] + at), loadR(analysedSums[k][2] + at));
+    };
+    Stokes s;
+    s.s0 = light(0);
+    s.s1 = light(1) - s.s0;
+    s.s2 = light(2) - s.s0;
+    s.s3 = light(3) - s.s0;
+    const real3 values[5] = {cameraColour(s), s.s0, s.s1, s.s2, s.s3};
+    writePixels(tile, at, values, gpu::kStokesChannels);
+  }
+}
+
+void renderTile(const embree::TileInput& tile) {
+  if (tile.stokes) {
+    renderStokes(tile);
+    return;
+  }
+  tracePixels(tile, camera.analyser);
+  for (std::uint32_t at = 0; at < primary.rays.count; at += static_cast<std::uint32_t>(kLanes)) {
+    const real3 colour = recorded(at);
+    writePixels(tile, at, &colour, gpu::kColourChannels);
+  }
+}
+
+void freeLevels() {
+  for (Level* level : levels) delete level;
+}

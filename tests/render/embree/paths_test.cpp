@@ -1,0 +1,112 @@
+// The paths of the Embree renderer: packets on every instruction set that this processor has, and one ray at a time.
+// Both evaluate the same expressions, without contraction, so that images are nearly equal bit by bit: sums over the
+// paths of a pixel, and roundings to 16 bits, may differ in their last digit.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <hwy/highway.h>
+
+#include <gtest/gtest.h>
+
+#include "meshprep/base/error.h"
+#include "render/embree/renderer.h"
+#include "render/scene/methods.h"
+#include "tests/render/vulkan/scenes.h"
+
+namespace malus::embree {
+namespace {
+
+using render::EmbreePath;
+using render::RenderParameters;
+using render::RenderResult;
+
+struct InstructionSet {
+  const char* name;
+  std::int64_t target;
+};
+constexpr InstructionSet kInstructionSets[] = {{"SSE4.2", HWY_SSE4}, {"AVX2", HWY_AVX2}, {"AVX-512", HWY_AVX3}};
+
+// Limits the packets to one instruction set.
+class Limited {
+ public:
+  explicit Limited(std::int64_t target) { hwy::SetSupportedTargetsForTest(target); }
+  ~Limited() { hwy::SetSupportedTargetsForTest(0); }
+  Limited(const Limited&) = delete;
+  Limited& operator=(const Limited&) = delete;
+};
+
+RenderResult rendered(const pack::Scene& scene, const std::string& method, EmbreePath path, std::uint32_t samples = 1) {
+  RenderParameters parameters = render::defaultParameters(scene);
+  parameters.embreePath = path;
+  parameters.samples = samples;
+  parameters.stokes = render::methodNamed(method).hasStokes;
+  RenderResult result = Renderer(scene, 1).render(method, parameters);
+  EXPECT_EQ(result.embreePath, path);
+  return result;
+}
+
+void expectSame(const RenderResult& found, const RenderResult& expected, double tolerance) {
+  ASSERT_EQ(found.pixels.size(), expected.pixels.size());
+  double largest = 0, difference = 0;
+  for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
+    EXPECT_TRUE(std::isfinite(found.pixels[i]));
+    largest = std::max(largest, static_cast<double>(std::abs(expected.pixels[i])));
+    difference = std::max(difference, static_cast<double>(std::abs(found.pixels[i] - expected.pixels[i])));
+  }
+  EXPECT_GT(largest, 0.1);  // the image is not black
+  EXPECT_LE(difference, tolerance * largest);
+  EXPECT_EQ(found.cost.rays, expected.cost.rays);
+}
+
+// stokes-half rounds to 16 bits at every surface.
+double toleranceOf(const std::string& method) { return method == "stokes-half" ? 1e-3 : 1e-5; }
+
+void expectSameByBothPaths(const pack::Scene& scene, std::uint32_t samples) {
+  for (const render::MethodInfo& m : render::methods()) {
+    const RenderResult expected = rendered(scene, m.name, EmbreePath::scalar, samples);
+    for (const InstructionSet& set : kInstructionSets) {
+      if ((hwy::SupportedTargets() & set.target) == 0) continue;
+      SCOPED_TRACE(m.name + std::string(" on ") + set.name);
+      const Limited limited(set.target);
+      expectSame(rendered(scene, m.name, EmbreePath::packet, samples), expected, toleranceOf(m.name));
+    }
+  }
+}
+
+TEST(EmbreePaths, PacketsRenderTheImageOfSingleRays) { expectSameByBothPaths(test::mixedScene(), 1); }
+
+TEST(EmbreePaths, PacketsRenderEveryEffect) { expectSameByBothPaths(test::everyEffectScene(), 2); }
+
+TEST(EmbreePaths, RegionsOfAnySizeAreParts) {
+  const pack::Scene scene = test::mixedScene();
+  Renderer renderer(scene, 2);
+  RenderParameters whole = render::defaultParameters(scene);
+  const RenderResult image = renderer.render("stokes", whole);
+  RenderParameters part = whole;
+  part.region = {3, 2, whole.width - 5, whole.height - 3};
+  const RenderResult found = renderer.render("stokes", part);
+  ASSERT_EQ(found.pixels.size(), std::size_t{part.region.width} * part.region.height * found.channels);
+  for (std::size_t y = 0; y < part.region.height; ++y)
+    for (std::size_t i = 0; i < part.region.width * found.channels; ++i)
+      ASSERT_EQ(found.pixels[y * part.region.width * found.channels + i],
+                image.pixels[((y + 2) * whole.width + 3) * image.channels + i])
+          << y << " " << i;
+}
+
+TEST(EmbreePaths, ChecksOfNumericsTakeSingleRays) {
+  const pack::Scene scene = test::mixedScene();
+  RenderParameters parameters = render::defaultParameters(scene);
+  parameters.checkNumerics = true;
+  EXPECT_EQ(Renderer(scene, 1).render("stokes", parameters).embreePath, EmbreePath::scalar);
+}
+
+TEST(EmbreePaths, EveryInstructionSetOfThisProcessorIsTested) {
+  for (const InstructionSet& set : kInstructionSets)
+    if ((hwy::SupportedTargets() & set.target) == 0) GTEST_SKIP() << "this processor lacks " << set.name;
+}
+
+}  // namespace
+}  // namespace malus::embree

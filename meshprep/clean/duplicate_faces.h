@@ -2,10 +2,10 @@
 // orientation are the back of a wall without thickness, or a face that two bodies share: they are reported, and removed
 // only on request.
 //
-// A wall between two touching bodies, of which one is inside out, has two faces of the same orientation, and each closes
-// a body. Such a pair is kept if its faces share no vertex of the file, and if at every border edge of the connected
-// pairs two other faces meet, one per body, so that one face less would leave an open edge. A face that only occurs
-// twice has one neighbour there, or none.
+// A wall between two touching bodies, of which one is inside out, has two faces of the same orientation, and each
+// closes a body. Such a pair is kept if its faces share no vertex of the file, and if at every border edge of the
+// connected pairs two other faces meet, one per body, so that one face less would leave an open edge. A face that only
+// occurs twice has one neighbour there, or none.
 #pragma once
 
 #include "meshprep/findings.h"

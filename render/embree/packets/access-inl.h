@@ -89,7 +89,7 @@ struct PacketAccess {
   MaterialTable materials;
   LightTable lights;
   MaterialExtra extra;  // of the packet that is shaded
-  mask active;          // its lanes that hold a ray
+  mask active;          // its lanes that have a ray
   std::uint64_t rays;
   std::uint32_t* bucketEnds;  // for sort()
 

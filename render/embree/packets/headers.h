@@ -1,5 +1,5 @@
-// What the packet tracers need besides Highway, included before any code of a particular instruction set: functions of
-// these headers must not be compiled for one.
+// Headers that the packet tracers need besides Highway, included before any code of a particular instruction set:
+// functions of these headers must not be compiled for one.
 #pragma once
 
 #include <cmath>

@@ -22,7 +22,7 @@ struct RoughPacket {
   word pixel;
 };
 
-// What one level keeps while the next one works. At most one ray of each kind leaves per path, so that each fits.
+// State of one level while the next one works. At most one ray of each kind leaves per path, so that each fits.
 struct Level {
   Intersections found;
   Paths reflected;  // also those of one facet each

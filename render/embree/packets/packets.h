@@ -1,4 +1,4 @@
-// Scene and tile of the packet tracers, and what a thread keeps between tiles.
+// Scene and tile of the packet tracers, and the memory of a thread.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ inline constexpr std::size_t kBatch = kPacketTileWidth * kPacketTileHeight;
 // Levels of the recursion: one per interaction, the camera's and that of a path's end.
 inline constexpr std::size_t kMostLevels = pack::kMaxDepth + 2;
 
-// What one thread keeps between tiles.
+// Memory that one thread keeps between tiles.
 struct PacketMemory {
   explicit PacketMemory(const ShadingOrder& order) : bucketEnds(order.kindOfBucket.size()) {}
 

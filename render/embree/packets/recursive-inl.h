@@ -19,7 +19,7 @@ struct PendingPacket {
   real3 sDir;
   real3 highlight;
   Facet facet;    // the one that is followed
-  mask active;    // lanes that hold a ray
+  mask active;    // lanes that have a ray
   mask reflects;  // lanes that follow the reflected ray, the facets, the transmitted ray
   mask rough;
   mask transmits;
@@ -33,7 +33,7 @@ struct Payloads {
   HWY_ALIGN_MAX float field[kFields<Payload>][kBatch + kLanes];
 };
 
-// What one level of the recursion keeps while the next one works. Each kind of surface may leave one packet not full.
+// State of one level of the recursion while the next one works. Each kind of surface may leave one packet not full.
 struct Level {
   Intersections found;
   PendingPacket pending[kBatch / kLanes + gpu::kSurfaceKinds];

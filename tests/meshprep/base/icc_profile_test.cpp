@@ -27,7 +27,7 @@ cmsToneCurve* srgbCurve() {
   return cmsBuildParametricToneCurve(nullptr, 4, parameters.data());
 }
 
-// Curves as they are stored: parameters of ICC version 4, or samples of version 2. Takes the curve.
+// Forms of stored curves: parameters of ICC version 4, or samples of version 2. Takes the curve.
 std::vector<unsigned char> rgbProfile(const cmsCIExyYTRIPLE& primaries, cmsToneCurve* curve, double version = 4.3) {
   const std::array<cmsToneCurve*, 3> curves = {curve, curve, curve};
   cmsHPROFILE profile = cmsCreateRGBProfile(&kD65, &primaries, curves.data());
@@ -61,7 +61,8 @@ TEST(IccProfile, DamagedProfilesAreNotSrgb) {
   const std::vector<unsigned char> bytes = saveAndClose(cmsCreate_sRGBProfile());
   EXPECT_FALSE(isSrgbProfile({}));
   // The first half has no curve yet.
-  for (std::size_t size = 0; size < bytes.size() / 2; size += 7) EXPECT_FALSE(isSrgbProfile(std::span(bytes).first(size)));
+  for (std::size_t size = 0; size < bytes.size() / 2; size += 7)
+    EXPECT_FALSE(isSrgbProfile(std::span(bytes).first(size)));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ RenderResult rendered(const pack::Scene& scene, const std::string& method, Embre
   return result;
 }
 
-void expectSame(const RenderResult& found, const RenderResult& expected, double tolerance) {
+void expectSame(const RenderResult& found, const RenderResult& expected, double most) {
   ASSERT_EQ(found.pixels.size(), expected.pixels.size());
   double largest = 0, difference = 0;
   for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
@@ -57,12 +57,12 @@ void expectSame(const RenderResult& found, const RenderResult& expected, double 
     difference = std::max(difference, static_cast<double>(std::abs(found.pixels[i] - expected.pixels[i])));
   }
   EXPECT_GT(largest, 0.1);  // the image is not black
-  EXPECT_LE(difference, tolerance * largest);
+  EXPECT_LE(difference, most * largest);
   EXPECT_EQ(found.cost.rays, expected.cost.rays);
 }
 
 // stokes-half rounds to 16 bits at every surface.
-double toleranceOf(const std::string& method) { return method == "stokes-half" ? 1e-3 : 1e-5; }
+double tolerance(const std::string& method) { return method == "stokes-half" ? 1e-3 : 1e-5; }
 
 void expectSameByBothPaths(const pack::Scene& scene, std::uint32_t samples) {
   for (const render::MethodInfo& m : render::methods()) {
@@ -71,7 +71,7 @@ void expectSameByBothPaths(const pack::Scene& scene, std::uint32_t samples) {
       if ((hwy::SupportedTargets() & set.target) == 0) continue;
       SCOPED_TRACE(m.name + std::string(" on ") + set.name);
       const Limited limited(set.target);
-      expectSame(rendered(scene, m.name, EmbreePath::packet, samples), expected, toleranceOf(m.name));
+      expectSame(rendered(scene, m.name, EmbreePath::packet, samples), expected, tolerance(m.name));
     }
   }
 }

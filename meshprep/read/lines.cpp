@@ -95,19 +95,22 @@ bool Lines::next() {
 
 void Lines::joinContinued(char comment) {
   if (comment != 0) cutComment(comment);
-  if (!raw_.ends_with('\\')) return;
+  // Some writers leave blanks behind the backslash.
+  const auto isContinued = [](std::string_view part) { return trimmed(part).ends_with('\\'); };
+  if (!isContinued(raw_)) return;
   const auto begin = static_cast<std::size_t>(raw_.data() - text_.data());
-  while (raw_.ends_with('\\')) {
+  std::string_view last = raw_;
+  while (isContinued(last)) {
     if (end_ >= text_.size()) fail("the file ends after a backslash", "a continuation line");
-    const std::size_t backslash = begin + raw_.size() - 1;
+    const std::size_t backslash = static_cast<std::size_t>(last.data() - text_.data()) + last.find_last_of('\\');
     for (std::size_t i = backslash; i < end_; ++i) text_[i] = ' ';
-    const std::string_view next = takeRaw();
+    last = takeRaw();
     raw_ = std::string_view(text_).substr(begin,
-                                          static_cast<std::size_t>(next.data() - text_.data()) + next.size() - begin);
-    if (const std::size_t begins = comment != 0 ? findComment(next, comment) : std::string_view::npos;
-        begins < next.size()) {
+                                          static_cast<std::size_t>(last.data() - text_.data()) + last.size() - begin);
+    if (const std::size_t begins = comment != 0 ? findComment(last, comment) : std::string_view::npos;
+        begins < last.size()) {
       hasCutComments_ = true;
-      blankWord(next.substr(begins));
+      blankWord(last.substr(begins));
     }
   }
   line_ = trimmed(raw_);

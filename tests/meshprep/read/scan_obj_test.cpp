@@ -219,6 +219,11 @@ TEST(ScanObj, JoinsContinuedLines) {
   EXPECT_EQ(polygons.faceLocations, (std::vector<std::uint64_t>{7, 11}));
 }
 
+TEST(ScanObj, JoinsLinesWithBlanksBehindTheBackslash) {
+  EXPECT_EQ(read(kSquare + "f 1 2 \\ \n3 \\\t\r\n4\n").corners, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(read(kSquare + "f 1 2 \\ # half of it\n3\n").corners, (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
 TEST(ScanObj, ReportsTheFirstContinuedLine) {
   expectRefused(kSquare + "f 1 \\\n 2 \\\n 9\n", ".obj:5:", "found 9");
   expectRefused(kSquare + "f 1 \\\n 2 \\\n 3\nf 1 2 x\n", ".obj:8:", "\"x\"");

@@ -77,48 +77,50 @@ void Bvh::attachInstance(RTCScene instanced, const glm::vec3& origin) {
 }
 
 namespace {
-// Calls a query of Embree 3 or 4 with its arguments.
+// Arguments of a packet query, and its call, in Embree 3 and 4.
 #if RTC_VERSION_MAJOR >= 4
-template <class Query, class Packet>
-void callIntersect(Query query, const int* valid, RTCScene scene, Packet& packet, bool coherent) {
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+struct Intersect : RTCIntersectArguments {
+  explicit Intersect(bool coherent) {
+    rtcInitIntersectArguments(this);
+    flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  }
+};
+struct Occluded : RTCOccludedArguments {
+  Occluded() { rtcInitOccludedArguments(this); }
+};
+template <class Query, class Packet, class Arguments>
+void call(Query query, const int* valid, RTCScene scene, Packet& packet, Arguments arguments) {
   query(valid, scene, &packet, &arguments);
 }
-template <class Query, class Packet>
-void callOccluded(Query query, const int* valid, RTCScene scene, Packet& packet) {
-  query(valid, scene, &packet, nullptr);
-}
 #else
-template <class Query, class Packet>
-void callIntersect(Query query, const int* valid, RTCScene scene, Packet& packet, bool coherent) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  query(valid, scene, &context, &packet);
-}
-template <class Query, class Packet>
-void callOccluded(Query query, const int* valid, RTCScene scene, Packet& packet) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+struct Intersect : RTCIntersectContext {
+  explicit Intersect(bool coherent) {
+    rtcInitIntersectContext(this);
+    flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
+};
+struct Occluded : Intersect {
+  Occluded() : Intersect(false) {}
+};
+template <class Query, class Packet, class Context>
+void call(Query query, const int* valid, RTCScene scene, Packet& packet, Context context) {
   query(valid, scene, &context, &packet);
 }
 #endif
 }  // namespace
 
 void Bvh::nearest(const int* valid, RTCRayHit4& packet, bool coherent) const {
-  callIntersect(rtcIntersect4, valid, scene_, packet, coherent);
+  call(rtcIntersect4, valid, scene_, packet, Intersect(coherent));
 }
 void Bvh::nearest(const int* valid, RTCRayHit8& packet, bool coherent) const {
-  callIntersect(rtcIntersect8, valid, scene_, packet, coherent);
+  call(rtcIntersect8, valid, scene_, packet, Intersect(coherent));
 }
 void Bvh::nearest(const int* valid, RTCRayHit16& packet, bool coherent) const {
-  callIntersect(rtcIntersect16, valid, scene_, packet, coherent);
+  call(rtcIntersect16, valid, scene_, packet, Intersect(coherent));
 }
-void Bvh::occluded(const int* valid, RTCRay4& packet) const { callOccluded(rtcOccluded4, valid, scene_, packet); }
-void Bvh::occluded(const int* valid, RTCRay8& packet) const { callOccluded(rtcOccluded8, valid, scene_, packet); }
-void Bvh::occluded(const int* valid, RTCRay16& packet) const { callOccluded(rtcOccluded16, valid, scene_, packet); }
+void Bvh::occluded(const int* valid, RTCRay4& packet) const { call(rtcOccluded4, valid, scene_, packet, Occluded()); }
+void Bvh::occluded(const int* valid, RTCRay8& packet) const { call(rtcOccluded8, valid, scene_, packet, Occluded()); }
+void Bvh::occluded(const int* valid, RTCRay16& packet) const { call(rtcOccluded16, valid, scene_, packet, Occluded()); }
 
 Bvh::~Bvh() {
   if (scene_) rtcReleaseScene(scene_);

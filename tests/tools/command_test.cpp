@@ -173,7 +173,7 @@ TEST_F(Command, InfoReportsAndVerifies) {
   const json j = json::parse(malus({"info", pack(), "--json"}).out);
   const std::string sections = std::to_string(j.at("sections").size()) + " sections";
   EXPECT_GE(j.at("sections").size(), 10u);
-  for (const std::string part :
+  for (const std::string& part :
        {std::string("28 vertices"), std::string("14 triangles"), std::string("verified"), sections})
     EXPECT_TRUE(contains(text.out, part)) << text.out;
   for (const char* key :

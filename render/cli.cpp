@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/task_arena.h>
 #include <nlohmann/json.hpp>
 
 #include "bake/depth_probe.h"
@@ -44,6 +45,7 @@ struct RenderArguments {
   std::string dolp, aolp, mosaic, mosaicChannel = "luminance";
   unsigned mosaicBits = 8;
   std::optional<double> exposure;
+  image::ExrCompression compression = image::ExrCompression::zip;
   bool json = false, intensity = false;
 
   // The first option that reads Stokes vectors; empty if none does.
@@ -158,9 +160,9 @@ std::vector<std::string> writeOutputs(const RenderArguments& a, const image::Ima
     written.push_back(output);
   };
   for (const std::string& output : a.outputs)
-    write(output, [&](const std::string& file) { writeImage(file, image, exposureEv); });
-  write(a.dolp, [&](const std::string& file) { writeDolp(file, image); });
-  write(a.aolp, [&](const std::string& file) { writeAolp(file, image); });
+    write(output, [&](const std::string& file) { writeImage(file, image, exposureEv, a.compression); });
+  write(a.dolp, [&](const std::string& file) { writeDolp(file, image, a.compression); });
+  write(a.aolp, [&](const std::string& file) { writeAolp(file, image, a.compression); });
   write(a.mosaic, [&](const std::string& file) {
     writeMosaic(file, mosaic(image, {a.mosaicBits, kMosaicChannels.at(a.mosaicChannel), exposureEv}));
   });
@@ -219,8 +221,10 @@ void runRender(const RenderArguments& a) {
   RenderResult result = job.render();
   if (result.faults.count > 0) throw Error(a.pack, describe(result.faults, pack.scene));
   if (a.intensity) result = withoutStokes(std::move(result));
-  const std::vector<std::string> written = writeOutputs(
-      a, toImage(result, pack, job.parameters(), backend, job.method()), a.exposure.value_or(pack.scene.exposureEv));
+  const image::Image image = takeImage(result, pack, job.parameters(), backend, job.method());
+  std::vector<std::string> written;
+  oneapi::tbb::task_arena(a.job.threads > 0 ? static_cast<int>(a.job.threads) : oneapi::tbb::task_arena::automatic)
+      .execute([&] { written = writeOutputs(a, image, a.exposure.value_or(pack.scene.exposureEv)); });
   console::progressDone();
   printResult(a, job, pack.scene.name, result, written);
 }
@@ -255,6 +259,7 @@ void addOutputOptions(CLI::App& command, RenderArguments& a) {
       ->capture_default_str()
       ->needs(mosaic);
   addExposure(command, a.exposure);
+  addCompression(command, a.compression);
   command.add_flag("--intensity", a.intensity, "Leave the Stokes channels out of .exr files");
   command.add_flag("--json", a.json, "Print the result as JSON");
 }

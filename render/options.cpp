@@ -54,6 +54,11 @@ void addPaths(CLI::App& command, VulkanPath& vulkan, EmbreePath& embree) {
            "Rays of the Embree renderer: in SIMD packets or one at a time");
 }
 
+void addCompression(CLI::App& command, image::ExrCompression& compression) {
+  addNamed(command, "--compression", compression, image::kExrCompressionNames,
+           "Compression of .exr files: dwaa is lossy, none the fastest");
+}
+
 void addExposure(CLI::App& command, std::optional<double>& exposure) {
   command.add_option("--exposure", exposure, "Exposure of 8-bit images and mosaics [stops] (default: the pack's)")
       ->transform(numberBetween(-100, 100));

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bake/pack/format.h"
+#include "meshprep/base/image.h"
 #include "meshprep/number_option.h"
 #include "render/job.h"
 
@@ -20,6 +21,9 @@ void addBackend(CLI::App& command, Backend& backend);
 void addMethod(CLI::App& command, std::string& method);
 void addDevice(CLI::App& command, std::string& device, unsigned& threads);
 void addPaths(CLI::App& command, VulkanPath& vulkan, EmbreePath& embree);
+
+// --compression of .exr files
+void addCompression(CLI::App& command, image::ExrCompression& compression);
 
 // --exposure in stops; unset: the pack's.
 void addExposure(CLI::App& command, std::optional<double>& exposure);

@@ -3,9 +3,10 @@
 #include <strings.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <limits>
-#include <sstream>
 #include <tuple>
 
 #include <ImfChannelList.h>
@@ -20,15 +21,24 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <ImfVecAttribute.h>
 #include <ImfVersion.h>
 #include <fmt/format.h>
+#include <oneapi/tbb/task_arena.h>
 
+#include "meshprep/base/exr_zip.h"
 #include "meshprep/base/image_module.h"
 
 namespace malus::image {
 
 namespace {
+
+// Gives OpenEXR, which has its own threads, as many as the current arena of TBB.
+void useThreads() {
+  const int threads = oneapi::tbb::this_task_arena::max_concurrency();
+  if (threads != Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
+}
 
 // The bytes of a file as the stream that OpenEXR reads.
 class MemoryInput : public Imf::IStream {
@@ -160,6 +170,8 @@ bool isExr(const std::vector<unsigned char>& bytes) {
 
 std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image) {
   try {
+    constexpr std::size_t kLarge = std::size_t{1} << 20;
+    if (bytes.size() > kLarge) useThreads();
     MemoryInput stream(bytes);
     Imf::InputFile file(stream);
     const Imath::Box2i data = file.header().dataWindow(), display = file.header().displayWindow();
@@ -184,26 +196,29 @@ std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image) {
   }
 }
 
-std::string encodeExr(const Image& image, std::string& bytes) {
+std::string writeExrFile(const std::string& path, const Image& image, ExrCompression compression) {
   try {
     Imf::Header header(image.width, image.height);
-    header.compression() = Imf::ZIP_COMPRESSION;
     for (const std::string& name : image.channels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     for (const auto& [name, value] : image.attributes) insertAttribute(header, name, value);
+    if (compression == ExrCompression::zip) return writeZipExr(path, header, image);
+    header.compression() = compression == ExrCompression::dwaa ? Imf::DWAA_COMPRESSION : Imf::NO_COMPRESSION;
     const std::size_t pixelBytes = image.channels.size() * sizeof(float);
     Imf::FrameBuffer buffer;
     for (std::size_t c = 0; c < image.channels.size(); ++c)
       buffer.insert(image.channels[c],
                     Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, header.dataWindow(), pixelBytes,
                                      pixelBytes * static_cast<std::size_t>(image.width)));
-    Imf::StdOSStream stream;
+    useThreads();
+    std::ofstream file(path, std::ios::binary);
     {
-      Imf::OutputFile file(stream, header);
-      file.setFrameBuffer(buffer);
-      file.writePixels(image.height);
+      Imf::StdOFStream stream(file, path.c_str());
+      Imf::OutputFile output(stream, header);
+      output.setFrameBuffer(buffer);
+      output.writePixels(image.height);
     }
-    bytes = stream.str();
-    return {};
+    file.close();
+    return file ? std::string() : std::string(std::strerror(errno));
   } catch (const std::exception& error) {
     return error.what();
   }

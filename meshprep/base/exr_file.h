@@ -15,7 +15,7 @@ bool isExr(const std::vector<unsigned char>& bytes);
 // before others.
 std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image);
 
-// Encodes as image::writeExr describes.
-std::string encodeExr(const Image& image, std::string& bytes);
+// Writes as image::writeExr describes, into the existing file.
+std::string writeExrFile(const std::string& path, const Image& image, ExrCompression compression);
 
 }  // namespace malus::image

@@ -1,12 +1,8 @@
-// The image module of the bundle: EXR and PNG by OpenEXR and libpng, without OpenImageIO.
+// The module of EXR and PNG files, by OpenEXR and libpng: without OpenImageIO, which takes 0.2 s to load.
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <new>
-#include <span>
-
-#include <fmt/format.h>
 
 #include "meshprep/base/exr_file.h"
 #include "meshprep/base/image_module.h"
@@ -18,30 +14,16 @@ namespace {
 
 std::string readImage(const std::string& path, Image& image) {
   try {
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file) return std::strerror(errno);
-    const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(file), {}};
-    if (isExr(bytes)) return decodeExr(bytes, image);
-    if (isPng(bytes)) return decodePng(bytes, image);
-    return "unsupported format; this malus reads EXR and PNG, a malus with OpenImageIO reads others";
+    std::vector<unsigned char> bytes(static_cast<std::size_t>(file.tellg()));
+    file.seekg(0);
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    return isExr(bytes) ? decodeExr(bytes, image) : decodePng(bytes, image);
   } catch (const std::exception& error) {
     return error.what();
   }
-}
-
-// Into the existing file. Buffers are flushed, so that a full disk is reported.
-std::string writeBytes(const std::string& path, std::span<const char> bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  return file ? std::string() : std::string(std::strerror(errno));
-}
-
-std::string writeExrImage(const std::string& path, const Image& image) {
-  std::string bytes;
-  std::string problem = encodeExr(image, bytes);
-  if (problem.empty()) problem = writeBytes(path, bytes);
-  return problem;
 }
 
 std::string encodePngImage(int width, int height, int channels, const std::uint8_t* pixels,
@@ -49,23 +31,23 @@ std::string encodePngImage(int width, int height, int channels, const std::uint8
   return encodePng({width, height, channels, 8, PngTransfer::sRgb, "", pixels}, bytes);
 }
 
-std::string writeGreyImage(const std::string& path, int width, int height, GreyDepth depth, const std::uint16_t* values,
-                           const std::string& description) {
-  if (!path.ends_with(".png")) return "unsupported format; this malus writes PNG, a malus with OpenImageIO also TIFF";
+std::string encodeGreyPngImage(const GreyPixels& grey, std::vector<unsigned char>& bytes) {
   try {
+    PngPixels pixels{grey.width,
+                     grey.height,
+                     1,
+                     16,
+                     PngTransfer::linear,
+                     grey.description,
+                     reinterpret_cast<const std::uint8_t*>(grey.values)};
     std::vector<std::uint8_t> narrow;
-    PngPixels pixels{
-        width, height, 1, 16, PngTransfer::linear, description, reinterpret_cast<const std::uint8_t*>(values)};
-    if (depth == GreyDepth::bits8) {
-      const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-      for (std::size_t i = 0; i < count; ++i) narrow.push_back(static_cast<std::uint8_t>(values[i]));
+    if (grey.depth == GreyDepth::bits8) {
+      narrow.resize(static_cast<std::size_t>(grey.width) * static_cast<std::size_t>(grey.height));
+      for (std::size_t i = 0; i < narrow.size(); ++i) narrow[i] = static_cast<std::uint8_t>(grey.values[i]);
       pixels.bits = 8;
       pixels.data = narrow.data();
     }
-    std::vector<unsigned char> bytes;
-    std::string problem = encodePng(pixels, bytes);
-    if (problem.empty()) problem = writeBytes(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    return problem;
+    return encodePng(pixels, bytes);
   } catch (const std::bad_alloc&) {
     return "out of memory";
   }
@@ -75,7 +57,7 @@ std::string writeGreyImage(const std::string& path, int width, int height, GreyD
 }  // namespace malus::image
 
 extern "C" __attribute__((visibility("default"))) const malus::image::Module* malusImageModule() {
-  static const malus::image::Module kModule = {malus::image::readImage, malus::image::writeExrImage,
-                                               malus::image::encodePngImage, malus::image::writeGreyImage};
+  static const malus::image::Module kModule = {malus::image::readImage, malus::image::writeExrFile,
+                                               malus::image::encodePngImage, malus::image::encodeGreyPngImage};
   return &kModule;
 }

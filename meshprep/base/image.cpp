@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <fstream>
 #include <span>
 
 #include <fmt/format.h>
@@ -15,22 +16,47 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Loads the module once. MALUS_MODULE_PATH is its folder relative to that of the executable, in the build tree and in
-// the installed one.
+// File of a module. MALUS_MODULE_PATH is its folder relative to that of the executable, in the build tree and in the
+// installed one.
+fs::path moduleFile(const char* name) {
+  std::error_code failed;
+  return fs::read_symlink("/proc/self/exe", failed).parent_path() / MALUS_MODULE_PATH / name;
+}
+
+template <class Interface>
+const Interface* load(const fs::path& file, const char* entryName) {
+  constexpr const char* kExpected = "the file that the build or `cmake --install` puts there";
+  void* library = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (!library) throw Error(file.string(), fmt::format("cannot load the image module: {}", ::dlerror()), kExpected);
+  const auto entry = reinterpret_cast<const Interface* (*)()>(::dlsym(library, entryName));
+  if (!entry) throw Error(file.string(), "is not the image module of malus", kExpected);
+  return entry();
+}
+
 const Module& module() {
-  static const Module* const kModule = [] {
-    constexpr const char* kExpected = "the file that the build or `cmake --install` puts there";
-    std::error_code failed;
-    const fs::path executable = fs::read_symlink("/proc/self/exe", failed);
-    const fs::path file = executable.parent_path() / MALUS_MODULE_PATH / "malus-image.so";
-    void* library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!library) throw Error(file.string(), fmt::format("cannot load the image module: {}", ::dlerror()), kExpected);
-    using Entry = const Module* (*)();
-    const auto entry = reinterpret_cast<Entry>(::dlsym(library, kModuleEntry));
-    if (!entry) throw Error(file.string(), "is not the image module of malus", kExpected);
-    return entry();
-  }();
+  static const Module* const kModule = load<Module>(moduleFile("malus-image.so"), kModuleEntry);
   return *kModule;
+}
+
+// Throws Error that names path, which has another format than EXR and PNG, if there is no such module.
+const FormatsModule& formatsModule(const fs::path& path) {
+  static const FormatsModule* const kModule = []() -> const FormatsModule* {
+    const fs::path file = moduleFile("malus-image-formats.so");
+    return fs::exists(file) ? load<FormatsModule>(file, kFormatsModuleEntry) : nullptr;
+  }();
+  if (!kModule)
+    throw Error(path.string(), "unsupported format: this malus reads and writes EXR and PNG only",
+                "a malus with OpenImageIO for other formats");
+  return *kModule;
+}
+
+// By the first bytes of the file.
+bool isExrOrPng(const fs::path& path) {
+  using std::string_view_literals::operator""sv;
+  char start[8] = {};
+  std::ifstream(path, std::ios::binary).read(start, sizeof start);
+  const std::string_view bytes(start, sizeof start);
+  return bytes.starts_with("v/1\1"sv) || bytes == "\x89PNG\r\n\x1a\n"sv;
 }
 
 void checkResult(const fs::path& path, const char* problem, const std::string& message) {
@@ -49,13 +75,14 @@ Image read(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) throw Error(path.string(), "cannot open: no such file", "an image file");
   Image image;
-  checkResult(path, "cannot read the image", module().read(path.string(), image));
+  checkResult(path, "cannot read the image",
+              (isExrOrPng(path) ? module().read : formatsModule(path).read)(path.string(), image));
   return image;
 }
 
-void writeExr(const fs::path& path, const Image& image) {
+void writeExr(const fs::path& path, const Image& image, ExrCompression compression) {
   writeBeside(path, [&](const fs::path& temporary) {
-    checkResult(path, "cannot write", module().writeExr(temporary.string(), image));
+    checkResult(path, "cannot write", module().writeExr(temporary.string(), image, compression));
   });
 }
 
@@ -67,12 +94,18 @@ void writePng(const fs::path& path, int width, int height, int channels, const s
 
 void writeGrey(const fs::path& path, int width, int height, GreyDepth depth, const std::vector<std::uint16_t>& values,
                const std::string& description) {
+  const GreyPixels pixels{width, height, depth, values.data(), description.c_str()};
+  if (path.extension() == ".png") {
+    std::vector<unsigned char> bytes;
+    checkResult(path, "cannot write", module().encodeGreyPng(pixels, bytes));
+    return writeFile(path, std::as_bytes(std::span(bytes)));
+  }
+  const FormatsModule& formats = formatsModule(path);
   writeBeside(path, [&](const fs::path& temporary) {
-    checkResult(path, "cannot write",
-                module().writeGrey(temporary.string(), width, height, depth, values.data(), description));
-    // OpenImageIO's PNG writer does not report a full disk; a truncated file fails to read.
+    checkResult(path, "cannot write", formats.writeTiff(temporary.string(), pixels));
+    // OpenImageIO may not report a full disk; a truncated file fails to read.
     Image back;
-    checkResult(path, "cannot write", module().read(temporary.string(), back));
+    checkResult(path, "cannot write", formats.read(temporary.string(), back));
   });
 }
 

@@ -1,8 +1,8 @@
-// Images in memory and in files. A module that is loaded with the first image reads and writes the files
-// (image_module.h): with OpenImageIO, which depends on about 260 shared libraries that most commands do not need, or in
-// the bundle with OpenEXR and libpng.
+// Images in memory and in files. EXR and PNG are read and written by OpenEXR and libpng, in a module that is loaded
+// with the first image (image_module.h). Other formats are read by OpenImageIO, in a second module, because it depends
+// on about 260 shared libraries; the bundle does not have it.
 //
-// All functions throw Error if the module or the file cannot be read or written.
+// All functions throw Error if a module or the file cannot be read or written.
 #pragma once
 
 #include <array>
@@ -55,9 +55,15 @@ struct Image {
 // per side, 64 channels, 2^30 values, 32768 values per byte of the file.
 Image read(const std::filesystem::path& path);
 
-// Writes a ZIP-compressed EXR of 32-bit floats with all attributes. Equal images give identical files. The file is
-// replaced atomically (atomic_file.h), as by the functions below.
-void writeExr(const std::filesystem::path& path, const Image& image);
+// Compression of an EXR file of 32-bit floats. zip and none are lossless. dwaa is lossy, at OpenEXR's level 45: it
+// keeps what is visible of channels whose name or part behind the last dot is R, G, B or Y, and is lossless for others.
+enum class ExrCompression { zip, dwaa, none };
+inline constexpr std::array<const char*, 3> kExrCompressionNames = {"zip", "dwaa", "none"};
+
+// Writes an EXR of 32-bit floats with all attributes, by all threads of the current TBB arena. Equal images give
+// identical files, whatever the number of threads, on processors with the same vector instructions (exr_zip.h). The
+// file is replaced atomically (atomic_file.h), as by the functions below.
+void writeExr(const std::filesystem::path& path, const Image& image, ExrCompression compression = ExrCompression::zip);
 
 // Writes an 8-bit PNG. pixels: width * height * channels sRGB-encoded bytes, channels 1 (grey) or 3 (RGB).
 void writePng(const std::filesystem::path& path, int width, int height, int channels,

@@ -1,8 +1,8 @@
-// Interface between an image module and its loader (image.cpp). Exceptions must not cross it: each function returns an
-// empty string, or the reason of its failure. Parameters as in image.h.
+// Interfaces between the image modules and their loader (image.cpp). Exceptions must not cross them: each function
+// returns an empty string, or the reason of its failure. Parameters as in image.h.
 //
-// There are two modules: oiio_module.cpp reads every format of OpenImageIO; exr_png_module.cpp, for the bundle, EXR and
-// PNG only. Both read EXR and PNG by the same functions. The loader uses the file malus-image.so.
+// malus-image.so (exr_png_module.cpp) reads and writes EXR and PNG. malus-image-formats.so (formats_module.cpp) reads
+// the other formats of OpenImageIO and writes TIFF; the bundle does not have it.
 #pragma once
 
 #include <algorithm>
@@ -23,17 +23,31 @@ inline constexpr std::uint64_t kMaxValuesPerByte = 32768;
 
 inline std::uint64_t mostValues(std::uint64_t fileBytes) { return std::min(kMaxValues, fileBytes * kMaxValuesPerByte); }
 
-struct Module {
-  std::string (*read)(const std::string& path, Image& image);
-  std::string (*writeExr)(const std::string& path, const Image& image);
-  // Encodes to memory: OpenImageIO does not report a full disk when it writes PNG files.
-  std::string (*encodePng)(int width, int height, int channels, const std::uint8_t* pixels,
-                           std::vector<unsigned char>& bytes);
-  std::string (*writeGrey)(const std::string& path, int width, int height, GreyDepth depth, const std::uint16_t* values,
-                           const std::string& description);
+// A grey image of writeGrey: width * height values.
+struct GreyPixels {
+  int width = 0, height = 0;
+  GreyDepth depth = GreyDepth::bits16;
+  const std::uint16_t* values = nullptr;
+  const char* description = "";
 };
 
-// Name of the module's only symbol: extern "C" const Module* malusImageModule(). Never null, valid until exit.
+struct Module {
+  std::string (*read)(const std::string& path, Image& image);
+  // Into the existing file.
+  std::string (*writeExr)(const std::string& path, const Image& image, ExrCompression compression);
+  // Encode to memory.
+  std::string (*encodePng)(int width, int height, int channels, const std::uint8_t* pixels,
+                           std::vector<unsigned char>& bytes);
+  std::string (*encodeGreyPng)(const GreyPixels& pixels, std::vector<unsigned char>& bytes);
+};
+struct FormatsModule {
+  std::string (*read)(const std::string& path, Image& image);
+  std::string (*writeTiff)(const std::string& path, const GreyPixels& pixels);
+};
+
+// Name of the only symbol of malus-image.so: extern "C" const Module* malusImageModule(). Never null, valid until exit.
 inline constexpr const char* kModuleEntry = "malusImageModule";
+// The same of malus-image-formats.so: extern "C" const FormatsModule* malusFormatsModule().
+inline constexpr const char* kFormatsModuleEntry = "malusFormatsModule";
 
 }  // namespace malus::image

@@ -1,7 +1,10 @@
 #include "render/image/output.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,8 +12,11 @@
 
 namespace malus::render {
 
-image::Image toImage(const RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
-                     const std::string& renderer, const std::string& method) {
+namespace {
+
+// Everything but the pixels.
+image::Image describeImage(const RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
+                           const std::string& renderer, const std::string& method) {
   image::Image image;
   image.width = static_cast<int>(result.width);
   image.height = static_cast<int>(result.height);
@@ -18,7 +24,6 @@ image::Image toImage(const RenderResult& result, const pack::Pack& pack, const R
   if (result.channels == kStokesChannels)
     for (const char* s : {"S0", "S1", "S2", "S3"})
       for (const char* c : {"R", "G", "B"}) image.channels.push_back(fmt::format("{}.{}", s, c));
-  image.pixels = result.pixels;
 
   const pack::Camera& camera = pack.scene.camera;
   const glm::dvec3 position = camera.position + pack.scene.origin;
@@ -51,17 +56,74 @@ image::Image toImage(const RenderResult& result, const pack::Pack& pack, const R
   return image;
 }
 
+std::uint8_t displayByte(float radiance, double gain) {
+  constexpr double kLinear = 0.7;
+  double x = std::isnan(radiance) ? 0 : std::clamp(static_cast<double>(radiance) * gain, 0.0, 1e6);
+  if (x > kLinear) x = kLinear + (1 - kLinear) * (1 - std::exp(-(x - kLinear) / (1 - kLinear)));
+  const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(s * 255));
+}
+
+// displayByte of one gain by table, which is monotonic: the least radiance of each byte, and the byte of the least
+// radiance of each sign, exponent and upper 7 bits of the mantissa.
+class DisplayBytes {
+ public:
+  explicit DisplayBytes(double gain) {
+    for (unsigned byte = 0; byte < 256; ++byte) least_[byte] = leastBits(static_cast<std::uint8_t>(byte), gain);
+    std::size_t byte = 0;
+    for (std::uint32_t upper = 0; upper < first_.size(); ++upper) {
+      while (byte < 255 && least_[byte + 1] <= upper << 16u) ++byte;
+      first_[upper] = static_cast<std::uint8_t>(byte);
+    }
+  }
+  std::uint8_t operator()(float radiance) const {
+    const auto bits = std::bit_cast<std::uint32_t>(radiance);
+    if (bits > kInfinity) return 0;  // negative, -0 or NaN
+    std::uint8_t byte = first_[bits >> 16u];
+    while (byte < 255 && least_[byte + 1u] <= bits) ++byte;
+    return byte;
+  }
+
+ private:
+  static constexpr std::uint32_t kInfinity = 0x7f800000u;
+
+  // The least bits of a radiance with at least this byte; above those of infinity if there is none.
+  static std::uint32_t leastBits(std::uint8_t byte, double gain) {
+    std::uint32_t low = 0, high = kInfinity + 1;
+    while (low < high) {
+      const std::uint32_t middle = low + (high - low) / 2;
+      if (displayByte(std::bit_cast<float>(middle), gain) < byte)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  }
+
+  std::array<std::uint32_t, 256> least_{};
+  std::array<std::uint8_t, (kInfinity >> 16u) + 1> first_{};
+};
+
+}  // namespace
+
+image::Image toImage(const RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
+                     const std::string& renderer, const std::string& method) {
+  image::Image image = describeImage(result, pack, parameters, renderer, method);
+  image.pixels = result.pixels;
+  return image;
+}
+
+image::Image takeImage(RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
+                       const std::string& renderer, const std::string& method) {
+  image::Image image = describeImage(result, pack, parameters, renderer, method);
+  image.pixels = std::move(result.pixels);
+  return image;
+}
+
 std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureEv) {
   const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
   if (r < 0 || g < 0 || b < 0) throw Error("", "a PNG needs channels R, G and B", "an output with the extension .exr");
-  const double gain = std::exp2(exposureEv);
-  const auto encode = [&](float radiance) {
-    constexpr double kLinear = 0.7;
-    double x = std::isnan(radiance) ? 0 : std::clamp(static_cast<double>(radiance) * gain, 0.0, 1e6);
-    if (x > kLinear) x = kLinear + (1 - kLinear) * (1 - std::exp(-(x - kLinear) / (1 - kLinear)));
-    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(s * 255));
-  };
+  const DisplayBytes encode(std::exp2(exposureEv));
   const std::size_t channels = image.channels.size(), count = image.pixels.size() / channels;
   std::vector<std::uint8_t> bytes(count * 3);
   for (std::size_t i = 0; i < count; ++i) {
@@ -71,10 +133,11 @@ std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureE
   return bytes;
 }
 
-void writeImage(const std::filesystem::path& path, const image::Image& image, double exposureEv) {
+void writeImage(const std::filesystem::path& path, const image::Image& image, double exposureEv,
+                image::ExrCompression compression) {
   const std::string extension = path.extension().string();
   if (extension == ".exr")
-    image::writeExr(path, image);
+    image::writeExr(path, image, compression);
   else if (extension == ".png")
     image::writePng(path, image.width, image.height, 3, toneMapped(image, exposureEv));
   else

@@ -16,12 +16,17 @@ namespace malus::render {
 // malus:scene, pack, renderer, method, device, depth, samples, analyser, region, verticalFovDegrees.
 image::Image toImage(const RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
                      const std::string& renderer, const std::string& method);
+// The same, and moves the pixels out of result.
+image::Image takeImage(RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
+                       const std::string& renderer, const std::string& method);
 
 // Converts the channels R, G, B from linear radiance to 8-bit sRGB: times 2^exposureEv, linear up to 0.7, above that an
 // exponential shoulder that approaches 1, then the sRGB curve (IEC 61966-2-1).
 std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureEv);
 
-// Writes .exr or .png by the extension of path. exposureEv: of .png, in stops. Throws Error for another extension.
-void writeImage(const std::filesystem::path& path, const image::Image& image, double exposureEv);
+// Writes .exr or .png by the extension of path. exposureEv: of .png, in stops. compression: of .exr. Throws Error for
+// another extension.
+void writeImage(const std::filesystem::path& path, const image::Image& image, double exposureEv,
+                image::ExrCompression compression = image::ExrCompression::zip);
 
 }  // namespace malus::render

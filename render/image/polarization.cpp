@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "meshprep/base/error.h"
 
@@ -40,6 +42,15 @@ std::vector<Stokes3> weightedStokes(const image::Image& image, const std::array<
   return result;
 }
 
+// Calls function(i) for each pixel, in parallel.
+template <class Function>
+void forEachPixel(std::size_t count, const Function& function) {
+  constexpr std::size_t kGrain = 4096;
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) function(i);
+  });
+}
+
 // One channel per colour, computed from its S0, S1, S2.
 template <class F>
 image::Image perColour(const image::Image& image, const char* name, F value) {
@@ -51,19 +62,20 @@ image::Image perColour(const image::Image& image, const char* name, F value) {
     result.channels.push_back(fmt::format("{}.{}", name, kColours[colour]));
     const std::vector<Stokes3> stokes = colourStokes(image, colour);
     result.pixels.resize(3 * stokes.size());
-    for (std::size_t i = 0; i < stokes.size(); ++i)
-      result.pixels[3 * i + static_cast<std::size_t>(colour)] = value(stokes[i]);
+    forEachPixel(stokes.size(),
+                 [&](std::size_t i) { result.pixels[3 * i + static_cast<std::size_t>(colour)] = value(stokes[i]); });
   }
   return result;
 }
 
 template <class F>
 std::vector<std::uint8_t> coloured(const image::Image& image, F colour) {
-  std::vector<std::uint8_t> bytes;
-  for (const Stokes3& s : luminanceStokes(image)) {
-    const std::array<std::uint8_t, 3> c = colour(s);
-    bytes.insert(bytes.end(), c.begin(), c.end());
-  }
+  const std::vector<Stokes3> stokes = luminanceStokes(image);
+  std::vector<std::uint8_t> bytes(3 * stokes.size());
+  forEachPixel(stokes.size(), [&](std::size_t i) {
+    const std::array<std::uint8_t, 3> c = colour(stokes[i]);
+    std::copy(c.begin(), c.end(), bytes.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  });
   return bytes;
 }
 
@@ -96,11 +108,11 @@ constexpr std::array<std::array<std::uint8_t, 3>, 18> kViridis = {{
     {253, 231, 37},
 }};
 
-void write(const std::filesystem::path& path, const image::Image& image, image::Image (*channels)(const image::Image&),
-           std::vector<std::uint8_t> (*colours)(const image::Image&)) {
+void write(const std::filesystem::path& path, const image::Image& image, image::ExrCompression compression,
+           image::Image (*channels)(const image::Image&), std::vector<std::uint8_t> (*colours)(const image::Image&)) {
   const std::string extension = path.extension().string();
   if (extension == ".exr")
-    image::writeExr(path, channels(image));
+    image::writeExr(path, channels(image), compression);
   else if (extension == ".png")
     image::writePng(path, image.width, image.height, 3, colours(image));
   else
@@ -170,11 +182,11 @@ std::vector<std::uint8_t> aolpColours(const image::Image& image) {
   });
 }
 
-void writeDolp(const std::filesystem::path& path, const image::Image& image) {
-  write(path, image, dolpChannels, dolpColours);
+void writeDolp(const std::filesystem::path& path, const image::Image& image, image::ExrCompression compression) {
+  write(path, image, compression, dolpChannels, dolpColours);
 }
-void writeAolp(const std::filesystem::path& path, const image::Image& image) {
-  write(path, image, aolpChannels, aolpColours);
+void writeAolp(const std::filesystem::path& path, const image::Image& image, image::ExrCompression compression) {
+  write(path, image, compression, aolpChannels, aolpColours);
 }
 
 }  // namespace malus::render

@@ -41,7 +41,9 @@ std::array<std::uint8_t, 3> aolpColour(double aolp, double dolp);
 std::vector<std::uint8_t> aolpColours(const image::Image& image);
 
 // Writes .exr (channels) or .png (colours) by the extension of path. Throws Error for another extension.
-void writeDolp(const std::filesystem::path& path, const image::Image& image);
-void writeAolp(const std::filesystem::path& path, const image::Image& image);
+void writeDolp(const std::filesystem::path& path, const image::Image& image,
+               image::ExrCompression compression = image::ExrCompression::zip);
+void writeAolp(const std::filesystem::path& path, const image::Image& image,
+               image::ExrCompression compression = image::ExrCompression::zip);
 
 }  // namespace malus::render

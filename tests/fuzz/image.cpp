@@ -8,11 +8,17 @@
 #include "tests/fuzz/temporary.h"
 
 extern "C" const malus::image::Module* malusImageModule();
+extern "C" const malus::image::FormatsModule* malusFormatsModule();
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   malus::image::Image image;
   // Formats are recognized by their contents, whatever the extension.
-  if (!malusImageModule()->read(writeTemporary(data, size, ".image"), image).empty()) return 0;
+  const std::string file = writeTemporary(data, size, ".image");
+  // By EXR's and PNG's module, and if it refuses the file by the other one, which reads these formats too.
+  if (!malusImageModule()->read(file, image).empty()) {
+    image = {};
+    if (!malusFormatsModule()->read(file, image).empty()) return 0;
+  }
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
   if (width == 0 || height == 0 || image.pixels.size() != width * height * image.channels.size()) std::abort();
   try {

@@ -20,6 +20,24 @@ TEST(Render, CheckNumerics) {
   }
 }
 
+TEST(Render, CompressionOfExrFiles) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const auto render = [&](const std::string& compression) {
+    return malus({"render", folder / "tiny.pack", "-o", folder / (compression + ".exr"), "--method", "stokes",
+                  "--width", "128", "--compression", compression});
+  };
+  for (const char* compression : {"zip", "dwaa", "none"}) EXPECT_EQ(render(compression).exitCode, 0) << compression;
+  const auto size = [&](const char* name) { return std::filesystem::file_size(folder / name); };
+  EXPECT_LT(size("dwaa.exr"), size("zip.exr"));
+  EXPECT_LT(size("zip.exr"), size("none.exr"));
+  EXPECT_EQ(malus({"compare-images", folder / "zip.exr", folder / "none.exr", "--fail-over", "0"}).exitCode, 0);
+  EXPECT_EQ(malus({"compare-images", folder / "zip.exr", folder / "dwaa.exr", "--fail-over", "0"}).exitCode, 3);
+  EXPECT_EQ(malus({"compare-images", folder / "zip.exr", folder / "dwaa.exr", "--fail-over", "0.05"}).exitCode, 0);
+  EXPECT_EQ(render("gif").exitCode, 2);
+}
+
 TEST(Render, VulkanPath) {
   const Folder folder;
   writeTinyScene(folder.path());

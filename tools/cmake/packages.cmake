@@ -3,6 +3,7 @@ find_package(Threads REQUIRED)  # before glslang, whose files need it
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(lcms2 REQUIRED IMPORTED_TARGET lcms2)
+pkg_check_modules(isal REQUIRED IMPORTED_TARGET libisal)
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(CLI11 REQUIRED)

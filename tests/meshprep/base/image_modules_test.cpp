@@ -1,5 +1,5 @@
-// The image module of the bundle and the one with OpenImageIO: each reads the files of both with the same bits.
-// Windows, orientation and encodings of the files of other programs.
+// The image modules: files that are written have the same values for both readers, of which that of the module of other
+// formats is OpenImageIO. Windows, orientation and encodings of the files of other programs.
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -13,6 +13,8 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "meshprep/base/image_colour.h"
 #include "meshprep/base/image_module.h"
@@ -22,17 +24,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Module& load(const char* file) {
+template <class Interface>
+const Interface& load(const char* file, const char* entry) {
   void* library = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
   if (!library) throw std::runtime_error(::dlerror());
-  return *reinterpret_cast<const Module* (*)()>(::dlsym(library, kModuleEntry))();
-}
-const Module& oiio() {
-  static const Module& kModule = load(MALUS_OIIO_MODULE);
-  return kModule;
+  return *reinterpret_cast<const Interface* (*)()>(::dlsym(library, entry))();
 }
 const Module& exrPng() {
-  static const Module& kModule = load(MALUS_EXR_PNG_MODULE);
+  static const Module& kModule = load<Module>(MALUS_IMAGE_MODULE, kModuleEntry);
+  return kModule;
+}
+const FormatsModule& formats() {
+  static const FormatsModule& kModule = load<FormatsModule>(MALUS_FORMATS_MODULE, kFormatsModuleEntry);
   return kModule;
 }
 
@@ -72,12 +75,19 @@ void expectEqual(const Image& a, const Image& b, const std::string& what) {
         << what << ", value " << i << ": " << a.pixels[i] << " and " << b.pixels[i];
 }
 
+Image readImage(const std::string& path) {
+  Image image;
+  EXPECT_EQ(exrPng().read(path, image), "") << path;
+  return image;
+}
+
+// By EXR's and PNG's module and by OpenImageIO, with the same values.
 Image readBoth(const std::string& path) {
-  Image a, b;
-  EXPECT_EQ(oiio().read(path, a), "") << path;
-  EXPECT_EQ(exrPng().read(path, b), "") << path;
+  const Image a = readImage(path);
+  Image b;
+  EXPECT_EQ(formats().read(path, b), "") << path;
   expectEqual(a, b, path);
-  return b;
+  return a;
 }
 
 // Colours, Stokes channels and odd names; every class of floating-point value.
@@ -104,73 +114,155 @@ Image exampleImage() {
   return image;
 }
 
-TEST_F(ImageModules, ExrFilesHaveTheSameValues) {
+TEST_F(ImageModules, LosslessExrFilesKeepEveryValue) {
   const Image image = exampleImage();
-  ASSERT_EQ(oiio().writeExr(file("a.exr"), image), "");
-  ASSERT_EQ(exrPng().writeExr(file("b.exr"), image), "");
-  const Image a = readBoth(file("a.exr")), b = readBoth(file("b.exr"));
-  expectEqual(a, b, "written by both");
-  EXPECT_EQ(malusAttributes(a).size(), 3u);
-  for (const std::string& name : image.channels) EXPECT_GE(b.channel(name), 0) << name;
-  const int zeta = b.channel("zeta");
-  ASSERT_GE(zeta, 0);
-  for (std::size_t i = 0; i < 37 * 23; ++i)  // written and read without a change
-    ASSERT_EQ(std::bit_cast<std::uint32_t>(b.pixels[i * b.channels.size() + static_cast<std::size_t>(zeta)]),
-              std::bit_cast<std::uint32_t>(image.pixels[(i + 1) * image.channels.size() - 1]));
+  for (const ExrCompression compression : {ExrCompression::zip, ExrCompression::none}) {
+    ASSERT_EQ(exrPng().writeExr(file("a.exr"), image, compression), "");
+    const Image read = readBoth(file("a.exr"));
+    EXPECT_EQ(malusAttributes(read).size(), 3u);
+    ASSERT_EQ(read.channels.size(), image.channels.size());
+    for (std::size_t c = 0; c < image.channels.size(); ++c) {
+      const int at = read.channel(image.channels[c]);
+      ASSERT_GE(at, 0) << image.channels[c];
+      for (std::size_t i = 0; i < 37 * 23; ++i)
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(read.pixels[i * image.channels.size() + static_cast<std::size_t>(at)]),
+                  std::bit_cast<std::uint32_t>(image.pixels[i * image.channels.size() + c]))
+            << image.channels[c] << ", pixel " << i;
+    }
+  }
 }
 
-TEST_F(ImageModules, EqualImagesGiveIdenticalExrFiles) {
-  ASSERT_EQ(exrPng().writeExr(file("a.exr"), exampleImage()), "");
-  ASSERT_EQ(exrPng().writeExr(file("b.exr"), exampleImage()), "");
-  const auto bytes = [&](const char* name) {
-    std::ifstream stream(file(name), std::ios::binary);
+// Random bits, which are stored without compression, beside equal rows; and names of more than 31 letters.
+TEST_F(ImageModules, ExrFilesOfNoiseAndOfConstantsKeepEveryValue) {
+  Image image;
+  image.width = 301;
+  image.height = 100;
+  image.channels = {"B", std::string(60, 'A'), "G", "R"};
+  image.attributes = {{"malus:" + std::string(60, 'n'), std::string("text")}};
+  std::mt19937 random(17);
+  for (std::size_t i = 0; i < 4 * 301 * 100; ++i)
+    image.pixels.push_back(i / (4 * 301) / 20 % 2 == 0 ? std::bit_cast<float>(static_cast<std::uint32_t>(random()))
+                                                       : 0.25f);
+  ASSERT_EQ(exrPng().writeExr(file("a.exr"), image, ExrCompression::zip), "");
+  const Image read = readBoth(file("a.exr"));
+  EXPECT_EQ(malusAttributes(read).size(), 1u);
+  ASSERT_EQ(read.channels.size(), 4u);
+  const int red = read.channel("R"), green = read.channel("G");
+  for (std::size_t i = 0; i < 301 * 100; ++i) {
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(read.pixels[4 * i + static_cast<std::size_t>(red)]),
+              std::bit_cast<std::uint32_t>(image.pixels[4 * i + 3]));
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(read.pixels[4 * i + static_cast<std::size_t>(green)]),
+              std::bit_cast<std::uint32_t>(image.pixels[4 * i + 2]));
+  }
+  const auto size = fs::file_size(file("a.exr"));
+  EXPECT_LT(size, image.pixels.size() * 4 * 7 / 10);
+  EXPECT_GT(size, image.pixels.size() * 4 / 2);
+}
+
+// A smooth image of the channels that a render has.
+TEST_F(ImageModules, DwaaExrFilesAreSmallAndClose) {
+  Image image;
+  image.width = image.height = 128;
+  image.channels = {"R", "G", "B", "S1.R", "S1.G", "S1.B"};
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x)
+      for (int c = 0; c < 6; ++c)
+        image.pixels.push_back(static_cast<float>(0.5 + 0.3 * std::sin(x / 20.0 + c) * std::cos(y / 15.0)) -
+                               (c < 3 ? 0.0f : 0.4f));
+  ASSERT_EQ(exrPng().writeExr(file("zip.exr"), image, ExrCompression::zip), "");
+  ASSERT_EQ(exrPng().writeExr(file("dwaa.exr"), image, ExrCompression::dwaa), "");
+  const Image exact = readBoth(file("zip.exr")), lossy = readBoth(file("dwaa.exr"));
+  ASSERT_EQ(exact.channels, lossy.channels);
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) ASSERT_NEAR(exact.pixels[i], lossy.pixels[i], 0.02) << i;
+  EXPECT_LT(fs::file_size(file("dwaa.exr")), fs::file_size(file("zip.exr")) / 4);
+}
+
+TEST_F(ImageModules, EqualImagesGiveIdenticalExrFilesWithAnyNumberOfThreads) {
+  const auto bytes = [&](ExrCompression compression, int threads) {
+    Image image;
+    image.width = 64;
+    image.height = 500;
+    image.channels = {"R", "G", "S0.B"};
+    std::mt19937 random(18);
+    for (std::size_t i = 0; i < 3 * 64 * 500; ++i) image.pixels.push_back(static_cast<float>(random() % 1000) / 7);
+    oneapi::tbb::task_arena(threads).execute(
+        [&] { ASSERT_EQ(exrPng().writeExr(file("a.exr"), image, compression), ""); });
+    std::ifstream stream(file("a.exr"), std::ios::binary);
     return std::string{std::istreambuf_iterator<char>(stream), {}};
   };
-  EXPECT_EQ(bytes("a.exr"), bytes("b.exr"));
-  EXPECT_GT(bytes("a.exr").size(), 1000u);
+  const oneapi::tbb::global_control allowed(oneapi::tbb::global_control::max_allowed_parallelism, 4);
+  for (const ExrCompression compression : {ExrCompression::zip, ExrCompression::dwaa, ExrCompression::none}) {
+    const std::string one = bytes(compression, 1);
+    EXPECT_GT(one.size(), 1000u);
+    EXPECT_EQ(one, bytes(compression, 1));
+    EXPECT_EQ(one, bytes(compression, 4));
+  }
 }
 
-TEST_F(ImageModules, PngFilesHaveTheSameValues) {
+TEST_F(ImageModules, PngFilesKeepEveryValue) {
   std::mt19937 random(15);
   for (const int channels : {1, 3}) {
     std::vector<std::uint8_t> pixels(static_cast<std::size_t>(31 * 17 * channels));
     for (std::uint8_t& p : pixels) p = static_cast<std::uint8_t>(random());
-    std::vector<unsigned char> a, b;
-    ASSERT_EQ(oiio().encodePng(31, 17, channels, pixels.data(), a), "");
-    ASSERT_EQ(exrPng().encodePng(31, 17, channels, pixels.data(), b), "");
-    write("a.png", a);
-    write("b.png", b);
-    expectEqual(readBoth(file("a.png")), readBoth(file("b.png")), std::to_string(channels) + " channels");
+    std::vector<unsigned char> bytes;
+    ASSERT_EQ(exrPng().encodePng(31, 17, channels, pixels.data(), bytes), "");
+    write("a.png", bytes);
+    const Image read = readBoth(file("a.png"));
+    EXPECT_EQ(read.encoding.transfer, Encoding::Transfer::sRgb);
+    ASSERT_EQ(read.pixels.size(), pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      ASSERT_FLOAT_EQ(read.pixels[i], static_cast<float>(pixels[i]) / 255) << i;
   }
 }
 
-TEST_F(ImageModules, GreyPngFilesHaveTheSameValues) {
+TEST_F(ImageModules, GreyFilesKeepEveryValue) {
   std::mt19937 random(16);
   for (const GreyDepth depth : {GreyDepth::bits8, GreyDepth::bits16}) {
     std::vector<std::uint16_t> values(29 * 11);
     for (std::uint16_t& v : values)
       v = static_cast<std::uint16_t>(random() % (depth == GreyDepth::bits8 ? 256 : 65536));
-    ASSERT_EQ(oiio().writeGrey(file("a.png"), 29, 11, depth, values.data(), "rows 90 45 / 135 0"), "");
-    ASSERT_EQ(exrPng().writeGrey(file("b.png"), 29, 11, depth, values.data(), "rows 90 45 / 135 0"), "");
-    const Image a = readBoth(file("a.png")), b = readBoth(file("b.png"));
-    expectEqual(a, b, "grey");
-    EXPECT_FLOAT_EQ(b.pixels[5], static_cast<float>(values[5]) / (depth == GreyDepth::bits8 ? 255.0f : 65535.0f));
+    const GreyPixels pixels{29, 11, depth, values.data(), "rows 90 45 / 135 0"};
+    std::vector<unsigned char> bytes;
+    ASSERT_EQ(exrPng().encodeGreyPng(pixels, bytes), "");
+    write("a.png", bytes);
+    ASSERT_EQ(formats().writeTiff(file("a.tif"), pixels), "");
+    const Image png = readBoth(file("a.png"));
+    Image tiff;
+    ASSERT_EQ(formats().read(file("a.tif"), tiff), "");
+    expectEqual(png, tiff, "PNG and TIFF");
+    EXPECT_EQ(png.encoding.transfer, Encoding::Transfer::linear);
+    for (const Image& image : {png, tiff}) {
+      EXPECT_EQ(std::count_if(image.attributes.begin(), image.attributes.end(),
+                              [](const auto& a) {
+                                return a.first == "ImageDescription" &&
+                                       std::get<std::string>(a.second) == "rows 90 45 / 135 0";
+                              }),
+                1);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        ASSERT_FLOAT_EQ(image.pixels[i],
+                        static_cast<float>(values[i]) / (depth == GreyDepth::bits8 ? 255.0f : 65535.0f));
+    }
   }
 }
 
-// Files of other programs: every colour type and depth of PNG, half and integer channels and tiles of EXR.
+// Files of other programs: every colour type and depth of PNG, half and integer channels and tiles of EXR. OpenImageIO
+// reads the data window instead of the display window, and scales integers of EXR.
 TEST_F(ImageModules, FilesOfOtherProgramsHaveTheSameValues) {
   std::size_t found = 0;
   for (const auto& entry : fs::directory_iterator(MALUS_IMAGE_FILES)) {
     ++found;
-    readBoth(entry.path().string());
+    const std::string name = entry.path().stem().string();
+    if (name == "window" || name == "left-half" || name == "right-half" || name == "integers")
+      readImage(entry.path().string());
+    else
+      readBoth(entry.path().string());
   }
   EXPECT_GE(found, 30u);
 }
 
 TEST_F(ImageModules, ColoursAreNotMultipliedByAlpha) {
   for (const auto& [name, red] : {std::pair("/rgba8.png", 130), std::pair("/rgba8-gamma.png", 195)}) {
-    const Image image = readBoth(std::string(MALUS_IMAGE_FILES) + name);
+    const Image image = readImage(std::string(MALUS_IMAGE_FILES) + name);
     ASSERT_EQ(image.channels.size(), 4u) << name;
     EXPECT_LT(image.pixels[3], 0.5f) << name;  // alpha
     EXPECT_NEAR(image.pixels[0], static_cast<float>(red) / 255, 1e-6f) << name;
@@ -179,7 +271,7 @@ TEST_F(ImageModules, ColoursAreNotMultipliedByAlpha) {
 
 // Pixels that the data window does not store are 0; window.exr stores 13 x 7 of 20 x 20 from column -3, row 2 on.
 TEST_F(ImageModules, DataWindowsArePlacedInTheDisplayWindow) {
-  const Image image = readBoth(std::string(MALUS_IMAGE_FILES) + "/window.exr");
+  const Image image = readImage(std::string(MALUS_IMAGE_FILES) + "/window.exr");
   ASSERT_EQ(image.width, 20);
   ASSERT_EQ(image.height, 20);
   const auto alpha = [&](int x, int y) { return image.pixels[4 * static_cast<std::size_t>(20 * y + x) + 3]; };
@@ -192,8 +284,8 @@ TEST_F(ImageModules, DataWindowsArePlacedInTheDisplayWindow) {
 
 // 8 x 4 pixels of which one file stores columns 0 to 3, the other columns 4 to 7, all 1.
 TEST_F(ImageModules, DisjointDataWindowsDiffer) {
-  const Image left = readBoth(std::string(MALUS_IMAGE_FILES) + "/left-half.exr"),
-              right = readBoth(std::string(MALUS_IMAGE_FILES) + "/right-half.exr");
+  const Image left = readImage(std::string(MALUS_IMAGE_FILES) + "/left-half.exr"),
+              right = readImage(std::string(MALUS_IMAGE_FILES) + "/right-half.exr");
   ASSERT_EQ(left.width, 8);
   ASSERT_EQ(right.width, 8);
   ASSERT_EQ(left.pixels.size(), right.pixels.size());
@@ -207,7 +299,7 @@ TEST_F(ImageModules, DisjointDataWindowsDiffer) {
 using Transfer = Encoding::Transfer;
 
 TEST_F(ImageModules, EncodingOfPngFilesIsThatOfTheirChunks) {
-  const auto encoding = [](const char* name) { return readBoth(std::string(MALUS_IMAGE_FILES) + name).encoding; };
+  const auto encoding = [](const char* name) { return readImage(std::string(MALUS_IMAGE_FILES) + name).encoding; };
   for (const char* name : {"/rgb8.png", "/grey16.png", "/grey8-srgb.png", "/icc-srgb.png", "/srgb-and-gamma.png"}) {
     EXPECT_EQ(encoding(name).transfer, Transfer::sRgb) << name;
     EXPECT_TRUE(encoding(name).notes.empty()) << name;
@@ -246,7 +338,7 @@ TEST_F(ImageModules, CodePointsOfPngFilesPrecedeOtherChunks) {
   for (const char* name : {"/rgb8.png", "/rgb16-gamma.png", "/icc-wide.png"})
     for (const auto& c : kCases) {
       write("points.png", withCodePoints(std::string(MALUS_IMAGE_FILES) + name, c.primaries, c.transfer));
-      const Encoding encoding = readBoth(file("points.png")).encoding;
+      const Encoding encoding = readImage(file("points.png")).encoding;
       EXPECT_EQ(encoding.transfer, c.expected) << name << " " << int{c.transfer};
       EXPECT_EQ(encoding.chromaticities.has_value(), c.isWide) << name << " " << int{c.primaries};
       EXPECT_EQ(encoding.notes.size(), c.notes) << name;
@@ -255,7 +347,7 @@ TEST_F(ImageModules, CodePointsOfPngFilesPrecedeOtherChunks) {
 
 // integers.exr: 3 x 2 pixels; R counts from 0, G is 1, B counts from 70000, id is 2^24.
 TEST_F(ImageModules, IntegersOfExrFilesKeepTheirValue) {
-  const Image image = readBoth(std::string(MALUS_IMAGE_FILES) + "/integers.exr");
+  const Image image = readImage(std::string(MALUS_IMAGE_FILES) + "/integers.exr");
   ASSERT_EQ(image.channels, (std::vector<std::string>{"R", "G", "B", "id"}));
   for (std::size_t i = 0; i < 6; ++i) {
     const auto count = static_cast<float>(i);
@@ -267,7 +359,7 @@ TEST_F(ImageModules, IntegersOfExrFilesKeepTheirValue) {
 }
 
 TEST_F(ImageModules, InterlacedPalettesAreExpanded) {
-  const Image image = readBoth(std::string(MALUS_IMAGE_FILES) + "/palette-interlaced.png");
+  const Image image = readImage(std::string(MALUS_IMAGE_FILES) + "/palette-interlaced.png");
   ASSERT_EQ(image.channels.size(), 4u);
   EXPECT_NEAR(LinearColours(image, "").at(3)[1], 0.502886, 1e-5);
   EXPECT_EQ(LinearColours(image, "").at(4)[1], 0);
@@ -280,7 +372,7 @@ TEST_F(ImageModules, IntegersOfEveryFormatAreSrgb) {
   for (const auto& entry : fs::directory_iterator(MALUS_OTHER_IMAGES)) {
     ++found;
     Image image;
-    ASSERT_EQ(oiio().read(entry.path().string(), image), "") << entry.path();
+    ASSERT_EQ(formats().read(entry.path().string(), image), "") << entry.path();
     const LinearColours colours(image, "");
     EXPECT_NEAR(colours.at(5)[1], 0.502886, 1e-4) << entry.path();
     EXPECT_EQ(colours.notes().size(), entry.path().string().find("associated") == std::string::npos ? 0u : 1u);
@@ -308,7 +400,7 @@ TEST_F(ImageModules, AxesAndExposureOfRadianceFiles) {
         }
       write("sky.hdr", {text.begin(), text.end()});
       Image image;
-      ASSERT_EQ(oiio().read(file("sky.hdr"), image), "") << first << second;
+      ASSERT_EQ(formats().read(file("sky.hdr"), image), "") << first << second;
       ASSERT_EQ(image.width, kWidth) << first << second;
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x)
@@ -322,21 +414,21 @@ TEST_F(ImageModules, AxesAndExposureOfRadianceFiles) {
     const std::string text = std::string("#?RADIANCE\n") + line + "\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\1\1\1\200";
     write("bad.hdr", {text.begin(), text.end()});
     Image image;
-    EXPECT_NE(oiio().read(file("bad.hdr"), image).find("EXPOSURE"), std::string::npos) << line;
+    EXPECT_NE(formats().read(file("bad.hdr"), image).find("EXPOSURE"), std::string::npos) << line;
   }
 }
 
-TEST_F(ImageModules, OtherFormatsAreErrorsThatNameTheSupportedOnes) {
+TEST_F(ImageModules, FilesWithoutTheBytesOfAFormatAreErrors) {
   Image image;
   write("sky.hdr", {'#', '?', 'R', 'A', 'D', 'I', 'A', 'N', 'C', 'E', '\n'});
-  const std::string message = exrPng().read(file("sky.hdr"), image);
-  EXPECT_NE(message.find("EXR and PNG"), std::string::npos) << message;
-  const std::uint16_t value = 1;
-  EXPECT_NE(exrPng().writeGrey(file("a.tif"), 1, 1, GreyDepth::bits16, &value, "").find("PNG"), std::string::npos);
+  EXPECT_NE(exrPng().read(file("sky.hdr"), image), "");
+  EXPECT_NE(formats().read(file("sky.hdr"), image), "");
+  write("empty.png", {});
+  EXPECT_NE(exrPng().read(file("empty.png"), image), "");
 }
 
 TEST_F(ImageModules, DamagedFilesAreErrors) {
-  ASSERT_EQ(exrPng().writeExr(file("a.exr"), exampleImage()), "");
+  ASSERT_EQ(exrPng().writeExr(file("a.exr"), exampleImage(), ExrCompression::zip), "");
   std::vector<unsigned char> png;
   const std::vector<std::uint8_t> pixels(3 * 64 * 64, 7);
   ASSERT_EQ(exrPng().encodePng(64, 64, 3, pixels.data(), png), "");
@@ -351,7 +443,7 @@ TEST_F(ImageModules, DamagedFilesAreErrors) {
   }
   Image image;
   EXPECT_NE(exrPng().read(file("missing.exr"), image), "");
-  EXPECT_NE(exrPng().writeExr("/nowhere/a.exr", exampleImage()), "");
+  EXPECT_NE(exrPng().writeExr("/nowhere/a.exr", exampleImage(), ExrCompression::zip), "");
 }
 
 // A header of a few bytes that declares more pixels than memory.
@@ -367,7 +459,7 @@ TEST_F(ImageModules, SizesAboveTheLimitAreErrors) {
   wide.height = 1;
   wide.channels = {"R"};
   wide.pixels.resize(70000);
-  ASSERT_EQ(exrPng().writeExr(file("wide.exr"), wide), "");
+  ASSERT_EQ(exrPng().writeExr(file("wide.exr"), wide, ExrCompression::zip), "");
   const std::string message = exrPng().read(file("wide.exr"), image);
   EXPECT_NE(message.find("70000"), std::string::npos) << message;
 }

@@ -1,8 +1,11 @@
 #include "render/image/output.h"
 
+#include <bit>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -92,6 +95,29 @@ TEST(Output, ToneCurveIsMonotonicAndMeetsSrgb) {
   // IEC 61966-2-1: 0.5 is 188 of 255; one stop down it is 0.25, 137.
   EXPECT_EQ(bytes[3 * 50], 188);
   EXPECT_EQ(toneMapped(ramp, -1)[3 * 50], 137);
+}
+
+// Against the formula of output.h, at every exponent and at values that no image should have.
+TEST(Output, ToneCurveIsThatOfTheHeader) {
+  image::Image image;
+  image.channels = {"R", "G", "B"};
+  std::mt19937 random(19);
+  for (int i = 0; i < 300000; ++i) image.pixels.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
+  std::uniform_real_distribution<float> uniform(0, 3);
+  for (int i = 0; i < 300000; ++i) image.pixels.push_back(uniform(random));
+  image.width = 200000;
+  image.height = 1;
+  for (const double exposureEv : {0.0, -1.3, 7.0, 100.0, -100.0}) {
+    const std::vector<std::uint8_t> bytes = toneMapped(image, exposureEv);
+    ASSERT_EQ(bytes.size(), image.pixels.size());
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      const float radiance = image.pixels[i];
+      double x = std::isnan(radiance) || radiance < 0 ? 0 : static_cast<double>(radiance) * std::exp2(exposureEv);
+      if (x > 0.7) x = 0.7 + 0.3 * (1 - std::exp(-(x - 0.7) / 0.3));
+      const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+      ASSERT_EQ(bytes[i], std::lround(s * 255)) << radiance << " at " << exposureEv;
+    }
+  }
 }
 
 TEST(Output, RefusesOtherExtensions) {

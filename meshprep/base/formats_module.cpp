@@ -1,25 +1,19 @@
-// The image module with every format of OpenImageIO: the only file that includes it. EXR and PNG files are read by the
-// functions of the bundle's module, so that both modules agree on windows and colours.
-#include <OpenImageIO/filesystem.h>
+// The module of the other formats, by OpenImageIO: the only file that includes it.
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "meshprep/base/exr_file.h"
 #include "meshprep/base/icc_profile.h"
 #include "meshprep/base/image_module.h"
 #include "meshprep/base/orientation.h"
-#include "meshprep/base/png_file.h"
 #include "meshprep/base/radiance_header.h"
 
 namespace malus::image {
@@ -128,88 +122,50 @@ std::string readByOpenImageIo(const std::string& path, std::string_view start, I
 
 std::string readImage(const std::string& path, Image& image) {
   try {
-    constexpr std::size_t kStart = 65536;
     std::ifstream file(path, std::ios::binary);
     if (!file) return std::strerror(errno);
-    std::vector<unsigned char> bytes(kStart);
-    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(kStart));
-    bytes.resize(static_cast<std::size_t>(file.gcount()));
-    if (!isExr(bytes) && !isPng(bytes))
-      return readByOpenImageIo(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, image);
-    if (file) bytes.insert(bytes.end(), std::istreambuf_iterator<char>(file), {});
-    return isExr(bytes) ? decodeExr(bytes, image) : decodePng(bytes, image);
+    std::string start(65536, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    return readByOpenImageIo(path, start, image);
   } catch (const std::exception& error) {
     return messageOr(error.what(), "damaged file");
   }
 }
 
-// Writes to the file, or to proxy if it is not null. The extension of path selects the format.
-std::string writeSpec(const std::string& path, const ImageSpec& spec, const TypeDesc& type, const void* pixels,
-                      OIIO::Filesystem::IOProxy* proxy = nullptr) {
+// Into the existing file.
+std::string writeSpec(const std::string& path, const ImageSpec& spec, const TypeDesc& type, const void* pixels) {
+  const auto output = ImageOutput::create(path);
+  if (!output) return messageOr(OIIO::geterror(), "unknown format");
+  if (!output->open(path, spec)) return messageOr(output->geterror(), "cannot open");
+  if (!output->write_image(type, pixels)) return messageOr(output->geterror(), "cannot write");
+  if (!output->close()) return messageOr(output->geterror(), "cannot close");
+  return {};
+}
+
+std::string writeTiff(const std::string& path, const GreyPixels& grey) {
   try {
-    const auto output = ImageOutput::create(path);
-    if (!output) return messageOr(OIIO::geterror(), "unknown format");
-    if (proxy != nullptr && !output->set_ioproxy(proxy)) return "cannot write to memory";
-    if (!output->open(path, spec)) return messageOr(output->geterror(), "cannot open");
-    if (!output->write_image(type, pixels)) return messageOr(output->geterror(), "cannot write");
-    if (!output->close()) return messageOr(output->geterror(), "cannot close");
-    return {};
+    ImageSpec spec(grey.width, grey.height, 1, grey.depth == GreyDepth::bits8 ? TypeDesc::UINT8 : TypeDesc::UINT16);
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("ImageDescription", grey.description);
+    spec.attribute("compression", "none");
+    // Keep OpenImageIO from adding the current date, so that equal images give identical files: it looks for an
+    // attribute of this name and writes only one of type string.
+    spec.attribute("DateTime", 0);
+    if (grey.depth == GreyDepth::bits16) return writeSpec(path, spec, TypeDesc::UINT16, grey.values);
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(grey.width) * static_cast<std::size_t>(grey.height));
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(grey.values[i]);
+    return writeSpec(path, spec, TypeDesc::UINT8, bytes.data());
   } catch (const std::exception& error) {
     return messageOr(error.what(), "cannot write");
   }
 }
 
-std::string writeExrImage(const std::string& path, const Image& image) {
-  ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), TypeDesc::FLOAT);
-  spec.channelnames.assign(image.channels.begin(), image.channels.end());
-  spec.attribute("compression", "zip");
-  for (const auto& [name, value] : image.attributes) {
-    if (const auto* text = std::get_if<std::string>(&value)) {
-      spec.attribute(name, *text);
-    } else if (const auto* number = std::get_if<double>(&value)) {
-      spec.attribute(name, static_cast<float>(*number));
-    } else if (const auto* list = std::get_if<std::vector<float>>(&value)) {
-      if (list->size() == 16)
-        spec.attribute(name, TypeDesc::TypeMatrix44, list->data());
-      else if (list->size() == 3)
-        spec.attribute(name, TypeDesc::TypeVector, list->data());
-      else
-        spec.attribute(name, TypeDesc(TypeDesc::FLOAT, static_cast<int>(list->size())), list->data());
-    }
-  }
-  // Keep OpenImageIO from adding the current date, so that equal images give identical files: it looks for an attribute
-  // of this name and writes only one of type string.
-  spec.attribute("DateTime", 0);
-  return writeSpec(path, spec, TypeDesc::FLOAT, image.pixels.data());
-}
-
-std::string encodePngImage(int width, int height, int channels, const std::uint8_t* pixels,
-                           std::vector<unsigned char>& bytes) {
-  ImageSpec spec(width, height, channels, TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  return writeSpec("memory.png", spec, TypeDesc::UINT8, pixels, &memory);
-}
-
-std::string writeGreyImage(const std::string& path, int width, int height, GreyDepth depth, const std::uint16_t* values,
-                           const std::string& description) {
-  ImageSpec spec(width, height, 1, depth == GreyDepth::bits8 ? TypeDesc::UINT8 : TypeDesc::UINT16);
-  spec.attribute("oiio:ColorSpace", "Linear");
-  spec.attribute("ImageDescription", description);
-  spec.attribute("compression", "none");  // TIFF only; PNG has one method
-  spec.attribute("DateTime", 0);          // no date, as in writeExrImage
-  if (depth == GreyDepth::bits16) return writeSpec(path, spec, TypeDesc::UINT16, values);
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(values[i]);
-  return writeSpec(path, spec, TypeDesc::UINT8, bytes.data());
-}
-
 }  // namespace
 }  // namespace malus::image
 
-extern "C" __attribute__((visibility("default"))) const malus::image::Module* malusImageModule() {
+extern "C" __attribute__((visibility("default"))) const malus::image::FormatsModule* malusFormatsModule() {
   OIIO::attribute("debug", 0);  // Debian's build prints to stderr otherwise
-  static const malus::image::Module kModule = {malus::image::readImage, malus::image::writeExrImage,
-                                               malus::image::encodePngImage, malus::image::writeGreyImage};
+  static const malus::image::FormatsModule kModule = {malus::image::readImage, malus::image::writeTiff};
   return &kModule;
 }

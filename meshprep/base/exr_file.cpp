@@ -27,6 +27,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "meshprep/base/exr_header.h"
 #include "meshprep/base/exr_zip.h"
 #include "meshprep/base/image_module.h"
 
@@ -170,6 +171,8 @@ bool isExr(const std::vector<unsigned char>& bytes) {
 
 std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image) {
   try {
+    std::string problem = checkExrHeader(bytes);
+    if (!problem.empty()) return problem;
     constexpr std::size_t kLarge = std::size_t{1} << 20;
     if (bytes.size() > kLarge) useThreads();
     MemoryInput stream(bytes);

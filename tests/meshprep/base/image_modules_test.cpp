@@ -1,6 +1,7 @@
 // The image modules: files that are written have the same values for both readers, of which that of the module of other
 // formats is OpenImageIO. Windows, orientation and encodings of the files of other programs.
 #include <dlfcn.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -197,6 +198,44 @@ TEST_F(ImageModules, EqualImagesGiveIdenticalExrFilesWithAnyNumberOfThreads) {
     EXPECT_EQ(one, bytes(compression, 1));
     EXPECT_EQ(one, bytes(compression, 4));
   }
+}
+
+// Largest resident size of this process so far, in MB.
+long peakMegabytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
+// A header that declares more than the file has is an error, before that much memory is taken.
+TEST_F(ImageModules, ExrHeadersThatDeclareMoreThanTheFileHasAreErrors) {
+  ASSERT_EQ(exrPng().writeExr(file("a.exr"), exampleImage(), ExrCompression::zip), "");
+  std::ifstream stream(file("a.exr"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string huge("\xf0\xff\xff\x7f", 4), eight("\x08\0\0\0", 4);
+  constexpr std::size_t kVersion = 4, kFirst = 8;
+  const auto withAttribute = [&](const std::string& attribute) {
+    return bytes.substr(0, kFirst) + attribute + bytes.substr(kFirst);
+  };
+  std::vector<std::string> files = {withAttribute(std::string("note\0string\0", 12) + huge),
+                                    withAttribute(std::string("notes\0stringvector\0", 19) + eight + huge + "text"),
+                                    withAttribute(std::string("note\0opaque\0", 12) + huge),
+                                    withAttribute(std::string("list\0floatvector\0", 17) + huge)};
+  files.push_back(files[0]);
+  files.back()[kVersion + 1] = '\x10';  // several parts
+  for (const std::string field : {"width", "height"}) {
+    std::string window = bytes;
+    const std::size_t at = window.find(std::string("dataWindow\0box2i\0", 17)) + 17 + 4;
+    window.replace(at + (field == "width" ? 8 : 12), 4, huge);
+    files.push_back(window);
+  }
+  const long before = peakMegabytes();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    write("bad.exr", {files[i].begin(), files[i].end()});
+    Image image;
+    EXPECT_NE(exrPng().read(file("bad.exr"), image), "") << i;
+  }
+  EXPECT_LT(peakMegabytes() - before, 256);
 }
 
 TEST_F(ImageModules, PngFilesKeepEveryValue) {

@@ -19,10 +19,12 @@
 #include "meshprep/clean/select.h"
 #include "meshprep/clean/triangulate.h"
 #include "meshprep/compress/draco_mesh.h"
+#include "meshprep/instances.h"
 #include "meshprep/normals/authored_normals.h"
 #include "meshprep/normals/crease_normals.h"
 #include "meshprep/normals/smoothing_normals.h"
 #include "meshprep/read/read_mesh.h"
+#include "meshprep/read/source_scene.h"
 #include "meshprep/simplify/simplify.h"
 
 namespace malus::prep {
@@ -294,6 +296,8 @@ Mesh clean(Mesh mesh, const Options& options, Report& report) {
 
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report) {
   checkOptions(options, source.string());
+  if (isGltf(source))
+    return prepareInstances(readSourceScene(source, options.strict), source.string(), options, report);
   return prepare(readMesh(source, options.strict), source.string(), options, report);
 }
 

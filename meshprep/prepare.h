@@ -60,6 +60,7 @@ std::optional<OptionConflict> findSimplifyConflict(const Options& options);
 // Fills `report` except for errors and compression. Throws Error: the errors of the readers, options out of range, no
 // triangle left after cleaning, requested normals that the file does not have, asIs without flat for a file without
 // normals or with one of length 0. A refused certificate does not throw (report.certificate).
+// Meshes that a glTF file places several times are prepared once (instances.h).
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report);
 
 // Prepares polygons that were read before. `source` is their name in messages.

@@ -12,7 +12,6 @@
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/prepare.h"
-#include "meshprep/read/read_mesh.h"
 
 namespace malus::bake {
 
@@ -51,10 +50,9 @@ class Placer {
     if (glass && options.asIs && !options.openSurface)
       throw Error(mesh.file.string(), fmt::format("mesh '{}' is a glass body with \"asIs\"", mesh.name),
                   "\"openSurface\": true beside \"asIs\": true, because it is not checked that the mesh is closed");
-    const prep::Polygons polygons = prep::readMesh(mesh.file, settings_.strict);
-    for (const std::string& note : polygons.notes) result_.notes.push_back(leftOutNote(mesh.file, note));
+    options.strict = settings_.strict;
     prep::Report report;
-    const prep::Mesh prepared = prep::prepare(polygons, mesh.file.string(), options, report);
+    const prep::Mesh prepared = prepare(mesh.file, options, report);
     requireCertificate(mesh.file, mesh.name, report);
     const prep::Certificate certificate = report.certificate;
     addReport(mesh.file, std::move(report));
@@ -84,6 +82,21 @@ class Placer {
   PlacedMeshes take() { return std::move(result_); }
 
  private:
+  // Prepares a file, and adds the notes of the reader, also if that is refused.
+  prep::Mesh prepare(const std::filesystem::path& file, const prep::Options& options, prep::Report& report) {
+    const auto addNotes = [&] {
+      for (const std::string& note : report.notes) result_.notes.push_back(leftOutNote(file, note));
+    };
+    try {
+      prep::Mesh mesh = prep::prepare(file, options, report);
+      addNotes();
+      return mesh;
+    } catch (const Error&) {
+      addNotes();
+      throw;
+    }
+  }
+
   void addReport(const std::filesystem::path& file, prep::Report report) {
     for (const std::string& warning : report.simplification.warnings)
       result_.notes.push_back(fmt::format("{}: {}", report.source.empty() ? file.string() : report.source, warning));

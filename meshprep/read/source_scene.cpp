@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -123,12 +124,19 @@ SourceScene readSourceScene(const std::filesystem::path& path, bool strict) {
 }
 
 Polygons mergeInstances(const SourceScene& scene) {
+  std::vector<std::size_t> all(scene.instances.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return mergeInstances(scene, all);
+}
+
+Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> instances) {
   Polygons result;
   result.notes = scene.notes;
   // If any part has normals, set those of the others to zero.
   const bool normals = std::any_of(scene.parts.begin(), scene.parts.end(),
                                    [](const SourcePart& part) { return !part.polygons.normals.empty(); });
-  for (const SourceInstance& instance : scene.instances) {
+  for (const std::size_t index : instances) {
+    const SourceInstance& instance = scene.instances[index];
     const SourcePart& part = scene.parts[instance.part];
     const Polygons& source = part.polygons;
     const auto firstVertex = static_cast<std::uint32_t>(result.positions.size());

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,8 @@ SourceScene splitByMaterial(Polygons polygons);
 // Merges all instances in world space; the parts of the result are the instances. Faces of mirrored instances are
 // flipped to keep their outside. If only some parts have normals, those of the others are zero.
 Polygons mergeInstances(const SourceScene& scene);
+// The same for some of them: indices of instances.
+Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> instances);
 
 // Returns the files that affect the content of this one: buffers of glTF, material files of OBJ. They need not exist.
 // Throws Error if the file cannot be read.

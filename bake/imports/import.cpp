@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/imports/join_instances.h"
 #include "bake/imports/join_parts.h"
 #include "bake/materials/source_material.h"
 #include "bake/pack/format.h"
@@ -138,8 +139,9 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
 
   // Find the materials of the parts, in the order of the instances, and join the parts of glass bodies.
   MaterialIndices indices(description, source, materials, materialNames, notes);
-  const std::vector<PartUse> uses = findUses(source, openSurfaces, indices, materials);
-  const std::vector<std::string> joined = joinParts(source, uses, description.preparation);
+  std::vector<PartUse> uses = findUses(source, openSurfaces, indices, materials);
+  std::vector<std::string> joined = joinParts(source, uses, description.preparation);
+  for (std::string& note : joinInstances(source, uses, description.preparation)) joined.push_back(std::move(note));
 
   // Prepare every part in its own space, as a body or as an open surface, if an instance needs it. A part that cannot
   // be prepared is left out.

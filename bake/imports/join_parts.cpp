@@ -1,18 +1,13 @@
 #include "bake/imports/join_parts.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
+#include "bake/imports/open_edges.h"
 #include "meshprep/clean/disjoint_sets.h"
-#include "meshprep/clean/edges.h"
-#include "meshprep/clean/weld.h"
 
 namespace malus::bake {
 
@@ -24,13 +19,6 @@ using prep::SourceScene;
 
 constexpr std::size_t kNamed = 8;  // parts named in a note
 
-// Two parts that share open edges: the number, and the ends of the first one.
-struct Neighbours {
-  std::size_t a = 0, b = 0;  // indices of parts, a < b
-  std::size_t edges = 0;
-  glm::dvec3 low{0}, high{0};
-};
-
 // Transforms of the instances of each part, in their order.
 std::vector<std::vector<double>> placements(const SourceScene& source) {
   std::vector<std::vector<double>> result(source.parts.size());
@@ -39,66 +27,15 @@ std::vector<std::vector<double>> placements(const SourceScene& source) {
   return result;
 }
 
-// Welds the parts into one mesh, in which a face of n corners is a fan of triangles. Sets the part of each triangle.
-prep::Mesh weldedMesh(const SourceScene& source, const std::vector<std::size_t>& parts,
-                      const prep::Options& preparation, std::vector<std::size_t>& partOf) {
-  prep::Mesh mesh;
-  glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
-  for (const std::size_t part : parts) {
-    const Polygons& polygons = source.parts[part].polygons;
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), polygons.positions.begin(), polygons.positions.end());
-    for (std::size_t f = 0; f < polygons.faceCount(); ++f) {
-      const auto face = polygons.face(f);
-      for (const std::uint32_t corner : face)
-        low = glm::min(low, polygons.positions[corner]), high = glm::max(high, polygons.positions[corner]);
-      for (std::size_t c = 2; c < face.size(); ++c)
-        mesh.triangles.emplace_back(first + face[0], first + face[c - 1], first + face[c]);
-    }
-    partOf.resize(mesh.triangles.size(), part);
-  }
-  if (mesh.triangles.empty()) return mesh;
-  prep::weld(mesh, std::max(preparation.steps.weldTolerance, preparation.weldRelative * glm::distance(low, high)));
-
-  // Drop triangles that are lines or points.
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const glm::uvec3& t = mesh.triangles[i];
-    if (t.x == t.y || t.y == t.z || t.z == t.x) continue;
-    partOf[kept] = partOf[i];
-    mesh.triangles[kept++] = t;
-  }
-  mesh.triangles.resize(kept);
-  partOf.resize(kept);
-  return mesh;
-}
-
-// Returns the pairs of these parts that share open edges.
+// Returns the pairs of these parts, by their indices, that share open edges.
 std::vector<Neighbours> findNeighbours(const SourceScene& source, const std::vector<std::size_t>& parts,
                                        const prep::Options& preparation) {
-  std::vector<std::size_t> partOf;
-  const prep::Mesh mesh = weldedMesh(source, parts, preparation, partOf);
-  std::map<std::pair<std::size_t, std::size_t>, Neighbours> found;
-  prep::forEachEdge(prep::edgeUses(mesh.triangles), [&](std::span<const prep::EdgeUse> edge) {
-    // Uses are sorted by triangle, and therefore by part.
-    std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < edge.size(); ++i) {
-      const std::size_t part = partOf[edge[i].triangle];
-      const bool alone = (i == 0 || partOf[edge[i - 1].triangle] != part) &&
-                         (i + 1 == edge.size() || partOf[edge[i + 1].triangle] != part);
-      if (alone) open.push_back(part);
-    }
-    for (std::size_t i = 1; i < open.size(); ++i) {
-      const std::pair<std::size_t, std::size_t> pair = std::minmax(open[i - 1], open[i]);
-      Neighbours& neighbours = found[pair];
-      if (neighbours.edges++ == 0)
-        neighbours = {pair.first, pair.second, 1, mesh.positions[edge[0].low], mesh.positions[edge[0].high]};
-    }
-  });
-  std::vector<Neighbours> result;
-  result.reserve(found.size());
-  for (const auto& [pair, neighbours] : found) result.push_back(neighbours);
-  return result;
+  std::vector<const Polygons*> pieces;
+  pieces.reserve(parts.size());
+  for (const std::size_t part : parts) pieces.push_back(&source.parts[part].polygons);
+  std::vector<Neighbours> neighbours = findOpenEdges(pieces, preparation).neighbours;
+  for (Neighbours& pair : neighbours) pair.a = parts[pair.a], pair.b = parts[pair.b];
+  return neighbours;
 }
 
 // Appends one value per element: those of the source, or `none` if only one of the two has the attribute.
@@ -137,29 +74,18 @@ void moveFaces(SourcePart& to, SourcePart& from) {
   from.fileFaces.clear();
 }
 
-template <class Text>
-std::string list(const std::vector<std::size_t>& parts, Text text) {
-  std::string result;
-  const std::size_t count = std::min(parts.size(), kNamed);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0) result += i + 1 == parts.size() ? " and " : ", ";
-    result += text(parts[i]);
-  }
-  return count == parts.size() ? result : fmt::format("{} and {} more", result, parts.size() - count);
-}
-
 // Joins the parts into the first one. Returns the note.
 std::string join(SourceScene& source, const std::vector<std::size_t>& parts, const std::string& material) {
   // Describe the parts.
   SourcePart& first = source.parts[parts.front()];
   const bool oneMesh = first.mesh && std::all_of(parts.begin(), parts.end(),
                                                  [&](std::size_t p) { return source.parts[p].mesh == first.mesh; });
-  const std::string which =
-      oneMesh ? fmt::format("primitives {} of mesh '{}'",
-                            list(parts, [&](std::size_t p) { return fmt::to_string(source.parts[p].primitive); }),
-                            first.meshName)
-              : fmt::format("parts {}",
-                            list(parts, [&](std::size_t p) { return fmt::format("'{}'", source.parts[p].name); }));
+  std::vector<std::string> names;
+  names.reserve(parts.size());
+  for (const std::size_t p : parts)
+    names.push_back(oneMesh ? fmt::to_string(source.parts[p].primitive) : fmt::format("'{}'", source.parts[p].name));
+  const std::string which = oneMesh ? fmt::format("primitives {} of mesh '{}'", listNames(names), first.meshName)
+                                    : fmt::format("parts {}", listNames(names));
   std::string note = fmt::format("joined {}: one body of material '{}'", which, material);
 
   // Name the body after its mesh and nodes if it is the whole mesh.
@@ -179,6 +105,16 @@ std::string join(SourceScene& source, const std::vector<std::size_t>& parts, con
 }
 
 }  // namespace
+
+std::string listNames(const std::vector<std::string>& names) {
+  std::string result;
+  const std::size_t count = std::min(names.size(), kNamed);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0) result += i + 1 == names.size() ? " and " : ", ";
+    result += names[i];
+  }
+  return count == names.size() ? result : fmt::format("{} and {} more", result, names.size() - count);
+}
 
 std::vector<std::string> joinParts(SourceScene& source, const std::vector<PartUse>& uses,
                                    const prep::Options& preparation) {

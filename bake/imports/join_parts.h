@@ -36,4 +36,7 @@ std::vector<std::string> joinParts(prep::SourceScene& source, const std::vector<
 std::optional<prep::Problem> findSpreadBody(const prep::SourceScene& source, const std::vector<PartUse>& uses,
                                             std::size_t part, const prep::Options& preparation);
 
+// Returns "a, b and c", or the first eight names and the number of the others.
+std::string listNames(const std::vector<std::string>& names);
+
 }  // namespace malus::bake

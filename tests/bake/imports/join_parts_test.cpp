@@ -136,6 +136,48 @@ TEST_F(JoinParts, MeshesOfOneBodyAtTheSamePlace) {
   EXPECT_EQ(countNotes(result, "joined parts 'left' and 'right'"), 1u);
 }
 
+TEST_F(JoinParts, PiecesAtNodesWithDifferentTransforms) {
+  // The right piece is stored beside its place, in its own axes.
+  const int left = addMesh("left", {{sides({0, 1, 2}), 0}}),
+            right = addMesh("right", {{sides({3, 4, 5}, {7, 1, 0}), 0}});
+  const int steel = addMesh("steel", {{sides({0, 1, 2}), 2}});
+  gltf_.addNode({{"name", "a"}, {"mesh", left}, {"translation", {3, 0, 0}}});
+  gltf_.addNode({{"name", "b"}, {"mesh", right}, {"translation", {-4, -1, 0}}});
+  gltf_.addNode({{"name", "c"}, {"mesh", steel}, {"translation", {9, 0, 0}}});
+  const Baked result = baked();
+  EXPECT_EQ(triangles(result), (Counts{{"a", 12}, {"c", 6}}));
+  EXPECT_EQ(countNotes(result, "joined parts 'a' and 'b': one body of material 'water'"), 1u);
+  EXPECT_EQ(result.glassBodies.size(), 1u);
+}
+
+TEST_F(JoinParts, MirroredHalvesOfOneMesh) {
+  // Half of a slab of 2 x 1 x 1 without the wall at x = 0, rotated so that positions are not exact.
+  const int half = addMesh("half", {{sides({1, 2, 3, 4, 5}), 0}});
+  for (int i = 0; i < 3; ++i) {
+    const int a = gltf_.add("nodes", {{"mesh", half}, {"name", "right"}});
+    const int b = gltf_.add("nodes", {{"mesh", half}, {"name", "left"}, {"scale", {-1, 1, 1}}});
+    const int c = gltf_.add("nodes", {{"children", {b}}, {"rotation", {0.1, 0.2, 0.3, 0.9}}});
+    const int d = gltf_.add("nodes", {{"children", {a}}, {"rotation", {0.1, 0.2, 0.3, 0.9}}});
+    gltf_.addNode({{"children", {c, d}}, {"translation", {0.1, 5 * i, 0}}});
+  }
+  const Baked result = baked();
+  EXPECT_EQ(triangles(result), (Counts{{"left", 20}, {"left.2", 20}, {"left.3", 20}}));
+  EXPECT_EQ(countNotes(result, "joined parts 'left' and 'right'"), 3u);
+  EXPECT_EQ(result.glassBodies.size(), 3u);
+}
+
+TEST_F(JoinParts, PiecesApartAndOfTwoMaterialsStayApart) {
+  const int left = addMesh("left", {{sides({0, 1, 2}), 0}}), right = addMesh("right", {{sides({3, 4, 5}), 0}});
+  const int oil = addMesh("oil", {{sides({3, 4, 5}), 1}});
+  gltf_.addNode({{"name", "a"}, {"mesh", left}});
+  const int moved = gltf_.addNode({{"name", "b"}, {"mesh", right}, {"translation", {1e-5, 0, 0}}});
+  EXPECT_CONTAINS(error(), "open edges");
+  scene_["imports"][0]["weldTolerance"] = 1e-4;
+  EXPECT_EQ(countNotes(baked(), "joined"), 1u);
+  gltf_.document["nodes"][moved]["mesh"] = oil;
+  EXPECT_CONTAINS(error(), "open edges");
+}
+
 TEST_F(JoinParts, SeamsWithinTheWeldTolerance) {
   const int mesh = addMesh("slab", {{sides({0, 1, 2}), 0}, {sides({3, 4, 5}, {1e-5, 0, 0}), 0}});
   gltf_.addNode({{"mesh", mesh}});

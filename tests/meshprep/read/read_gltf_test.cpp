@@ -1,4 +1,4 @@
-// Reader of glTF and GLB: round trips, and the locations of errors.
+// Reader of glTF and GLB: containers, accessors, primitives, and the locations of errors.
 #include "meshprep/read/read_gltf.h"
 
 #include <cmath>
@@ -8,47 +8,22 @@
 
 #include <glm/geometric.hpp>
 
-#include "meshprep/prepare.h"
 #include "meshprep/read/read_mesh.h"
-#include "tests/meshprep/read/gltf_files.h"
-#include "tests/meshprep/shapes.h"
+#include "tests/meshprep/read/gltf_reading.h"
 
 namespace malus::prep {
 namespace {
 
 using nlohmann::json;
-using test::contains;
+using test::errorIn;
 using test::errorMessage;
+using test::errorWith;
 using test::GltfFile;
+using test::hasNote;
+using test::readGlb;
+using test::readText;
 using test::TemporaryFile;
 using test::triangleFile;
-
-SourceScene readText(const std::string& text) {
-  const TemporaryFile file(".gltf", text);
-  return readGltf(file.path());
-}
-SourceScene readGlb(const GltfFile& gltf) {
-  const TemporaryFile file(".glb", gltf.glb());
-  return readGltf(file.path());
-}
-std::string errorIn(const GltfFile& gltf) {
-  return errorMessage([&] { readGlb(gltf); });
-}
-// Returns the error of a file with one triangle after the value at a JSON pointer is set, or removed if null.
-std::string errorWith(const char* pointer, const json& value) {
-  GltfFile gltf = triangleFile();
-  const json::json_pointer at(pointer);
-  if (value.is_null())
-    gltf.document[at.parent_pointer()].erase(at.back());
-  else
-    gltf.document[at] = value;
-  return errorIn(gltf);
-}
-bool hasNote(const SourceScene& scene, std::string_view part) {
-  for (const std::string& note : scene.notes)
-    if (contains(note, part)) return true;
-  return false;
-}
 
 using Points = std::vector<glm::dvec3>;
 using Corners = std::vector<std::uint32_t>;
@@ -270,79 +245,6 @@ TEST(ReadGltf, RefusesInvalidJson) {
   EXPECT_CONTAINS(error(many + "]}"), "too many objects");
 }
 
-TEST(ReadGltf, TraversesTheNodeGraph) {
-  GltfFile gltf = triangleFile();
-  gltf.document["nodes"] = json::parse(R"([
-    {"children": [1, 2], "translation": [10, 0, 0]},
-    {"mesh": 0, "name": "a", "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476], "scale": [2, 3, 4]},
-    {"children": [3], "matrix": [0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 2, 3, 1]},
-    {"mesh": 0, "translation": [0, 0, 5]}])");
-  const SourceScene scene = readGlb(gltf);
-  ASSERT_EQ(scene.instances.size(), 2u);
-  EXPECT_EQ(scene.instances[0].name, "a");
-  EXPECT_EQ(scene.instances[1].name, "node 3");
-  // (1, 0, 0) is scaled to 2, rotated about +z to (0, 2, 0), and moved by 10; the matrix maps +z to +x.
-  EXPECT_LT(glm::distance(scene.instances[0].worldFromObject * glm::dvec4(1, 0, 0, 1), glm::dvec4(10, 2, 0, 1)), 1e-12);
-  EXPECT_LT(glm::distance(scene.instances[0].worldFromObject * glm::dvec4(0, 1, 1, 1), glm::dvec4(7, 0, 4, 1)), 1e-12);
-  EXPECT_EQ(scene.instances[1].worldFromObject * glm::dvec4(0, 0, 0, 1), glm::dvec4(16, 2, 3, 1));
-  EXPECT_EQ(scene.instances[1].worldFromObject * glm::dvec4(1, 0, 0, 1), glm::dvec4(16, 2, 2, 1));
-
-  const auto error = [&](const char* nodes, const char* roots = "[0]") {
-    gltf.document["nodes"] = json::parse(nodes);
-    gltf.document["scenes"][0]["nodes"] = json::parse(roots);
-    return errorIn(gltf);
-  };
-  EXPECT_CONTAINS(error(R"([{"mesh": 0}, {"children": [2]}, {"children": [1]}])"), "nodes[1]", "ancestor");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "children": [0]}])"), "nodes[0]", "ancestor");
-  EXPECT_CONTAINS(error(R"([{"children": [1, 1]}, {"mesh": 0}])"), "nodes[1]", "two parents");
-  EXPECT_CONTAINS(error(R"([{"children": [2]}, {"children": [2]}, {"mesh": 0}])", "[0, 1]"), "nodes[2]", "two parent");
-  EXPECT_CONTAINS(error(R"([{"children": [3]}, {"mesh": 0}])"), "nodes[0].children", "missing");
-  EXPECT_CONTAINS(error(R"([{"children": [1]}, {"mesh": 0}])", "[1]"), "node 1", "parent");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "scale": [1, 0, 1]}])"), "nodes[0]: transform is singular");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "scale": [1e300, 1, 1]}])"), "transform", "range");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "rotation": [0, 0, 0, 0]}])"), "nodes[0].rotation", "length");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "matrix": [1, 2, 3]}])"), "nodes[0].matrix", "type", "16");
-  EXPECT_CONTAINS(error(R"([{"mesh": 0, "matrix": [1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1]}])"), "matrix", "affine");
-
-  // A chain that is deeper than any call stack.
-  json chain = json::array();
-  for (int i = 1; i < 100'000; ++i) chain.push_back({{"children", {i}}});
-  chain.push_back({{"mesh", 0}});
-  EXPECT_EQ(error(chain.dump().c_str()), "");
-}
-
-TEST(ReadGltf, ReadsRootsWithoutScenes) {
-  GltfFile gltf = triangleFile();
-  gltf.document.erase("scenes");
-  EXPECT_EQ(readGlb(gltf).instances.size(), 1u);
-  gltf.document["scenes"] = json::parse(R"([{"nodes": []}, {"nodes": [0]}])");
-  EXPECT_CONTAINS(errorIn(gltf), "no mesh");
-  gltf.document["scene"] = 1;
-  EXPECT_TRUE(hasNote(readGlb(gltf), "scenes other than number 1 of 2"));
-}
-
-TEST(ReadGltf, FlipsFacesOfMirroredInstances) {
-  GltfFile gltf;
-  gltf.addMesh(test::cube(), "cube");
-  gltf.addNode({{"mesh", 0}, {"scale", {-1, 2, 3}}, {"translation", {7, 0, 0}}});
-  gltf.addNode({{"mesh", 0}});
-  const TemporaryFile file(".glb", gltf.glb());
-  const Polygons whole = readMesh(file.path());
-  ASSERT_EQ(whole.parts.size(), 2u);
-  EXPECT_EQ(whole.faceCount(), 24u);
-  double volumes[2] = {0, 0};
-  for (std::size_t f = 0; f < whole.faceCount(); ++f) {
-    const auto face = whole.face(f);
-    volumes[whole.partOf[f]] +=
-        glm::dot(whole.positions[face[0]], glm::cross(whole.positions[face[1]], whole.positions[face[2]])) / 6;
-  }
-  EXPECT_NEAR(volumes[0], 6, 1e-12);
-  EXPECT_NEAR(volumes[1], 1, 1e-12);
-  Report report;
-  EXPECT_EQ(prepare(file.path(), {}, report).triangles.size(), 24u);
-  EXPECT_EQ(report.count("faces-flipped"), 0u);
-}
-
 TEST(ReadGltf, ReadsUsedVerticesOfSharedAccessors) {
   GltfFile gltf;
   const int position = gltf.addVectors({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}, {6, 5, 5}, {5, 6, 5}});
@@ -358,23 +260,6 @@ TEST(ReadGltf, ReadsUsedVerticesOfSharedAccessors) {
   EXPECT_EQ(scene.instances[1].name, "n.2");
   EXPECT_EQ(scene.parts[1].polygons.positions, (Points{{5, 5, 5}, {6, 5, 5}, {5, 6, 5}}));
   EXPECT_EQ(scene.parts[1].polygons.corners, (Corners{2, 0, 1}));
-}
-
-TEST(ReadGltf, LimitsInstances) {
-  // 2000 instances of 6000 triangles from a small file.
-  GltfFile gltf;
-  const int position = gltf.addVectors({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-  std::vector<std::uint8_t> indices;
-  for (int i = 0; i < 6000; ++i) indices.insert(indices.end(), {0, 1, 2});
-  gltf.add("meshes",
-           {{"primitives", {{{"attributes", {{"POSITION", position}}}, {"indices", gltf.addIndices(indices)}}}}});
-  for (int i = 0; i < 2000; ++i) gltf.addNode({{"mesh", 0}});
-  EXPECT_CONTAINS(errorIn(gltf), "instances", "65536", "4000000");
-  // Primitives that share their indices.
-  json& primitives = gltf.document["meshes"][0]["primitives"];
-  const json one = primitives[0];
-  for (int i = 0; i < 400; ++i) primitives.push_back(one);
-  EXPECT_CONTAINS(errorIn(gltf), "too many triangles");
 }
 
 TEST(ReadGltf, LimitsUnusedVertices) {
@@ -414,107 +299,6 @@ TEST(ReadGltf, NotesIgnoredContent) {
   EXPECT_CONTAINS(errorIn(gltf), "found 'EXT_mesh_gpu_instancing'");
 }
 
-TEST(ReadGltf, ReplacesMaterialValuesOutOfRange) {
-  GltfFile gltf = triangleFile();
-  gltf.document["meshes"][0]["primitives"][0]["material"] = 0;
-  gltf.document["materials"] = json::parse(R"([{"name": "bad", "emissiveFactor": [1, -1, 0],
-    "pbrMetallicRoughness": {"baseColorFactor": [2, 0.5, -1, 1], "metallicFactor": 2, "roughnessFactor": -1},
-    "extensions": {"KHR_materials_ior": {"ior": 0.5}, "KHR_materials_transmission": {"transmissionFactor": 7},
-      "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": -3, "attenuationColor": [1, 0.5, 9]}}}])");
-  const SourceScene scene = readGlb(gltf);
-  const SourceMaterial& material = scene.materials.at(0);
-  EXPECT_EQ(material.baseColour, glm::dvec3(1, 0.5, 0));
-  EXPECT_EQ(material.metallic, 1);
-  EXPECT_EQ(material.roughness, 0);
-  EXPECT_EQ(material.emissive, glm::dvec3(1, 0, 0));
-  EXPECT_EQ(material.ior, 1.5);
-  EXPECT_EQ(material.transmission, 1);
-  EXPECT_EQ(material.attenuationColour, glm::dvec3(1, 0.5, 1));
-  EXPECT_TRUE(std::isinf(material.attenuationDistance));
-  for (const char* key : {"baseColorFactor", "metallicFactor", "roughnessFactor", "emissiveFactor", "ior",
-                          "transmissionFactor", "attenuationColor", "attenuationDistance"})
-    EXPECT_TRUE(hasNote(scene, key)) << key;
-}
-
-TEST(ReadGltf, LeavesOutNodesWithInvalidTransforms) {
-  GltfFile gltf = triangleFile();
-  gltf.addNode({{"name", "bad"}, {"mesh", 0}, {"rotation", {0, 0, 0, 0}}});
-  const SourceScene scene = readGlb(gltf);
-  EXPECT_EQ(scene.instances.size(), 1u);
-  EXPECT_TRUE(hasNote(scene, "nodes[1].rotation"));
-}
-
-TEST(ReadGltf, ReadsMaterials) {
-  GltfFile gltf = triangleFile();
-  gltf.document["meshes"][0]["primitives"][0]["material"] = 1;
-  gltf.document["materials"] = json::parse(R"([{"name": "plain"},
-    {"name": "all", "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 1, 1], "metallicFactor": 0, "roughnessFactor": 0.5},
-     "emissiveFactor": [1, 0.5, 0], "extensions": {"KHR_materials_ior": {"ior": 2},
-       "KHR_materials_transmission": {"transmissionFactor": 0.75},
-       "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 3, "attenuationColor": [1, 0.5, 0]},
-       "KHR_materials_emissive_strength": {"emissiveStrength": 4}}}])");
-  const SourceScene scene = readGlb(gltf);
-  EXPECT_EQ(scene.parts[0].material, 1u);
-  const SourceMaterial& plain = scene.materials[0];
-  EXPECT_EQ(plain.baseColour, glm::dvec3(1));
-  EXPECT_EQ(plain.metallic, 1);
-  EXPECT_EQ(plain.roughness, 1);
-  EXPECT_EQ(plain.ior, 1.5);
-  EXPECT_FALSE(plain.hasVolume);
-  const SourceMaterial& all = scene.materials[1];
-  EXPECT_EQ(all.name, "all");
-  EXPECT_EQ(all.baseColour, glm::dvec3(0.25, 0.5, 1));
-  EXPECT_EQ(all.metallic, 0);
-  EXPECT_EQ(all.roughness, 0.5);
-  EXPECT_EQ(all.emissive, glm::dvec3(4, 2, 0));
-  EXPECT_EQ(all.ior, 2);
-  EXPECT_EQ(all.transmission, 0.75);
-  EXPECT_TRUE(all.hasVolume);
-  EXPECT_FALSE(all.isThinWalled);
-  EXPECT_TRUE(hasNote(scene, "base colours of transmissive materials with a volume"));
-  EXPECT_EQ(all.attenuationDistance, 3);
-  EXPECT_EQ(all.attenuationColour, glm::dvec3(1, 0.5, 0));
-
-  const auto error = [&](const char* pointer, const json& value) {
-    GltfFile bad = gltf;
-    bad.document[json::json_pointer(std::string("/materials/1/") + pointer)] = value;
-    const TemporaryFile file(".glb", bad.glb());
-    return errorMessage([&] { readGltf(file.path(), true); });
-  };
-  EXPECT_CONTAINS(error("pbrMetallicRoughness/metallicFactor", 2),
-                  "materials[1].pbrMetallicRoughness.metallicFactor: is");
-  EXPECT_CONTAINS(error("pbrMetallicRoughness/baseColorFactor", {1, 1, 1}), "baseColorFactor: wrong type");
-  EXPECT_CONTAINS(error("emissiveFactor", {1, -1, 0}), "materials[1].emissiveFactor", "range");
-  EXPECT_EQ(error("emissiveFactor", {1, 40, 0}), "");
-  EXPECT_CONTAINS(error("extensions/KHR_materials_ior/ior", 0.5), "materials[1].ior", "range");
-  EXPECT_CONTAINS(error("extensions/KHR_materials_volume/attenuationDistance", 0), "materials[1].attenuationDistance",
-                  "range");
-  EXPECT_EQ(error("extensions/KHR_materials_ior/ior", 0), "");
-  gltf.document["materials"][1]["extensions"]["KHR_materials_volume"].erase("thicknessFactor");
-  const SourceScene thin = readGlb(gltf);
-  EXPECT_FALSE(thin.materials[1].hasVolume);  // a wall without thickness absorbs nothing
-  EXPECT_TRUE(thin.materials[1].isThinWalled);
-  EXPECT_FALSE(thin.materials[0].isThinWalled);  // opaque
-  EXPECT_FALSE(hasNote(thin, "base colours of transmissive materials with a volume"));
-  gltf.document["materials"][1]["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0;
-  EXPECT_TRUE(readGlb(gltf).materials[1].isThinWalled);
-  gltf.document["materials"][1]["extensions"].erase("KHR_materials_volume");
-  EXPECT_TRUE(readGlb(gltf).materials[1].isThinWalled);
-
-  // Left out: coverage, and the texture of the transmission as every texture.
-  gltf.document["materials"][1]["alphaMode"] = "BLEND";
-  gltf.document["materials"][1]["doubleSided"] = true;
-  gltf.document["materials"][1]["extensions"]["KHR_materials_transmission"]["transmissionTexture"] = {{"index", 0}};
-  gltf.document["textures"] = {{{"source", 0}}};
-  gltf.document["images"] = {{{"uri", "nowhere.png"}}};
-  const SourceScene noted = readGlb(gltf);
-  EXPECT_TRUE(noted.materials[1].isThinWalled);
-  EXPECT_TRUE(noted.materials[1].isDoubleSided);
-  EXPECT_FALSE(noted.materials[0].isDoubleSided);
-  EXPECT_TRUE(hasNote(noted, "alpha coverage"));
-  EXPECT_TRUE(hasNote(noted, "textures"));
-}
-
 TEST(ReadGltf, LeavesOutIncompleteTriangles) {
   GltfFile gltf;
   const int position = gltf.addVectors({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
@@ -552,16 +336,6 @@ TEST(ReadGltf, LeavesOutInvalidPartsAndInstances) {
   EXPECT_CONTAINS(errorMessage([&] { readGltf(file.path(), true); }), "nodes[2]", "singular");
   EXPECT_EQ(readMesh(file.path()).faceCount(), 2u);
   EXPECT_CONTAINS(errorMessage([&] { readMesh(file.path(), true); }), "singular");
-}
-
-TEST(ReadGltf, AcceptsEmissiveFactorsAboveOne) {
-  GltfFile gltf = triangleFile();
-  gltf.document["materials"] = {{{"emissiveFactor", {1, 40, 0.5}}}};
-  const SourceScene scene = readGlb(gltf);
-  EXPECT_EQ(scene.materials[0].emissive, glm::dvec3(1, 40, 0.5));
-  EXPECT_TRUE(hasNote(scene, "accepted: emissive factors above 1"));
-  gltf.document["materials"] = {{{"emissiveFactor", {1, 1, 1}}}};
-  EXPECT_FALSE(hasNote(readGlb(gltf), "accepted: emissive factors above 1"));
 }
 
 TEST(ReadGltf, AcceptsBackslashesInFileNames) {

@@ -1,0 +1,40 @@
+// Reading of glTF files of tests.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "meshprep/read/read_gltf.h"
+#include "tests/meshprep/read/gltf_files.h"
+#include "tests/meshprep/shapes.h"
+
+namespace malus::prep::test {
+
+inline SourceScene readText(const std::string& text) {
+  const TemporaryFile file(".gltf", text);
+  return readGltf(file.path());
+}
+inline SourceScene readGlb(const GltfFile& gltf) {
+  const TemporaryFile file(".glb", gltf.glb());
+  return readGltf(file.path());
+}
+inline std::string errorIn(const GltfFile& gltf) {
+  return errorMessage([&] { readGlb(gltf); });
+}
+// Returns the error of a file with one triangle after the value at a JSON pointer is set, or removed if null.
+inline std::string errorWith(const char* pointer, const nlohmann::json& value) {
+  GltfFile gltf = triangleFile();
+  const nlohmann::json::json_pointer at(pointer);
+  if (value.is_null())
+    gltf.document[at.parent_pointer()].erase(at.back());
+  else
+    gltf.document[at] = value;
+  return errorIn(gltf);
+}
+inline bool hasNote(const SourceScene& scene, std::string_view part) {
+  for (const std::string& note : scene.notes)
+    if (contains(note, part)) return true;
+  return false;
+}
+
+}  // namespace malus::prep::test

@@ -1,0 +1,121 @@
+// Materials of glTF: values, defaults, and what replaces invalid ones.
+#include "meshprep/read/read_gltf.h"
+
+#include "tests/meshprep/read/gltf_reading.h"
+
+namespace malus::prep {
+namespace {
+
+using nlohmann::json;
+using test::errorMessage;
+using test::GltfFile;
+using test::hasNote;
+using test::readGlb;
+using test::TemporaryFile;
+using test::triangleFile;
+
+TEST(ReadGltf, ReplacesMaterialValuesOutOfRange) {
+  GltfFile gltf = triangleFile();
+  gltf.document["meshes"][0]["primitives"][0]["material"] = 0;
+  gltf.document["materials"] = json::parse(R"([{"name": "bad", "emissiveFactor": [1, -1, 0],
+    "pbrMetallicRoughness": {"baseColorFactor": [2, 0.5, -1, 1], "metallicFactor": 2, "roughnessFactor": -1},
+    "extensions": {"KHR_materials_ior": {"ior": 0.5}, "KHR_materials_transmission": {"transmissionFactor": 7},
+      "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": -3, "attenuationColor": [1, 0.5, 9]}}}])");
+  const SourceScene scene = readGlb(gltf);
+  const SourceMaterial& material = scene.materials.at(0);
+  EXPECT_EQ(material.baseColour, glm::dvec3(1, 0.5, 0));
+  EXPECT_EQ(material.metallic, 1);
+  EXPECT_EQ(material.roughness, 0);
+  EXPECT_EQ(material.emissive, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(material.ior, 1.5);
+  EXPECT_EQ(material.transmission, 1);
+  EXPECT_EQ(material.attenuationColour, glm::dvec3(1, 0.5, 1));
+  EXPECT_TRUE(std::isinf(material.attenuationDistance));
+  for (const char* key : {"baseColorFactor", "metallicFactor", "roughnessFactor", "emissiveFactor", "ior",
+                          "transmissionFactor", "attenuationColor", "attenuationDistance"})
+    EXPECT_TRUE(hasNote(scene, key)) << key;
+}
+
+TEST(ReadGltf, ReadsMaterials) {
+  GltfFile gltf = triangleFile();
+  gltf.document["meshes"][0]["primitives"][0]["material"] = 1;
+  gltf.document["materials"] = json::parse(R"([{"name": "plain"},
+    {"name": "all", "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 1, 1], "metallicFactor": 0, "roughnessFactor": 0.5},
+     "emissiveFactor": [1, 0.5, 0], "extensions": {"KHR_materials_ior": {"ior": 2},
+       "KHR_materials_transmission": {"transmissionFactor": 0.75},
+       "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 3, "attenuationColor": [1, 0.5, 0]},
+       "KHR_materials_emissive_strength": {"emissiveStrength": 4}}}])");
+  const SourceScene scene = readGlb(gltf);
+  EXPECT_EQ(scene.parts[0].material, 1u);
+  const SourceMaterial& plain = scene.materials[0];
+  EXPECT_EQ(plain.baseColour, glm::dvec3(1));
+  EXPECT_EQ(plain.metallic, 1);
+  EXPECT_EQ(plain.roughness, 1);
+  EXPECT_EQ(plain.ior, 1.5);
+  EXPECT_FALSE(plain.hasVolume);
+  const SourceMaterial& all = scene.materials[1];
+  EXPECT_EQ(all.name, "all");
+  EXPECT_EQ(all.baseColour, glm::dvec3(0.25, 0.5, 1));
+  EXPECT_EQ(all.metallic, 0);
+  EXPECT_EQ(all.roughness, 0.5);
+  EXPECT_EQ(all.emissive, glm::dvec3(4, 2, 0));
+  EXPECT_EQ(all.ior, 2);
+  EXPECT_EQ(all.transmission, 0.75);
+  EXPECT_TRUE(all.hasVolume);
+  EXPECT_FALSE(all.isThinWalled);
+  EXPECT_TRUE(hasNote(scene, "base colours of transmissive materials with a volume"));
+  EXPECT_EQ(all.attenuationDistance, 3);
+  EXPECT_EQ(all.attenuationColour, glm::dvec3(1, 0.5, 0));
+
+  const auto error = [&](const char* pointer, const json& value) {
+    GltfFile bad = gltf;
+    bad.document[json::json_pointer(std::string("/materials/1/") + pointer)] = value;
+    const TemporaryFile file(".glb", bad.glb());
+    return errorMessage([&] { readGltf(file.path(), true); });
+  };
+  EXPECT_CONTAINS(error("pbrMetallicRoughness/metallicFactor", 2),
+                  "materials[1].pbrMetallicRoughness.metallicFactor: is");
+  EXPECT_CONTAINS(error("pbrMetallicRoughness/baseColorFactor", {1, 1, 1}), "baseColorFactor: wrong type");
+  EXPECT_CONTAINS(error("emissiveFactor", {1, -1, 0}), "materials[1].emissiveFactor", "range");
+  EXPECT_EQ(error("emissiveFactor", {1, 40, 0}), "");
+  EXPECT_CONTAINS(error("extensions/KHR_materials_ior/ior", 0.5), "materials[1].ior", "range");
+  EXPECT_CONTAINS(error("extensions/KHR_materials_volume/attenuationDistance", 0), "materials[1].attenuationDistance",
+                  "range");
+  EXPECT_EQ(error("extensions/KHR_materials_ior/ior", 0), "");
+  gltf.document["materials"][1]["extensions"]["KHR_materials_volume"].erase("thicknessFactor");
+  const SourceScene thin = readGlb(gltf);
+  EXPECT_FALSE(thin.materials[1].hasVolume);  // a wall without thickness absorbs nothing
+  EXPECT_TRUE(thin.materials[1].isThinWalled);
+  EXPECT_FALSE(thin.materials[0].isThinWalled);  // opaque
+  EXPECT_FALSE(hasNote(thin, "base colours of transmissive materials with a volume"));
+  gltf.document["materials"][1]["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0;
+  EXPECT_TRUE(readGlb(gltf).materials[1].isThinWalled);
+  gltf.document["materials"][1]["extensions"].erase("KHR_materials_volume");
+  EXPECT_TRUE(readGlb(gltf).materials[1].isThinWalled);
+
+  // Left out: coverage, and the texture of the transmission as every texture.
+  gltf.document["materials"][1]["alphaMode"] = "BLEND";
+  gltf.document["materials"][1]["doubleSided"] = true;
+  gltf.document["materials"][1]["extensions"]["KHR_materials_transmission"]["transmissionTexture"] = {{"index", 0}};
+  gltf.document["textures"] = {{{"source", 0}}};
+  gltf.document["images"] = {{{"uri", "nowhere.png"}}};
+  const SourceScene noted = readGlb(gltf);
+  EXPECT_TRUE(noted.materials[1].isThinWalled);
+  EXPECT_TRUE(noted.materials[1].isDoubleSided);
+  EXPECT_FALSE(noted.materials[0].isDoubleSided);
+  EXPECT_TRUE(hasNote(noted, "alpha coverage"));
+  EXPECT_TRUE(hasNote(noted, "textures"));
+}
+
+TEST(ReadGltf, AcceptsEmissiveFactorsAboveOne) {
+  GltfFile gltf = triangleFile();
+  gltf.document["materials"] = {{{"emissiveFactor", {1, 40, 0.5}}}};
+  const SourceScene scene = readGlb(gltf);
+  EXPECT_EQ(scene.materials[0].emissive, glm::dvec3(1, 40, 0.5));
+  EXPECT_TRUE(hasNote(scene, "accepted: emissive factors above 1"));
+  gltf.document["materials"] = {{{"emissiveFactor", {1, 1, 1}}}};
+  EXPECT_FALSE(hasNote(readGlb(gltf), "accepted: emissive factors above 1"));
+}
+
+}  // namespace
+}  // namespace malus::prep

@@ -155,21 +155,38 @@ class Builder : public json::json_sax_t {
   bool isDropped_ = false;  // the value of the last key is dropped
 };
 
-// Checks the types of kept values by their rules.
+// Checks the types of kept values by their rules. Invalid keys of materials are removed with a note, unless `strict`.
 class TypeCheck {
  public:
-  explicit TypeCheck(const std::string& where) : where_(where) {}
+  TypeCheck(const std::string& where, std::vector<std::string>& notes, bool strict)
+      : where_(where), notes_(notes), strict_(strict) {}
 
   // path: of the rules, without indices. location: for messages.
-  void object(const json& value, const std::string& path, const std::string& location) const {
+  void object(json& value, const std::string& path, const std::string& location) const {
     for (const std::string_view key : requiredKeys(path))
       if (!value.contains(key))
         throw Error(fmt::format("{}: {}", where_, joined(location, key)), "missing key", fmt::format("'{}'", key));
-    for (auto item = value.begin(); item != value.end(); ++item)
-      check(item.value(), path.empty() ? item.key() : path + "/" + item.key(), joined(location, item.key()));
+    for (auto item = value.begin(); item != value.end();) {
+      try {
+        check(item.value(), path.empty() ? item.key() : path + "/" + item.key(), joined(location, item.key()));
+        ++item;
+      } catch (const Error& error) {
+        if (strict_ || !isOfMaterial(path)) throw;
+        note(error);
+        item = value.erase(item);
+      }
+    }
   }
 
  private:
+  static bool isOfMaterial(std::string_view path) { return path == "materials" || path.starts_with("materials/"); }
+
+  void note(const Error& error) const {
+    std::string_view text = error.what();
+    if (text.starts_with(where_ + ": ")) text.remove_prefix(where_.size() + 2);
+    addNote(notes_, std::string(text));
+  }
+
   static std::string joined(const std::string& location, std::string_view key) {
     return location.empty() ? std::string(key) : fmt::format("{}.{}", location, key);
   }
@@ -185,7 +202,7 @@ class TypeCheck {
       fail(location, fmt::format("an integer from 0 to {}", most), value);
   }
 
-  void check(const json& value, const std::string& path, const std::string& location) const {
+  void check(json& value, const std::string& path, const std::string& location) const {
     const Rule& rule = *findRule(path);  // exists for every kept value
     switch (rule.type) {
       case Type::object:
@@ -196,8 +213,14 @@ class TypeCheck {
         if (!value.is_array()) fail(location, "a list of objects", value);
         for (std::size_t i = 0; i < value.size(); ++i) {
           const std::string item = fmt::format("{}[{}]", location, i);
-          if (!value[i].is_object()) fail(item, "an object", value[i]);
-          object(value[i], path, item);
+          try {
+            if (!value[i].is_object()) fail(item, "an object", value[i]);
+            object(value[i], path, item);
+          } catch (const Error& error) {
+            if (strict_ || !isOfMaterial(path)) throw;
+            note(error);
+            value[i] = json::object();  // the default material keeps the indices of the others
+          }
         }
         break;
       case Type::index:
@@ -235,6 +258,8 @@ class TypeCheck {
   }
 
   const std::string& where_;
+  std::vector<std::string>& notes_;
+  bool strict_;
 };
 
 void checkVersion(const json& asset, const std::string& where) {
@@ -260,7 +285,7 @@ void checkExtensions(const json& document, const std::string& where, std::vector
 
 }  // namespace
 
-GltfJson parseGltfJson(std::string_view text, const std::string& where) {
+GltfJson parseGltfJson(std::string_view text, const std::string& where, bool strict) {
   GltfJson result;
 
   // Parse the keys of the whitelist.
@@ -270,7 +295,7 @@ GltfJson parseGltfJson(std::string_view text, const std::string& where) {
 
   // Check types, version and extensions.
   if (!result.document.is_object()) throw Error(where, "is not glTF", "a JSON object", result.document.type_name());
-  TypeCheck(where).object(result.document, "", "");
+  TypeCheck(where, result.notes, strict).object(result.document, "", "");
   checkVersion(result.document.at("asset"), where);
   checkExtensions(result.document, where, result.notes);
   return result;

@@ -19,7 +19,8 @@ struct GltfJson {
 
 // `where` is the file for messages; errors add the location: "FILE: nodes[3].matrix", or a byte of the JSON. Throws
 // Error: not JSON, more than 64 levels, a duplicate key, a value of the wrong type, a missing required key, a version
-// other than 2, an unknown required extension, more than max(200000, bytes / 50) objects.
-GltfJson parseGltfJson(std::string_view text, const std::string& where);
+// other than 2, an unknown required extension, more than max(200000, bytes / 50) objects. Without `strict`, a key of a
+// material with a value of the wrong type is removed with a note.
+GltfJson parseGltfJson(std::string_view text, const std::string& where, bool strict);
 
 }  // namespace malus::prep

@@ -301,7 +301,7 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
 
   // Parse the document.
   const GltfContainer container(path);
-  GltfJson checked = parseGltfJson(container.json(), where);
+  GltfJson checked = parseGltfJson(container.json(), where, strict);
   scene.notes = std::move(checked.notes);
   gltf::Document document = gltf::toDocument(std::move(checked.document), where);
   for (const gltf::Buffer& buffer : document.buffers)
@@ -354,7 +354,7 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
 std::vector<std::filesystem::path> gltfBufferFiles(const std::filesystem::path& path) {
   const std::string where = path.string();
   const GltfContainer container(path);
-  const gltf::Document document = gltf::toDocument(parseGltfJson(container.json(), where).document, where);
+  const gltf::Document document = gltf::toDocument(parseGltfJson(container.json(), where, false).document, where);
   std::set<std::filesystem::path> files;
   for (std::size_t i = 0; i < document.buffers.size(); ++i) {
     const std::string& uri = document.buffers[i].uri;

@@ -107,6 +107,40 @@ TEST(ReadGltf, ReadsMaterials) {
   EXPECT_TRUE(hasNote(noted, "textures"));
 }
 
+TEST(ReadGltf, LeavesOutKeysOfMaterialsWithAWrongType) {
+  GltfFile gltf = triangleFile();
+  gltf.document["meshes"][0]["primitives"][0]["material"] = 2;
+  gltf.document["materials"] = json::parse(R"(["red",
+    {"name": 3, "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0], "roughnessFactor": 0.5},
+     "emissiveFactor": "bright", "extensions": {"KHR_materials_ior": [1.5],
+     "KHR_materials_volume": {"thicknessFactor": null, "attenuationDistance": 3}}},
+    {"name": "good", "pbrMetallicRoughness": {"metallicFactor": 0}}])");
+  const TemporaryFile file(".glb", gltf.glb());
+  const SourceScene scene = readGltf(file.path());
+  ASSERT_EQ(scene.materials.size(), 3u);
+  EXPECT_EQ(scene.materials[0].baseColour, glm::dvec3(1));
+  const SourceMaterial& part = scene.materials[1];
+  EXPECT_EQ(part.name, "");
+  EXPECT_EQ(part.baseColour, glm::dvec3(1));
+  EXPECT_EQ(part.roughness, 0.5);
+  EXPECT_EQ(part.emissive, glm::dvec3(0));
+  EXPECT_EQ(part.ior, 1.5);
+  EXPECT_FALSE(part.hasVolume);
+  EXPECT_EQ(part.attenuationDistance, 3);
+  EXPECT_EQ(scene.parts[0].material, 2u);
+  EXPECT_EQ(scene.materials[2].name, "good");
+  EXPECT_EQ(scene.materials[2].metallic, 0);
+  for (const char* note :
+       {"materials[0]: wrong type", "materials[1].name: wrong type",
+        "materials[1].pbrMetallicRoughness.baseColorFactor: wrong type", "materials[1].emissiveFactor: wrong type",
+        "KHR_materials_ior: wrong type", "thicknessFactor: wrong type"})
+    EXPECT_TRUE(hasNote(scene, note)) << note;
+  EXPECT_FALSE(hasNote(scene, file.path().string()));
+  EXPECT_CONTAINS(errorMessage([&] { readGltf(file.path(), true); }), "materials[0]", "wrong type");
+  gltf.document["materials"] = "none";
+  EXPECT_CONTAINS(test::errorIn(gltf), "materials", "wrong type");
+}
+
 TEST(ReadGltf, AcceptsEmissiveFactorsAboveOne) {
   GltfFile gltf = triangleFile();
   gltf.document["materials"] = {{{"emissiveFactor", {1, 40, 0.5}}}};

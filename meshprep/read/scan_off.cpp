@@ -43,9 +43,11 @@ Header scanHeader(const Lines& at) {
   header.textured = take("ST");
   header.coloured = take("C");
   header.normals = take("N");
-  if (prefix.starts_with("4") || prefix.starts_with("n"))
+  if ((prefix.starts_with("4") || prefix.starts_with("n")) && prefix.ends_with("OFF"))
     at.fail("unsupported dimension of an OFF file", "three dimensions", quoted(at.line()));
-  if (prefix != "OFF") at.fail("is not an OFF file", "OFF, COFF, NOFF or STOFF", quoted(at.line()));
+  if (prefix != "OFF")
+    at.fail("no header word of an OFF file", "OFF, COFF, NOFF or STOFF in the first line; insert a line OFF",
+            quoted(at.line()));
   return header;
 }
 

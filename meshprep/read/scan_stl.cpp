@@ -155,6 +155,24 @@ Scan scanAscii(std::string& bytes, std::string_view where, bool strict) {
   return scan;
 }
 
+// Refuses a binary file whose size does not fit its number of facets.
+[[noreturn]] void failSize(std::string_view bytes, std::string_view where) {
+  const std::size_t faces = littleEndian(bytes, 80), body = bytes.size() - kHeaderBytes;
+  if (body % kFaceBytes == 0)
+    throw Error(
+        fmt::format("{}, byte 80", where), "wrong number of facets in a binary STL file",
+        fmt::format("{}, for which the file has bytes (84, and 50 per facet); correct the number, or export the "
+                    "mesh again",
+                    body / kFaceBytes),
+        fmt::to_string(faces));
+  throw Error(
+      where, "wrong size of a binary STL file",
+      fmt::format("{} bytes (84, and 50 for each of the {} facets that byte 80 states); copy or export the file "
+                  "again",
+                  kHeaderBytes + faces * kFaceBytes, faces),
+      fmt::format("{} bytes", bytes.size()));
+}
+
 }  // namespace
 
 Scan scanStl(std::string& bytes, std::string_view where, bool strict) {
@@ -171,17 +189,16 @@ Scan scanStl(std::string& bytes, std::string_view where, bool strict) {
   }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && equalsIgnoringCase(std::string_view(bytes).substr(first, 5), "solid")) {
+    const std::string whole = bytes;
     const bool padded = removePadding(bytes);
+    if (whole.size() >= kHeaderBytes && bytes.find('\0') != std::string::npos) failSize(whole, where);
     Scan scan = scanAscii(bytes, where, strict);
     if (padded) noteOnce(scan.polygons, kPaddingNote);
     return scan;
   }
   if (bytes.size() < kHeaderBytes)
     throw Error(where, "is not an STL file", "\"solid\", or at least 84 bytes", fmt::format("{} bytes", bytes.size()));
-  const std::size_t faces = littleEndian(bytes, 80);
-  throw Error(where, "wrong size of a binary STL file",
-              fmt::format("{} bytes for its {} faces", kHeaderBytes + faces * kFaceBytes, faces),
-              fmt::format("{} bytes", bytes.size()));
+  failSize(bytes, where);
 }
 
 }  // namespace malus::prep

@@ -87,6 +87,7 @@ TEST(ScanOff, KeepsDoublePrecision) {
 }
 
 TEST(ScanOff, RefusesCountsAboveTheFileSize) {
+  expectRefused("4 1 0\n" + kPoints + "3 0 1 2\n", ".off:1:", "insert a line OFF");
   expectRefused("OFF\n4000000000 1 0\n", ".off:2:", "4000000000");
   expectRefused("OFF\n3 4000000000 0\n", ".off:2:", "4000000000");
   expectRefused("OFF\n-3 1 0\n", ".off:2:", "-3");
@@ -109,7 +110,7 @@ TEST(ScanOff, RefusesOtherVariants) {
   expectRefused("OFF BINARY\n", ".off:1:", "binary");
   expectRefused("4OFF\n", ".off:1:", "dimension");
   expectRefused("nOFF\n3\n", ".off:1:", "dimension");
-  expectRefused("4 1 0\n", ".off:1:", "dimension");
+  expectRefused("4 1 0\n", ".off:1:", "insert a line OFF");
   expectRefused("SKEL\n", ".off:1:", "OFF");
   expectRefused("OFF\n0 0 0\n", ".off", "no vertices");
 }

@@ -61,7 +61,7 @@ inline constexpr double kMaxSteps = 0x1p52;
 // Accepted sizes (largest extents along an axis) of a mesh, metres, and its distance from zero relative to its size.
 // Within them, areas and volumes neither overflow nor underflow, and double resolves a millionth of the size.
 inline constexpr double kMinExtent = 1e-40;
-inline constexpr double kMaxExtent = 1e40;
+inline constexpr double kMaxExtent = 1e38;
 inline constexpr double kMaxDistance = 1e9;
 
 // The positions origin + step * (i, j, k), with integers from 0 to 2^positionBits - 1.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "meshprep/clean/disjoint_sets.h"
+#include "meshprep/clean/edges.h"
 #include "meshprep/clean/select.h"
 
 namespace malus::prep {
@@ -60,8 +62,9 @@ class Walls {
       if (edge.pairs.size() != 1) continue;
       const std::uint32_t patch = patches_.find(edge.pairs[0]);
       hasBorder[patch] = 1;
-      if (edge.others != 2 || shareSources(pairs_[edge.pairs[0]])) isLoose[patch] = 1;
+      if (edge.others != 2 || (edge.agreeing != 2 && shareSources(pairs_[edge.pairs[0]]))) isLoose[patch] = 1;
     }
+    requireClosedBodies(dropped, isLoose);
     for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
       const std::uint32_t patch = patches_.find(i);
       if (hasBorder[patch] != 0 && isLoose[patch] == 0) walls.push_back(pairs_[i][1]);
@@ -72,11 +75,42 @@ class Walls {
  private:
   struct Edge {
     std::vector<std::uint32_t> pairs;
-    std::uint32_t others = 0;  // other triangles
+    bool isForward = false;      // the first pair traverses it from the smaller vertex
+    std::uint32_t others = 0;    // other triangles
+    std::uint32_t agreeing = 0;  // those that traverse it in the opposite direction of the pair
   };
 
   static std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
     return std::uint64_t{std::min(a, b)} << 32u | std::max(a, b);
+  }
+
+  // Marks the patches with pairs that share vertices of the file, unless the faces that are connected with them through
+  // edges form closed surfaces: an even number of faces at each edge.
+  void requireClosedBodies(const std::vector<std::uint32_t>& dropped, std::vector<char>& isLoose) {
+    std::vector<std::uint32_t> shared;  // pairs
+    for (std::uint32_t i = 0; i < pairs_.size(); ++i)
+      if (isLoose[patches_.find(i)] == 0 && shareSources(pairs_[i])) shared.push_back(i);
+    if (shared.empty()) return;
+    std::vector<char> isPaired(mesh_.triangles.size(), 0);
+    for (const auto& pair : pairs_) isPaired[pair[0]] = isPaired[pair[1]] = 1;
+    std::vector<glm::uvec3> triangles;
+    std::vector<std::uint32_t> number(mesh_.triangles.size(), 0);
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const glm::uvec3& t = mesh_.triangles[i];
+      if ((dropped[i] != kNone && isPaired[i] == 0) || t.x == t.y || t.y == t.z || t.z == t.x) continue;
+      number[i] = static_cast<std::uint32_t>(triangles.size());
+      triangles.push_back(t);
+    }
+    DisjointSets bodies(triangles.size());
+    std::vector<std::uint32_t> openAt;  // triangles
+    forEachEdge(edgeUses(triangles), [&](std::span<const EdgeUse> edge) {
+      for (std::size_t i = 1; i < edge.size(); ++i) bodies.merge(edge[0].triangle, edge[i].triangle);
+      if (edge.size() % 2 != 0) openAt.push_back(edge[0].triangle);
+    });
+    std::vector<char> isOpen(triangles.size(), 0);
+    for (const std::uint32_t triangle : openAt) isOpen[bodies.find(triangle)] = 1;
+    for (const std::uint32_t i : shared)
+      if (isOpen[bodies.find(number[pairs_[i][0]])] != 0) isLoose[patches_.find(i)] = 1;
   }
 
   // Returns true if a vertex of the file is a corner of both triangles.
@@ -94,14 +128,20 @@ class Walls {
     for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
       for (const std::uint32_t triangle : pairs_[i]) isPaired[triangle] = 1;
       const glm::uvec3& t = mesh_.triangles[pairs_[i][0]];
-      for (int k = 0; k < 3; ++k) edges_[edgeKey(t[k], t[(k + 1) % 3])].pairs.push_back(i);
+      for (int k = 0; k < 3; ++k) {
+        Edge& edge = edges_[edgeKey(t[k], t[(k + 1) % 3])];
+        if (edge.pairs.empty()) edge.isForward = t[k] < t[(k + 1) % 3];
+        edge.pairs.push_back(i);
+      }
     }
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       if (isPaired[i] != 0 || dropped[i] != kNone) continue;
       const glm::uvec3& t = mesh_.triangles[i];
       for (int k = 0; k < 3; ++k)
-        if (const auto found = edges_.find(edgeKey(t[k], t[(k + 1) % 3])); found != edges_.end())
+        if (const auto found = edges_.find(edgeKey(t[k], t[(k + 1) % 3])); found != edges_.end()) {
           ++found->second.others;
+          if ((t[k] < t[(k + 1) % 3]) != found->second.isForward) ++found->second.agreeing;
+        }
     }
   }
 

@@ -1,4 +1,5 @@
 // Surfaces of which every face occurs twice, back to back.
+#include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -83,6 +84,47 @@ TEST(DoubledSurface, KeepsWallsBesideABodyThatIsInsideOut) {
     EXPECT_EQ(report.components.size(), static_cast<std::size_t>(i + 1));
     for (const Component& component : report.components) EXPECT_TRUE(component.closed);
   }
+}
+
+// Vertices with equal positions become one, as in a file that stores each position once.
+Mesh withSharedVertices(const Mesh& mesh) {
+  Mesh result;
+  std::vector<std::uint32_t> become;
+  for (const glm::dvec3& p : mesh.positions) {
+    const auto found = std::find(result.positions.begin(), result.positions.end(), p);
+    become.push_back(static_cast<std::uint32_t>(found - result.positions.begin()));
+    if (found == result.positions.end()) result.positions.push_back(p);
+  }
+  for (const glm::uvec3& t : mesh.triangles) result.triangles.emplace_back(become[t.x], become[t.y], become[t.z]);
+  return result;
+}
+
+TEST(DoubledSurface, KeepsWallsWhoseVerticesAreSharedInTheFile) {
+  for (const bool insideOut : {false, true}) {
+    const Mesh next = test::cube(1, {1, 0, 0});
+    const Mesh bodies = withSharedVertices(test::joined(test::cube(), insideOut ? test::flipped(next) : next));
+    ASSERT_EQ(bodies.positions.size(), 12u);
+    Report report;
+    const Mesh once = cleanTwice(bodies, report);
+    EXPECT_EQ(once.triangles.size(), 24u);
+    EXPECT_EQ(report.count("faces-kept-walls"), insideOut ? 2u : 0u);
+    EXPECT_NEAR(volume(once), 2, 1e-12);
+    EXPECT_EQ(report.components.size(), 2u);
+    for (const Component& component : report.components) EXPECT_TRUE(component.closed);
+  }
+}
+
+TEST(DoubledSurface, DropsCopiesOfEveryFaceAlsoBesideAWall) {
+  // Two rooms that share one wall: every edge of the wall has three faces, and every face occurs twice.
+  Mesh rooms = withSharedVertices(test::joined(test::cube(), test::flipped(test::cube(1, {1, 0, 0}))));
+  Report report;
+  Options options;
+  options.flat = true;
+  const std::vector<glm::uvec3> faces = rooms.triangles;
+  rooms.triangles.insert(rooms.triangles.end(), faces.begin(), faces.end());
+  clean(rooms, options, report);
+  EXPECT_EQ(report.count("faces-kept-walls"), 0u);
+  EXPECT_GE(report.count("faces-dropped-duplicate"), faces.size());
 }
 
 TEST(DoubledSurface, KeepsWallsOfCubesAroundAnEdge) {

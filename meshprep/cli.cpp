@@ -34,7 +34,7 @@ namespace malus::prep {
 namespace {
 
 const std::map<std::string, Normals> kNormals = {
-    {"crease", Normals::crease}, {"smoothing", Normals::smoothing}, {"authored", Normals::authored}};
+    {"authored", Normals::authored}, {"crease", Normals::crease}, {"smoothing", Normals::smoothing}};
 
 // Steps of --skip besides those of cleaning.
 constexpr std::string_view kJunctions = "junctions", kIntersections = "intersections";
@@ -212,12 +212,11 @@ void addCleaningOptions(CLI::App& prep, Arguments& arguments) {
 }
 
 void addNormalOptions(CLI::App& prep, Options& options) {
-  prep.add_option(
-          "--normals", options.normals,
+  prep.add_option_function<std::string>(
+          "--normals", [&options](const std::string& name) { options.normals = kNormals.at(name); },
           "Source of normals: crease (smooth except at sharp edges), smoothing (groups of the file) or authored "
           "(normals of the file)")
-      ->transform(CLI::CheckedTransformer(kNormals).description("{crease,smoothing,authored}"))
-      ->type_name("KIND")
+      ->check(CLI::IsMember({"crease", "smoothing", "authored"}))
       ->default_str("crease");
   prep.add_option("--crease", options.creaseDegrees, "Smallest angle of a sharp edge [degrees]")
       ->transform(numberBetween(0, 180))

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/base/nearest_name.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
@@ -10,7 +11,8 @@ namespace malus::render {
 Backend backendNamed(std::string_view name) {
   for (const BackendInfo& b : kBackends)
     if (b.name == name) return b.backend;
-  throw Error("--backend", "unknown renderer", fmt::format("{}", fmt::join(backendNames(), ", ")), name);
+  throw Error("--backend", fmt::format("unknown renderer '{}'{}", name, nearestClause(name, backendNames())),
+              fmt::format("{}", fmt::join(backendNames(), ", ")));
 }
 
 std::vector<std::string> backendNames() {

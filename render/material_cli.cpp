@@ -14,6 +14,7 @@
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/nearest_name.h"
 #include "meshprep/base/output_files.h"
 #include "meshprep/json_text.h"
 #include "meshprep/number_option.h"
@@ -64,7 +65,7 @@ Interface interfaceFor(const MaterialArguments& a) {
   } else {
     const bake::OpticalConstants* found = bake::findMaterial(a.name);
     if (!found) {
-      const std::string near = bake::nearestName(a.name, bake::materialNames());
+      const std::string near = nearestName(a.name, bake::materialNames());
       throw Error(a.name, "unknown material",
                   near.empty() ? "a name from 'malus --list-materials'"
                                : fmt::format("'{}' or another from 'malus --list-materials'", near));

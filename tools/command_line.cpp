@@ -9,6 +9,7 @@
 #include "bake/cli.h"
 #include "bake/scene_file/strict_object.h"
 #include "meshprep/base/console.h"
+#include "meshprep/base/nearest_name.h"
 #include "meshprep/base/text.h"
 #include "meshprep/cli.h"
 #include "render/cli.h"
@@ -60,9 +61,15 @@ void appendNames(const CLI::App& app, std::vector<std::string>& names) {
   }
 }
 
-std::string nearestClause(const std::string& word, const std::vector<std::string>& names) {
-  const std::string near = bake::nearestName(word, names);
-  return near.empty() ? std::string() : fmt::format("; the nearest is '{}'", near);
+// The nearest of the values that a message of CLI11 lists ("--option: value not in {a,b}"), as a clause; else empty.
+std::string nearestValueClause(const std::string& message) {
+  constexpr std::string_view kNotIn = " not in {", kBefore = ": ";
+  const std::size_t end = message.find(kNotIn), last = message.find('}', end);
+  const std::size_t begin = message.find(kBefore);
+  if (last == std::string::npos || begin >= end) return {};
+  std::vector<std::string> values =
+      CLI::detail::split(message.substr(end + kNotIn.size(), last - end - kNotIn.size()), ',');
+  return nearestClause(message.substr(begin + kBefore.size(), end - begin - kBefore.size()), values);
 }
 
 // Text of CLI11, of one line.
@@ -157,6 +164,7 @@ std::string CommandLine::describe(const CLI::ParseError& error) const {
   const std::vector<CLI::App*> parsed = app_.get_subcommands();
   const std::string command = parsed.empty() ? std::string() : " " + parsed.front()->get_name();
   if (text.empty()) text = parsed.empty() ? error.what() : parsed.front()->get_name() + ": " + error.what();
+  text += nearestValueClause(error.what());
   return fmt::format("{}; see 'malus{} --help'", oneLine(text), command);
 }
 

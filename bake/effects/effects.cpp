@@ -7,6 +7,7 @@
 
 #include "bake/effects/rules.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/nearest_name.h"
 
 namespace malus::bake {
 using shaders::Effect;
@@ -65,7 +66,7 @@ std::vector<std::string> effectNames() {
 
 Effect effectNamed(std::string_view name) {
   if (const auto effect = shaders::effectNamed(name)) return *effect;
-  throw Error("--effects", fmt::format("unknown effect '{}'", name),
+  throw Error("--effects", fmt::format("unknown effect '{}'{}", name, nearestClause(name, effectNames())),
               fmt::format("auto, all, or some of {}", fmt::join(effectNames(), ", ")));
 }
 

@@ -14,6 +14,7 @@
 #include "bake/placement/placement.h"
 #include "bake/scene_file/strict_object.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/nearest_name.h"
 #include "meshprep/prepare.h"
 #include "meshprep/read/source_scene.h"
 

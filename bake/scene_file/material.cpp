@@ -8,6 +8,7 @@
 #include "bake/scene_file/key_reader.h"
 #include "bake/scene_file/parts.h"
 #include "bake/scene_file/scene_keys.h"
+#include "meshprep/base/nearest_name.h"
 
 namespace malus::bake {
 
@@ -16,9 +17,10 @@ namespace {
 pack::MaterialKind readKind(StrictObject& object) {
   const std::string type = object.text("type");
   if (const auto kind = pack::findMaterialKind(type)) return *kind;
-  std::vector<std::string_view> names;
-  for (const pack::MaterialKindInfo& info : pack::kMaterialKinds) names.push_back(info.name);
-  object.fail("type", "unknown type of material", fmt::format("{}", fmt::join(names, ", ")), fmt::format("'{}'", type));
+  std::vector<std::string> names;
+  for (const pack::MaterialKindInfo& info : pack::kMaterialKinds) names.emplace_back(info.name);
+  object.fail("type", fmt::format("unknown type of material{}", nearestClause(type, names)),
+              fmt::format("{}", fmt::join(names, ", ")), fmt::format("'{}'", type));
 }
 
 const OpticalConstants& findPreset(StrictObject& object) {

@@ -5,6 +5,7 @@
 #include "bake/scene_file/key_reader.h"
 #include "bake/scene_file/parts.h"
 #include "bake/scene_file/scene_keys.h"
+#include "meshprep/base/nearest_name.h"
 
 namespace malus::bake {
 using nlohmann::json;
@@ -40,7 +41,9 @@ std::optional<prep::Normals> readNormals(StrictObject& object) {
   if (name == "crease") return prep::Normals::crease;
   if (name == "smoothing") return prep::Normals::smoothing;
   if (name == "authored") return prep::Normals::authored;
-  object.fail("normals", "unknown kind of normals", "'crease', 'smoothing' or 'authored'", fmt::format("'{}'", name));
+  object.fail("normals",
+              fmt::format("unknown kind of normals{}", nearestClause(name, {"crease", "smoothing", "authored"})),
+              "'crease', 'smoothing' or 'authored'", fmt::format("'{}'", name));
 }
 
 // Throws Error if a key excludes simplification.

@@ -60,7 +60,4 @@ class StrictObject {
   std::vector<std::string>* notes_;
 };
 
-// The nearest of the names by edit distance; empty if none is near.
-std::string nearestName(std::string_view name, const std::vector<std::string>& names);
-
 }  // namespace malus::bake

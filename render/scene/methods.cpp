@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/base/nearest_name.h"
 #include "shaders/methods/methods.h"
 
 namespace malus::render {
@@ -63,7 +64,8 @@ std::size_t payloadBytes(const MethodInfo& method, VulkanPath path) {
 const MethodInfo& methodNamed(std::string_view name) {
   for (const MethodInfo& m : methods())
     if (m.name == name || (!m.alias.empty() && m.alias == name)) return m;
-  throw Error("--method", fmt::format("unknown method '{}'", name), fmt::format("{}", fmt::join(methodNames(), ", ")));
+  throw Error("--method", fmt::format("unknown method '{}'{}", name, nearestClause(name, methodNames())),
+              fmt::format("{}", fmt::join(methodNames(), ", ")));
 }
 
 std::vector<std::string> methodNames() {

@@ -1,4 +1,5 @@
 // An option that several commands have means the same in each: the same kind of value, the same range, the same help.
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <set>
@@ -82,6 +83,29 @@ TEST(Options, OfTwoMeaningsAreRefused) {
     EXPECT_FALSE(options(c.command).contains(c.former)) << c.command;
     EXPECT_TRUE(options(c.command).contains(c.name)) << c.command;
   }
+}
+
+// A wrong value of an option with a fixed set is a usage error that names the nearest value.
+TEST(Options, UnknownValuesSuggestTheNearest) {
+  const struct {
+    std::vector<std::string> arguments;
+    const char* nearest;
+  } kCases[] = {{{"render", "a.pack", "--method", "stoke"}, "'stokes'"},
+                {{"render", "a.pack", "--backend", "embre"}, "'embree'"},
+                {{"render", "a.pack", "--embree-path", "scalr"}, "'scalar'"},
+                {{"compare", "a.pack", "--backends", "vulcan"}, "'vulkan'"},
+                {{"prep", "a.obj", "-o", "a.drc", "--normals", "creese"}, "'crease'"},
+                {{"prep", "a.obj", "-o", "a.drc", "--skip", "weld,orientt"}, "'orient'"},
+                {{"prep", "a.obj", "-o", "a.drc", "--certify", "glas"}, "'glass'"}};
+  for (const auto& c : kCases) {
+    const Finished finished = malus(c.arguments);
+    EXPECT_EQ(finished.exitCode, 2) << c.arguments[0] << " " << c.arguments.back();
+    EXPECT_NE(finished.err.find(std::string("nearest is ") + c.nearest), std::string::npos) << finished.err;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  }
+  const Finished far = malus({"render", "a.pack", "--method", "completely-else"});
+  EXPECT_EQ(far.exitCode, 2);
+  EXPECT_EQ(far.err.find("nearest"), std::string::npos) << far.err;
 }
 
 }  // namespace

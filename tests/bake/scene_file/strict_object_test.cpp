@@ -1,5 +1,6 @@
 #include "bake/scene_file/strict_object.h"
 
+#include "meshprep/base/nearest_name.h"
 #include "tests/bake/fixtures.h"
 
 namespace malus::bake {

@@ -1,6 +1,7 @@
 // Cost of reading arbitrary files of a few megabytes: memory proportional to the file size, termination, and an Error
 // for invalid meshes. Each file is read and triangulated in a child process with limited memory and an alarm, which is
 // far above the usual time.
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -41,7 +42,7 @@ constexpr bool kLimited = false;  // the sanitizers reserve terabytes
 constexpr bool kLimited = true;
 #endif
 
-// Returns the address space before reading: libraries and remains of earlier tests.
+// Returns the address space before reading: libraries, and what earlier tests left.
 std::size_t addressSpace() {
   std::size_t pages = 0;
   if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
@@ -58,10 +59,29 @@ void limitMemory(std::size_t fileBytes) {
   if (kLimited) ::setrlimit(RLIMIT_AS, &both);
 }
 
+// Allocates what the heap has free: it is a remainder of earlier tests, and memory that the limit would not count.
+void useFreeHeap() {
+  const auto mapped = [] {
+    const struct mallinfo2 info = ::mallinfo2();
+    return info.arena + info.hblkhd;
+  };
+  for (std::size_t block = std::size_t{1} << 30; block >= 4096; block /= 2)
+    for (;;) {
+      const std::size_t before = mapped();
+      void* const memory = std::malloc(block);
+      const bool grew = mapped() > before;
+      if (memory == nullptr || grew) {
+        std::free(memory);
+        break;
+      }
+    }
+}
+
 // Reads and triangulates the file in a child process. Returns 0, kRefused, kOutOfMemory, or 256 + the signal.
 int outcome(const std::filesystem::path& path, std::size_t fileBytes) {
   const pid_t child = ::fork();
   if (child == 0) {
+    if (kLimited) useFreeHeap();
     limitMemory(fileBytes);
     ::alarm(kAlarmSeconds);
     int code = 0;

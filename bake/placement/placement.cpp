@@ -33,7 +33,10 @@ prep::Mesh placed(const prep::Mesh& mesh, const glm::dmat4& worldFromObject) {
   const glm::dmat3 normalMatrix(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
                                 glm::cross(m[0], m[1]));  // det * inverse transpose
   const bool mirrors = glm::dot(m[0], glm::cross(m[1], m[2])) < 0;
-  prep::Mesh result = mesh;
+  prep::Mesh result;
+  result.positions = mesh.positions;
+  result.normals = mesh.normals;
+  result.triangles = mesh.triangles;
   for (glm::dvec3& p : result.positions) p = m * p + translation;
   for (glm::vec3& n : result.normals) {
     glm::dvec3 turned = normalMatrix * glm::dvec3(n);

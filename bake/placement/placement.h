@@ -13,7 +13,7 @@ namespace malus::bake {
 glm::dmat4 transformMatrix(const Transform& transform);
 
 // The mesh in world space; worldFromObject is affine and regular. A mirroring one flips the faces, so that outside
-// stays outside.
+// stays outside. The result has positions, normals and triangles only.
 prep::Mesh placed(const prep::Mesh& mesh, const glm::dmat4& worldFromObject);
 
 }  // namespace malus::bake

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "meshprep/base/bmp_header.h"
 #include "meshprep/base/icc_profile.h"
 #include "meshprep/base/image_module.h"
 #include "meshprep/base/orientation.h"
@@ -127,6 +128,7 @@ std::string readImage(const std::string& path, Image& image) {
     std::string start(65536, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
+    if (!isSupportedBmp(start, std::filesystem::file_size(path))) return "unsupported size of a BMP file";
     return readByOpenImageIo(path, start, image);
   } catch (const std::exception& error) {
     return messageOr(error.what(), "damaged file");

@@ -238,6 +238,20 @@ TEST_F(ImageModules, ExrHeadersThatDeclareMoreThanTheFileHasAreErrors) {
   EXPECT_LT(peakMegabytes() - before, 256);
 }
 
+// OpenImageIO decodes run-length encoded pixels when it opens the file.
+TEST_F(ImageModules, BmpHeadersThatDeclareTooManyPixelsAreErrors) {
+  const long before = peakMegabytes();
+  for (const std::string& size : {std::string("\x04\0\0\x2c\x02\0\0\0", 8), std::string("\x02\0\0\0\x04\0\0\x2c", 8),
+                                  std::string("\x02\0\0\0\xfc\xff\xff\xd3", 8)}) {
+    const std::string text = std::string("BM\x4e\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0", 18) + size +
+                             std::string("\x01\0\x08\0\x01\0\0\0", 8) + std::string(60, '\0');
+    write("bad.bmp", {text.begin(), text.end()});
+    Image image;
+    EXPECT_NE(formats().read(file("bad.bmp"), image).find("unsupported size"), std::string::npos);
+  }
+  EXPECT_LT(peakMegabytes() - before, 256);
+}
+
 TEST_F(ImageModules, PngFilesKeepEveryValue) {
   std::mt19937 random(15);
   for (const int channels : {1, 3}) {

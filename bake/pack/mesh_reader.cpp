@@ -1,10 +1,14 @@
 #include "bake/pack/mesh_reader.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "bake/pack/field_io.h"
 #include "bake/pack/record_fields.h"
@@ -69,10 +73,42 @@ Mesh decodeMesh(const ByteReader& r, const MeshEntry& entry, std::uint32_t versi
   return mesh;
 }
 
-}  // namespace
+struct ReadEntry {
+  MeshEntry entry;
+  ByteReader end;  // behind the entry, for errors
+};
 
-void readMeshes(ByteReader r, std::uint32_t version, std::span<const std::byte> geometry, std::uint64_t geometryOffset,
-                std::string_view where, Pack& pack) {
+// Decodes all meshes in parallel, the largest first. Throws the error of the first mesh that has one.
+std::vector<Mesh> decodeMeshes(std::span<const ReadEntry> entries, std::uint32_t version,
+                               std::span<const std::byte> geometry, std::string_view where) {
+  namespace tbb = oneapi::tbb;
+  std::vector<std::size_t> order(entries.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return entries[a].entry.triangles > entries[b].entry.triangles;
+  });
+  std::vector<Mesh> meshes(entries.size());
+  std::vector<std::exception_ptr> errors(entries.size());
+  std::atomic<std::size_t> next{0};
+  tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t) {
+    const std::size_t i = order[next++];
+    const MeshEntry& entry = entries[i].entry;
+    try {
+      meshes[i] = decodeMesh(
+          entries[i].end, entry, version,
+          geometry.subspan(static_cast<std::size_t>(entry.offset), static_cast<std::size_t>(entry.sizeBytes)), where);
+    } catch (...) {
+      errors[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+  return meshes;
+}
+
+// Reads the table up to its end or to its first error, which is returned.
+std::exception_ptr readEntries(ByteReader r, std::uint32_t version, std::size_t geometryBytes,
+                               std::uint64_t geometryOffset, Pack& pack, std::vector<ReadEntry>& entries) try {
   FieldSizes sizes({kMeshes, version});
   const MeshEntry any{};
   visitMeshEntry(sizes, any);
@@ -82,20 +118,32 @@ void readMeshes(ByteReader r, std::uint32_t version, std::span<const std::byte> 
   for (std::uint32_t i = 0; i < count; ++i) {
     MeshEntry entry;
     visitMeshEntry(FieldReader(r, {kMeshes, version}), entry);
-    checkEntry(r, entry, pack.scene.materials.size(), geometry.size(), end);
+    checkEntry(r, entry, pack.scene.materials.size(), geometryBytes, end);
     end = entry.offset + entry.sizeBytes;
     vertices += entry.vertices;
     triangles += entry.triangles;
     if (vertices > kMaxVertices || triangles > kMaxTriangles)
       r.fail("geometry is too large", "at most 2^28 vertices and triangles in all meshes",
              fmt::format("{} vertices and {} triangles", vertices, triangles));
-    const auto bytes =
-        geometry.subspan(static_cast<std::size_t>(entry.offset), static_cast<std::size_t>(entry.sizeBytes));
-    pack.scene.meshes.push_back(decodeMesh(r, entry, version, bytes, where));
+    entries.push_back({entry, r});
     pack.geometry.push_back({geometryOffset + entry.offset, entry.sizeBytes});
     pack.compression.emplace_back(entry.isEdgebreaker == 1 ? "edgebreaker" : "sequential");
   }
   r.end();
+  return nullptr;
+} catch (...) {
+  return std::current_exception();
+}
+
+}  // namespace
+
+void readMeshes(ByteReader r, std::uint32_t version, std::span<const std::byte> geometry, std::uint64_t geometryOffset,
+                std::string_view where, Pack& pack) {
+  std::vector<ReadEntry> entries;
+  const std::exception_ptr error = readEntries(std::move(r), version, geometry.size(), geometryOffset, pack, entries);
+  // An error of a mesh precedes those of the table behind it.
+  pack.scene.meshes = decodeMeshes(entries, version, geometry, where);
+  if (error) std::rethrow_exception(error);
 }
 
 void readSourceMap(ByteReader r, std::vector<Mesh>& meshes) {

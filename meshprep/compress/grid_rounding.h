@@ -3,6 +3,8 @@
 // Source of the rounding of normals: Draco 1.5.5, normal_compression_utils.h.
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,7 +21,12 @@ std::vector<glm::dvec3> roundPositions(std::span<const glm::dvec3> positions, do
 // Rounds to the nearest float in the range of normal floats. A pair of conversions to float and back is not used: GCC
 // 12 removes it where it vectorizes.
 glm::dvec3 roundToFloat(const glm::dvec3& p);
-inline bool isFloat(const glm::dvec3& p) { return p == roundToFloat(p); }
+// The 29 bits that a double has below the mantissa of a float are 0.
+inline bool isFloat(const glm::dvec3& p) {
+  constexpr std::uint64_t kLowBits29 = (std::uint64_t{1} << 29) - 1;
+  return ((std::bit_cast<std::uint64_t>(p.x) | std::bit_cast<std::uint64_t>(p.y) | std::bit_cast<std::uint64_t>(p.z)) &
+          kLowBits29) == 0;
+}
 
 // Returns the exponent of the smallest power of two with which the rounded positions span at most 2^bits - 1 steps, at
 // most kMaxSteps from zero. Positions must be finite.

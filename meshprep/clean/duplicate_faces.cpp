@@ -94,7 +94,7 @@ class Walls {
     std::vector<char> isPaired(mesh_.triangles.size(), 0);
     for (const auto& pair : pairs_) isPaired[pair[0]] = isPaired[pair[1]] = 1;
     std::vector<glm::uvec3> triangles;
-    std::vector<std::uint32_t> number(mesh_.triangles.size(), 0);
+    std::vector<std::uint32_t> number(mesh_.triangles.size(), kNone);  // kNone: without area
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       const glm::uvec3& t = mesh_.triangles[i];
       if ((dropped[i] != kNone && isPaired[i] == 0) || t.x == t.y || t.y == t.z || t.z == t.x) continue;
@@ -109,8 +109,10 @@ class Walls {
     });
     std::vector<char> isOpen(triangles.size(), 0);
     for (const std::uint32_t triangle : openAt) isOpen[bodies.find(triangle)] = 1;
-    for (const std::uint32_t i : shared)
-      if (isOpen[bodies.find(number[pairs_[i][0]])] != 0) isLoose[patches_.find(i)] = 1;
+    for (const std::uint32_t i : shared) {
+      const std::uint32_t triangle = number[pairs_[i][0]];
+      if (triangle == kNone || isOpen[bodies.find(triangle)] != 0) isLoose[patches_.find(i)] = 1;
+    }
   }
 
   // Returns true if a vertex of the file is a corner of both triangles.

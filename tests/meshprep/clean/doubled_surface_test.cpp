@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meshprep/clean/duplicate_faces.h"
 #include "meshprep/prepare.h"
 #include "tests/meshprep/shapes.h"
 
@@ -125,6 +126,15 @@ TEST(DoubledSurface, DropsCopiesOfEveryFaceAlsoBesideAWall) {
   clean(rooms, options, report);
   EXPECT_EQ(report.count("faces-kept-walls"), 0u);
   EXPECT_GE(report.count("faces-dropped-duplicate"), faces.size());
+}
+
+TEST(DoubledSurface, DropsCopiesOfFacesWithRepeatedCorners) {
+  Mesh mesh = test::cube();
+  mesh.triangles = {{0, 1, 1}, {0, 1, 1}};
+  EXPECT_EQ(dropDuplicateFaces(mesh, false).same.count, 1u);
+  mesh = test::cube();
+  mesh.sourceCorners = mesh.triangles = {{0, 0, 0}, {0, 0, 0}, {1, 2, 2}, {1, 2, 2}};
+  EXPECT_EQ(dropDuplicateFaces(mesh, false).same.count, 2u);
 }
 
 TEST(DoubledSurface, KeepsWallsOfCubesAroundAnEdge) {

@@ -159,6 +159,25 @@ class ClosedForms(unittest.TestCase):
             s = Scene(self, [lamp], [("lamp", mirror(0, flipped))], camera={"mediumEta": 1.33}).centre()
             self.assertAlmostEqual(s[0], expected, places=5)
 
+    def test_two_sided_emitter_emits_on_both_sides(self):
+        lamp = material("lamp", "emitter", radiance=[3.0, 2.0, 1.0], outsideEta=1.33, twoSided=True)
+        for flipped in (False, True):
+            scene = Scene(self, [lamp], [("lamp", mirror(0, flipped))], camera={"mediumEta": 1.33})
+            for colour, expected in enumerate((3.0, 2.0, 1.0)):
+                self.assertAlmostEqual(scene.centre(colour)[0], expected, places=5)
+
+    def test_two_sided_emitter_lights_diffuse_surfaces_in_path(self):
+        """A floor of albedo 0.8 under the back of a wide lamp: `path` samples the lamp directly."""
+        floor = material("floor", "lambert", albedo=[0.8] * 3)
+        lamp = material("lamp", "emitter", radiance=[3.0] * 3, twoSided=True)
+        below = quad((0, -0.5, -2), (0, 0, 500), (500, 0, 0))  # its normal points up, toward the lamp's back
+        above = quad((0, 0.5, -2), (0, 0, 500), (500, 0, 0))
+        scene = Scene(self, [floor, lamp], [("floor", below), ("lamp", above)],
+                      camera={"forward": [0, -0.6, -0.8], "up": [0, 0.8, -0.6]}).unpacked
+        described = export.mitsuba_scene(scene, 1, 1, 1, environment=False)
+        s = stock.sampled(described, scene.up(), 2, 4000)[0]
+        self.assertAlmostEqual(s[0], 0.8 * 3, delta=0.1)
+
 
 class Materials(unittest.TestCase):
     def kinds(self) -> list[str]:

@@ -9,6 +9,7 @@ import copy
 import json
 import pathlib
 
+import drjit as dr
 import mitsuba as mi
 import numpy as np
 
@@ -17,6 +18,37 @@ mi.set_variant("llvm_ad_mono_polarized")
 from environment import Environment  # noqa: E402  (needs the variant)
 
 WAVELENGTHS_NM = (630, 532, 465)  # of the colours 0, 1, 2
+TWO_SIDED_AREA = "two_sided_area"  # plugin below: Mitsuba's `area` is black on the back of its shape
+
+
+class TwoSidedArea(mi.Emitter):
+    """Area emitter of constant unpolarized radiance on both sides of its shape."""
+
+    def __init__(self, properties: mi.Properties):
+        super().__init__(properties)
+        self.radiance = properties["radiance"]
+        self.m_flags = mi.EmitterFlags.Surface
+
+    def light(self, active: mi.Bool) -> mi.Spectrum:
+        return mi.depolarizer(mi.UnpolarizedSpectrum(self.radiance)) & active
+
+    def eval(self, si, active=True):
+        return self.light(active)
+
+    def sample_direction(self, it, sample, active=True):
+        found = self.get_shape().sample_direction(it, sample, active)
+        found.emitter = mi.EmitterPtr(self)
+        active = active & (found.pdf > 0)
+        return found, self.light(active) / dr.select(active, found.pdf, 1)
+
+    def eval_direction(self, it, ds, active=True):
+        return self.light(active)
+
+    def pdf_direction(self, it, ds, active=True):
+        return self.get_shape().pdf_direction(it, ds, active)
+
+
+mi.register_emitter(TWO_SIDED_AREA, TwoSidedArea)
 
 
 class Unpacked:
@@ -162,10 +194,9 @@ def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environ
         path = scene.folder / mesh["file"]
         shape = {"type": "ply", "id": f"mesh{i}", "filename": str(path), "face_normals": not has_normals(path),
                  "bsdf": bsdf(material, colour)}
-        if material.get("twoSided"):
-            raise ValueError(f"material of {path}: Mitsuba's area emitters have one side")
         if material["type"] == "emitter" and material["radiance"][colour] > 0:
-            shape["emitter"] = {"type": "area", "radiance": material["radiance"][colour]}
+            shape["emitter"] = {"type": TWO_SIDED_AREA if material.get("twoSided") else "area",
+                                "radiance": material["radiance"][colour]}
         description[f"mesh{i}"] = shape
     return mi.load_dict(description, parallel=False, optimize=False)
 

@@ -149,13 +149,23 @@ void addAbsorptionNotes(const pack::Scene& scene, std::vector<std::string>& note
     if (const auto found = insufficientAbsorptionPrecision(mesh, scene.materials[mesh.material]);
         found && (!worst.contains(mesh.material) || worst.at(mesh.material).second.error < found->error))
       worst.insert_or_assign(mesh.material, std::pair(mesh.name, *found));
-  for (const auto& [material, found] : worst)
-    notes.push_back(fmt::format(
-        "material '{}': the single-precision renderers (embree, vulkan) take ways through its medium for up to {:.1e} "
-        "m "
-        "too short at mesh '{}', a relative error of {:.1e} of the transmittance; expected at most {:g}: use smaller "
-        "faces and meshes, or --backend reference",
-        scene.materials[material].name, found.second.distance, found.first, found.second.error, kAbsorptionPrecision));
+  for (const auto& [material, named] : worst) {
+    const auto& [mesh, found] = named;
+    const std::string subject =
+        fmt::format("material '{}': the single-precision renderers (embree, vulkan)", scene.materials[material].name);
+    notes.push_back(
+        found.thickness > 0
+            ? fmt::format(
+                  "{} start rays up to {:.1e} m off the faces of mesh '{}', beyond its mean thickness of {:.1e} m: "
+                  "its medium is missed; expected a thicker body or a smaller one: use thin-glass, or --backend "
+                  "reference",
+                  subject, found.distance, mesh, found.thickness)
+            : fmt::format(
+                  "{} take ways through its medium wrong by up to {:.1e} m at mesh '{}', a relative error of {:.1e} "
+                  "of the transmittance; expected at most {:g}: use smaller meshes or faces parallel to the axes, "
+                  "or --backend reference",
+                  subject, found.distance, mesh, found.error, kAbsorptionPrecision));
+  }
 }
 
 Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,

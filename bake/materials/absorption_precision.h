@@ -1,6 +1,6 @@
-// Error of the absorption that the single-precision renderers compute. Their rays start off the face, by a distance
-// that grows with the size of the face and of its mesh (shaders/optics/surface_point.h), and the way through a medium
-// is measured from there.
+// Error of the absorption that the single-precision renderers compute. A way through a medium is measured from hit to
+// hit (shaders/surfaces/hit.h), and errs by the rounding of both, which grows with the size of oblique faces. Rays
+// start off the face (shaders/optics/surface_point.h), so that they miss a medium that is thinner than that.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,9 @@ namespace malus::bake {
 inline constexpr double kAbsorptionPrecision = 1e-3;
 
 struct AbsorptionPrecision {
-  double distance;  // by which ways through the medium are too short [m]
-  double error;     // relative error of their transmittance, along the normal
+  double distance;   // bound on the error of a way along the normal of a face, mean of the mesh [m]
+  double error;      // relative error of the transmittance by it
+  double thickness;  // mean thickness of a body that rays may start beyond [m]; 0: they do not
 };
 
 // Nothing: the renderers are within kAbsorptionPrecision, or no medium at the mesh absorbs.

@@ -1,8 +1,8 @@
 // Hooks of shaders/surfaces/hooks.h that need the surfaces: members of both kinds of tracer, included inside them.
 
-bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) {
+bool findHit(const Ray& ray, Hit& hit) {
   ++rays;
-  const embree::Intersection at = bvh.nearest(origin, direction);
+  const embree::Intersection at = bvh.nearest(ray.origin, ray.d);
   if (at.mesh == embree::Intersection::kMiss) return false;
   const Mesh& mesh = scene.meshes[at.mesh];
   const glm::uvec3 corner = scene.triangles[mesh.firstTriangle + at.triangle];
@@ -11,9 +11,7 @@ bool findHit(const real3& origin, const real3& direction, real depth, Hit& hit) 
   const real b0 = 1 - at.b1 - at.b2;
   const real3 interpolated =
       mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * at.b1 + n[corner.z] * at.b2 : real3(0);
-  hit = makeHit(origin, direction, p[corner.x], p[corner.y], p[corner.z], at.b1, at.b2, mesh.origin, interpolated,
-                depth, mesh.material);
-  if (kEffectAbsorption) hit.travelled = glm::length(hit.position - origin);
+  hit = makeHit(ray, p[corner.x], p[corner.y], p[corner.z], at.b1, at.b2, mesh.origin, interpolated, mesh.material);
   return true;
 }
 

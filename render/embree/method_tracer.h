@@ -30,9 +30,9 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
 
 #include "render/embree/find_hit.h"
 
-  Payload traceRay(real3 origin, real3 direction, real depth) {
+  Payload traceRay(const Ray& ray) {
     Hit hit;
-    if (!findHit(origin, direction, depth, hit)) return shadeEnvironment(direction, depth);
+    if (!findHit(ray, hit)) return shadeEnvironment(ray.d, ray.depth);
 #if MALUS_EFFECT_TEXTURES
     const Material material = materialAt(hit);
 #else

@@ -18,6 +18,7 @@
 #define SELECT(m, a, b) ((m) ? (a) : (b))
 #define CONST const
 #define CONST_REAL(name, value) const real name = R(value)
+#define PRECISE precise
 #define IN(T) T
 #define OUT(T) out T
 #define INOUT(T) inout T

@@ -12,9 +12,7 @@
 
 FN CameraPath startPath(real3 direction, real behind0, real behind1, real behind2, real behind3) {
   CameraPath p;
-  p.origin = camera.position;
-  p.d = direction;
-  p.depth = real(camera.depth);
+  p.ray = makeRay(camera.position, direction, real(camera.depth), R(0.0));
   p.throughput = startThroughput(direction, camera.up, behind0, behind1, behind2, behind3);
   return p;
 }
@@ -43,9 +41,9 @@ FN real3 traceCameraPath(real3 direction, real behind0, real behind1, real behin
     follows = false;
     PathLight light = noLight();
     Hit h;
-    if (!findHit(p.origin, p.d, p.depth, h)) {
-      h = environmentHit(p.d, p.depth);
-      light = environmentLight(p.throughput, p.d);
+    if (!findHit(p.ray, h)) {
+      h = environmentHit(p.ray.d, p.ray.depth);
+      light = environmentLight(p.throughput, p.ray.d);
     } else {
       Material m = materialAt(h);
       if (kEffectAbsorption) scaleThroughput(p.throughput, mediumTransmittance(h));

@@ -1,9 +1,7 @@
 // Steps along a camera path, without tracing: the rays that leave a surface and the light that a path meets.
 
 struct CameraPath {
-  real3 origin;
-  real3 d;     // unit direction
-  real depth;  // specular interactions left
+  Ray ray;
   Throughput throughput;
 };
 
@@ -45,25 +43,19 @@ FN PathLight emitterLight(IN(Hit) h, IN(Material) m, IN(Throughput) c) {
 // with small polarization.
 
 FN void followTransmission(INOUT(CameraPath) p, IN(Hit) h, IN(Scattering) s, real tolerance) {
-  p.origin = originBelow(h);
-  p.d = s.transmitted;
-  p.depth = h.depth - R(1.0);
+  p.ray = rayBelow(h, s.transmitted, h.depth - R(1.0));
   applyInterface(p.throughput, s.transmission, s.coloured);
   dropPolarization(p.throughput, tolerance);
 }
 
 // The throughput is that behind the reflection already: the highlight joins the light of the mirror ray.
 FN void followReflection(INOUT(CameraPath) p, IN(Hit) h, IN(Scattering) s, real tolerance) {
-  p.origin = originAbove(h);
-  p.d = s.reflected;
-  p.depth = h.depth - R(1.0);
+  p.ray = rayAbove(h, s.reflected, h.depth - R(1.0));
   dropPolarization(p.throughput, tolerance);
 }
 
 FN void followFacet(INOUT(CameraPath) p, IN(Hit) h, IN(Material) m, IN(Facet) facet, mask coloured, real tolerance) {
-  p.origin = originAbove(h);
-  p.d = facet.mirror;
-  p.depth = h.depth - R(1.0) + kBehindRough;
+  p.ray = rayAbove(h, facet.mirror, h.depth - R(1.0) + kBehindRough);
   rotateToSurface(p.throughput, h.d, facet.normal);
   applyInterface(p.throughput, opaqueTerms(facet.c, m, h.material), coloured);
   scaleThroughput(p.throughput, splat3(facet.weight));

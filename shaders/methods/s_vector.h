@@ -11,6 +11,8 @@ struct Payload {
 
 FN real payloadDepth(Payload p) { return p.s.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.s.x = depth; }
+FN real payloadOriginDistance(Payload p) { return p.s.y; }
+FN void payloadSetOriginDistance(INOUT(Payload) p, real distance) { p.s.y = distance; }
 
 FN Payload payloadUnpolarized(real3 radiance) {
   Payload p;

@@ -11,6 +11,8 @@ struct Payload {
 
 FN real payloadDepth(Payload p) { return p.stokes.s0.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.stokes.s0.x = depth; }
+FN real payloadOriginDistance(Payload p) { return p.stokes.s0.y; }
+FN void payloadSetOriginDistance(INOUT(Payload) p, real distance) { p.stokes.s0.y = distance; }
 
 FN Payload payloadUnpolarized(real3 radiance) {
   Payload p;

@@ -21,6 +21,8 @@ struct Payload {
 // In quarters: a depth has a fraction behind a rough surface (surfaces/facet.h).
 FN real payloadDepth(Payload p) { return realOfWord(p.rootRg) * R(0.25); }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.rootRg = wordOfReal(depth * R(4.0)); }
+FN real payloadOriginDistance(Payload p) { return floatValue(p.rootBs1R); }
+FN void payloadSetOriginDistance(INOUT(Payload) p, real distance) { p.rootBs1R = floatBits(distance); }
 
 FN real amplitude(real s0) { return minR(sqrtR(maxR(s0, R(0.0))), R(65504.0)); }
 FN real relative(real s, real s0) {

@@ -17,6 +17,8 @@ struct Payload {
 
 FN real payloadDepth(Payload p) { return p.light.s0.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.light.s0.x = depth; }
+FN real payloadOriginDistance(Payload p) { return p.light.s0.y; }
+FN void payloadSetOriginDistance(INOUT(Payload) p, real distance) { p.light.s0.y = distance; }
 
 // Linear polarization of a degree from -1 to 1 along s.
 FN SurfaceLight lightPolarized(real3 radiance, real degree) {

@@ -4,6 +4,7 @@
 #define FN_INLINE [[gnu::always_inline]] FN  // a function that is worth inlining at every call
 #define CONST static constexpr               // a constant
 #define CONST_REAL(name, value) CONST real name = static_cast<real>(value)
+#define PRECISE                            // variable whose sums no compiler may reorder
 #define IN(T) const T&                     // a large parameter that is read
 #define OUT(T) T&                          // a parameter that is written
 #define INOUT(T) T&                        // a parameter that is read and written

@@ -3,6 +3,7 @@
 #undef FN_INLINE
 #undef CONST
 #undef CONST_REAL
+#undef PRECISE
 #undef IN
 #undef OUT
 #undef INOUT

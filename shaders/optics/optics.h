@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

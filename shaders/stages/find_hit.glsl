@@ -4,17 +4,17 @@
 
 #ifdef MALUS_RAY_QUERIES
 
-bool findHit(vec3 origin, vec3 direction, float depth, out Hit h) {
+bool findHit(Ray ray, out Hit h) {
   countRay();
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, 0xffu, origin, 0.0, direction, 1e30);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, 0xffu, ray.origin, 0.0, ray.d, 1e30);
   while (rayQueryProceedEXT(query)) {
   }
   if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT) return false;
   h = makeHitFromMesh(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true),
                       rayQueryGetIntersectionGeometryIndexEXT(query, true),
                       rayQueryGetIntersectionPrimitiveIndexEXT(query, true),
-                      rayQueryGetIntersectionBarycentricsEXT(query, true), origin, direction, depth);
+                      rayQueryGetIntersectionBarycentricsEXT(query, true), ray);
   return true;
 }
 
@@ -34,11 +34,11 @@ bool visible(bool needed, vec3 origin, vec3 way) {
 
 layout(location = 0) rayPayloadEXT HitRecord hitRecord;
 
-bool findHit(vec3 origin, vec3 direction, float depth, out Hit h) {
+bool findHit(Ray ray, out Hit h) {
   countRay();
-  traceRayEXT(tlas, gl_RayFlagsOpaqueEXT, 0xffu, 0u, 0u, 0u, origin, 0.0, direction, 1e30, 0);
+  traceRayEXT(tlas, gl_RayFlagsOpaqueEXT, 0xffu, 0u, 0u, 0u, ray.origin, 0.0, ray.d, 1e30, 0);
   if (hitRecord.mesh == kNoMesh) return false;
-  h = makeHitFromMesh(hitRecord.mesh, 0u, hitRecord.triangle, hitRecord.barycentric, origin, direction, depth);
+  h = makeHitFromMesh(hitRecord.mesh, 0u, hitRecord.triangle, hitRecord.barycentric, ray);
   return true;
 }
 

@@ -9,6 +9,8 @@ layout(location = 0) rayPayloadInEXT Payload result;
 hitAttributeEXT vec2 barycentric;
 
 Hit loadHit() {
+  float distance = 0.0;
+  if (kEffectAbsorption) distance = payloadOriginDistance(result);
   return makeHitFromMesh(gl_InstanceCustomIndexEXT, gl_GeometryIndexEXT, gl_PrimitiveID, barycentric,
-                         gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, payloadDepth(result));
+                         makeRay(gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, payloadDepth(result), distance));
 }

@@ -3,10 +3,13 @@
 layout(location = 1) rayPayloadEXT Payload childPayload;
 layout(location = 2) rayPayloadEXT uint shadowPayload;
 
-Payload traceRay(vec3 origin, vec3 direction, float depth) {
+Payload traceRay(Ray ray) {
   countRay();
-  payloadSetDepth(childPayload, depth);
-  traceRayEXT(tlas, gl_RayFlagsOpaqueEXT, 0xffu, 0u, 1u, 0u, origin, 0.0, direction, 1e30, 1);
+  payloadSetDepth(childPayload, ray.depth);
+#if MALUS_EFFECT_ABSORPTION
+  payloadSetOriginDistance(childPayload, ray.originDistance);
+#endif
+  traceRayEXT(tlas, gl_RayFlagsOpaqueEXT, 0xffu, 0u, 1u, 0u, ray.origin, 0.0, ray.d, 1e30, 1);
   return childPayload;
 }
 

@@ -1,4 +1,14 @@
-// Point where a ray meets a surface.
+// Rays, and the point where a ray meets a surface.
+
+// A ray to trace.
+struct Ray {
+  real3 origin;
+  real3 d;     // unit direction
+  real depth;  // specular interactions left
+#if MALUS_EFFECT_ABSORPTION
+  real originDistance;  // along the ray, from the point where it begins to its origin, which is off the face
+#endif
+};
 
 struct Hit {
   real3 d;         // unit direction of the ray, away from the camera
@@ -11,7 +21,10 @@ struct Hit {
   mask outside;    // the ray hits the side that the mesh's normals point to
   real depth;      // specular interactions left
   word material;   // index of the surface's material
-  real travelled;  // distance from the ray's origin, set by findHit; only with absorption
+  real travelled;  // distance from the point where the ray began; 0 without absorption
+#if MALUS_EFFECT_ABSORPTION
+  real rounding;  // height of the hit over `position`, which is rounded, along face
+#endif
 };
 
 CONST_REAL(kUnitRoundoff, 5.9604644775390625e-8);  // 2^-24, of float
@@ -20,11 +33,26 @@ CONST_REAL(kUnitRoundoff, 5.9604644775390625e-8);  // 2^-24, of float
 // 1e-5 of the ray's length.
 CONST_REAL(kLargeTriangle, 64.0);
 
-// Hit of a ray that starts at `from` in direction d. p0, p1, p2: corners of the triangle relative to the mesh's origin,
-// counter-clockwise seen from outside; b1, b2: barycentric coordinates of p1 and p2; interpolated: normal interpolated
-// from the vertices, or 0 for a flat mesh.
-FN Hit makeHit(real3 from, real3 d, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated,
-               real depth, word material) {
+// Absorption: the least cosine of a ray and a face by which distances are divided.
+CONST_REAL(kGrazing, 0.0625);
+
+FN Ray makeRay(real3 origin, real3 d, real depth, real distance) {
+  Ray r;
+  r.origin = origin;
+  r.d = d;
+  r.depth = depth;
+#if MALUS_EFFECT_ABSORPTION
+  r.originDistance = distance;
+#endif
+  return r;
+}
+
+// Hit of a ray. p0, p1, p2: corners of the triangle relative to the mesh's origin, counter-clockwise seen from outside;
+// b1, b2: barycentric coordinates of p1 and p2; interpolated: normal interpolated from the vertices, or 0 for a flat
+// mesh.
+FN Hit makeHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated,
+               word material) {
+  real3 d = ray.d;
   real b0 = R(1.0) - b1 - b2;
   real3 e1 = p1 - p0;
   real3 e2 = p2 - p0;
@@ -36,7 +64,7 @@ FN Hit makeHit(real3 from, real3 d, real3 p0, real3 p1, real3 p2, real b1, real 
   h.d = d;
   real3 local = trianglePoint(p0, e1, e2, b1, b2);
   real longest = maxR(largestPart(e1), maxR(largestPart(e2), largestPart(p2 - p1))) * R(1.7320508);
-  real3 localFrom = from - origin;
+  real3 localFrom = ray.origin - origin;
   real3 way = local - localFrom;
   mask large = lessR(dot3(way, way) * (kLargeTriangle * kLargeTriangle), longest * longest);
   if (anyM(large)) local = select3(large, pointOnRay(local, localFrom, d, face, longest), local);
@@ -54,9 +82,21 @@ FN Hit makeHit(real3 from, real3 d, real3 p0, real3 p1, real3 p2, real b1, real 
   h.normal = shadingNormal(d, face, select3(flatMesh, face, interpolated));
   h.face = face * selectR(h.outside, R(1.0), R(-1.0));
   h.c = clampUnit(R(0.0) - dot3(d, h.normal));
-  h.depth = depth;
+  h.depth = ray.depth;
   h.material = material;
   h.travelled = R(0.0);
+#if MALUS_EFFECT_ABSORPTION
+  // Close to a large triangle the distance is that of its plane, which the rounding of a point along the plane does not
+  // change.
+  real3 traced = local - localFrom;
+  real slope = dot3(d, h.face);
+  mask byPlane = andM(large, lessR(kGrazing, absR(slope)));
+  real distance = selectR(byPlane, dot3(traced, h.face) / selectR(byPlane, slope, R(1.0)), sqrtR(dot3(traced, traced)));
+  h.travelled = distance + ray.originDistance;
+  PRECISE real3 rounded = h.position - origin;
+  PRECISE real3 rest = local - rounded;
+  h.rounding = dot3(rest, h.face);
+#endif
   return h;
 }
 
@@ -75,9 +115,25 @@ FN Hit environmentHit(real3 d, real depth) {
   h.depth = depth;
   h.material = kEnvironment;
   h.travelled = R(0.0);
+#if MALUS_EFFECT_ABSORPTION
+  h.rounding = R(0.0);
+#endif
   return h;
 }
 
 // Origins of rays that leave on the side of the camera, and on the other side.
 FN real3 originAbove(IN(Hit) h) { return rayOrigin(h.start, h.error, h.face, kUnitRoundoff); }
 FN real3 originBelow(IN(Hit) h) { return rayOrigin(h.start, h.error, h.face * R(-1.0), kUnitRoundoff); }
+
+// Rays that leave the hit in direction d on the side of the camera, and on the other side. The medium begins at the
+// hit, whose distance from the ray's origin is measured along the ray between planes parallel to the face: exact in
+// thin panes, where it matters. It is bounded for grazing rays, which may end on a face of another direction.
+FN Ray rayFrom(IN(Hit) h, real3 origin, real3 d, real depth) {
+  real distance = R(0.0);
+#if MALUS_EFFECT_ABSORPTION
+  distance = absR(dot3(origin - h.position, h.face) - h.rounding) / maxR(absR(dot3(d, h.face)), kGrazing);
+#endif
+  return makeRay(origin, d, depth, distance);
+}
+FN Ray rayAbove(IN(Hit) h, real3 d, real depth) { return rayFrom(h, originAbove(h), d, depth); }
+FN Ray rayBelow(IN(Hit) h, real3 d, real depth) { return rayFrom(h, originBelow(h), d, depth); }

@@ -12,10 +12,9 @@
 // Functions:
 //   MaterialExtra materialExtra(material)
 //     Returns the rarer properties of a material. Called only if an effect of the build needs them.
-//   Payload traceRay(origin, direction, depth)
-//     Traces one ray and shades what it meets, with `depth` specular interactions left. Recursive methods with
-//     recursion only.
-//   bool findHit(origin, direction, depth, out hit)
+//   Payload traceRay(ray)
+//     Traces one ray and shades what it meets. Recursive methods with recursion only.
+//   bool findHit(ray, out hit)
 //     Returns whether the ray meets a surface, and the nearest hit. Iterative methods, and recursive ones without
 //     recursion (shade_stack.h).
 //   mask visible(needed, origin, way)
@@ -64,9 +63,9 @@ void textureSize(word index, OUT(real) width, OUT(real) height) {
 #endif
 
 #ifdef MALUS_STACK_SIZE
-bool findHit(real3 origin, real3 direction, real depth, OUT(Hit) hit);
+bool findHit(Ray ray, OUT(Hit) hit);
 #else
-Payload traceRay(real3 origin, real3 direction, real depth);
+Payload traceRay(Ray ray);
 #endif
 mask visible(mask needed, real3 origin, real3 way);
 void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack);

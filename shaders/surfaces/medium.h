@@ -11,5 +11,5 @@ FN real3 mediumAbsorption(IN(Hit) h) {
   return select3(h.outside, materialExtra(h.material).outsideAbsorption, materialExtra(h.material).absorption);
 }
 
-// Transmittance of the medium between the ray's origin and the hit.
+// Transmittance of the medium between the point where the ray began and the hit.
 FN real3 mediumTransmittance(IN(Hit) h) { return transmittanceOver(mediumAbsorption(h), h.travelled); }

@@ -10,14 +10,14 @@ FN Payload sendToCamera(IN(Hit) h, SurfaceLight toCamera, real3 sDir, real3 slac
 
 // Light of the reflected ray and the highlight, behind the surface's reflection.
 FN_INLINE SurfaceLight reflectedLight(IN(Hit) h, IN(Scattering) s, real3 highlight, real3 sDir, INOUT(real3) slack) {
-  Payload returned = traceRay(originAbove(h), s.reflected, h.depth - R(1.0));
+  Payload returned = traceRay(rayAbove(h, s.reflected, h.depth - R(1.0)));
   SurfaceLight arriving = returnedLight(returned, s.reflected, sDir, slack);
   return lightThroughInterface(s.reflection, lightAdd(arriving, lightUnpolarized(highlight)));
 }
 
 // Light of the transmitted ray, behind the surface's transmission.
 FN_INLINE SurfaceLight transmittedLight(IN(Hit) h, IN(Scattering) s, real3 sDir, INOUT(real3) slack) {
-  Payload returned = traceRay(originBelow(h), s.transmitted, h.depth - R(1.0));
+  Payload returned = traceRay(rayBelow(h, s.transmitted, h.depth - R(1.0)));
   return lightThroughInterface(s.transmission, returnedLight(returned, s.transmitted, sDir, slack));
 }
 
@@ -26,7 +26,7 @@ FN SurfaceLight roughReflectedLight(IN(Hit) h, IN(Material) m, real3 sDir, INOUT
   for (uint i = 0u; i < kFacets; ++i) {
     Facet facet = sampleFacet(h, camera.facets[i].x, camera.facets[i].y);
     if (facet.weight > R(0.0)) {
-      Payload returned = traceRay(originAbove(h), facet.mirror, facetDepth(h.depth));
+      Payload returned = traceRay(rayAbove(h, facet.mirror, facetDepth(h.depth)));
       sum = lightAdd(sum, facetLight(h, m, facet, returned, sDir, slack));
     }
   }

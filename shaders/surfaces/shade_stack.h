@@ -17,6 +17,9 @@ struct PendingSurface {
   real3 below;                // its origin
   real3 transmitted;          // its direction
   FresnelTerms transmission;  // applied to its light
+#if MALUS_EFFECT_ABSORPTION
+  real belowDistance;  // originDistance of the transmitted ray
+#endif
 };
 
 // The rough surface whose facets are followed. Surfaces behind it count as smooth (facet.h), so that only one waits.
@@ -29,27 +32,13 @@ struct RoughSurface {
   int at;            // index of the surface on the stack; -1: none waits
 };
 
-struct RayToFollow {
-  real3 origin;
-  real3 d;
-  real depth;
-};
-
-FN RayToFollow makeRay(real3 origin, real3 d, real depth) {
-  RayToFollow ray;
-  ray.origin = origin;
-  ray.d = d;
-  ray.depth = depth;
-  return ray;
-}
-
 // Continues with the next facet that reflects; false: there is none.
-FN bool followNextFacet(INOUT(RoughSurface) rough, INOUT(RayToFollow) ray) {
+FN bool followNextFacet(INOUT(RoughSurface) rough, INOUT(Ray) ray) {
   while (rough.next < kFacets) {
     rough.facet = sampleFacet(rough.h, camera.facets[rough.next].x, camera.facets[rough.next].y);
     rough.next = rough.next + 1u;
     if (rough.facet.weight > R(0.0)) {
-      ray = makeRay(originAbove(rough.h), rough.facet.mirror, facetDepth(rough.h.depth));
+      ray = rayAbove(rough.h, rough.facet.mirror, facetDepth(rough.h.depth));
       return true;
     }
   }
@@ -57,7 +46,7 @@ FN bool followNextFacet(INOUT(RoughSurface) rough, INOUT(RayToFollow) ray) {
 }
 
 // Begins with the facets of a surface that will be at an index of the stack; false: none reflects.
-FN bool followFirstFacet(INOUT(RoughSurface) rough, IN(Hit) h, IN(Material) m, int at, INOUT(RayToFollow) ray) {
+FN bool followFirstFacet(INOUT(RoughSurface) rough, IN(Hit) h, IN(Material) m, int at, INOUT(Ray) ray) {
   rough.h = h;
   rough.m = m;
   rough.next = 0u;
@@ -69,7 +58,7 @@ FN bool followFirstFacet(INOUT(RoughSurface) rough, IN(Hit) h, IN(Material) m, i
 }
 
 // A surface before any of its rays is followed, and the ray to follow first: the reflected one if there is one.
-FN PendingSurface meetSurface(IN(Hit) h, IN(Material) m, IN(Scattering) s, OUT(RayToFollow) first, OUT(real3) slack) {
+FN PendingSurface meetSurface(IN(Hit) h, IN(Material) m, IN(Scattering) s, OUT(Ray) first, OUT(real3) slack) {
   PendingSurface p;
   DirectLight direct = noDirectLight();
   if (s.reflects) direct = directLight(h, m, s.reflected);
@@ -84,14 +73,18 @@ FN PendingSurface meetSurface(IN(Hit) h, IN(Material) m, IN(Scattering) s, OUT(R
   p.highlight = direct.highlight;
   p.transmits = false;
   if (s.reflects) {
-    first = makeRay(originAbove(h), s.reflected, h.depth - R(1.0));
+    first = rayAbove(h, s.reflected, h.depth - R(1.0));
     p.terms = s.reflection;
     p.transmits = s.transmits;
-    p.below = originBelow(h);
+    Ray below = rayBelow(h, s.transmitted, h.depth - R(1.0));
+    p.below = below.origin;
     p.transmitted = s.transmitted;
+#if MALUS_EFFECT_ABSORPTION
+    p.belowDistance = below.originDistance;
+#endif
     p.transmission = s.transmission;
   } else {
-    first = makeRay(originBelow(h), s.transmitted, h.depth - R(1.0));
+    first = rayBelow(h, s.transmitted, h.depth - R(1.0));
     p.terms = s.transmission;
   }
   p.followed = first.d;
@@ -100,7 +93,7 @@ FN PendingSurface meetSurface(IN(Hit) h, IN(Material) m, IN(Scattering) s, OUT(R
 
 // Adds the facet's light and follows the next facet; false: that was the last, and the surface has all its light.
 FN bool facetReturned(INOUT(RoughSurface) rough, IN(Payload) returned, real3 sDir, INOUT(SurfaceLight) toCamera,
-                      INOUT(RayToFollow) ray, INOUT(real3) slack) {
+                      INOUT(Ray) ray, INOUT(real3) slack) {
   rough.sum = lightAdd(rough.sum, facetLight(rough.h, rough.m, rough.facet, returned, sDir, slack));
   if (followNextFacet(rough, ray)) return true;
   toCamera = lightAdd(toCamera, rough.sum);
@@ -108,8 +101,8 @@ FN bool facetReturned(INOUT(RoughSurface) rough, IN(Payload) returned, real3 sDi
   return false;
 }
 
-// Light along a ray, with `depth` specular interactions left.
-FN Payload traceRay(real3 origin, real3 direction, real depth) {
+// Light along a ray.
+FN Payload traceRay(Ray ray) {
   CONST int kCheckedStackSize = kCheckNumerics ? kPendingStackSize : 1;
   PendingSurface stack[kPendingStackSize];
   Hit hits[kCheckedStackSize];  // of the surfaces on the stack, for reports
@@ -118,12 +111,11 @@ FN Payload traceRay(real3 origin, real3 direction, real depth) {
   rough.at = -1;
   int count = 0;
   Payload sent;
-  RayToFollow ray = makeRay(origin, direction, depth);
   bool follows = true;
   while (follows) {
     follows = false;
     Hit h;
-    if (!findHit(ray.origin, ray.d, ray.depth, h)) {
+    if (!findHit(ray, h)) {
       sent = shadeEnvironment(ray.d, ray.depth);
     } else {
       Material m = materialAt(h);
@@ -170,7 +162,10 @@ FN Payload traceRay(real3 origin, real3 direction, real depth) {
         stack[top].toCamera = lightAdd(stack[top].toCamera, lightThroughInterface(stack[top].terms, arriving));
         follows = stack[top].transmits;
         if (follows) {
-          ray = makeRay(stack[top].below, stack[top].transmitted, stack[top].depth - R(1.0));
+          ray = makeRay(stack[top].below, stack[top].transmitted, stack[top].depth - R(1.0), R(0.0));
+#if MALUS_EFFECT_ABSORPTION
+          ray.originDistance = stack[top].belowDistance;
+#endif
           stack[top].followed = stack[top].transmitted;
           stack[top].terms = stack[top].transmission;
           stack[top].highlight = splat3(R(0.0));

@@ -21,10 +21,13 @@ struct Checker {
   using Payload = Stokes;
   uint found = kNoFault;
   Stokes payloadStokes(const Payload& p, real3) { return p; }
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // of effects that are off
 #include "shaders/surfaces/hit.h"
 
 #include "shaders/surfaces/check.h"
 #include "shaders/surfaces/check_sent.h"
+#pragma GCC diagnostic pop
   void noteFault(const Hit&, const vec4&, uint fault, uint, float) { found = fault; }
 };
 }  // namespace malus::f32

@@ -193,6 +193,56 @@ TEST(EffectClosedForms, GlassTakesWhatBeerAndLambertSay) {
   expectEverywhere(scene, 0, {t * std::exp(-0.475), 0, 0, 0}, 2e-6);
 }
 
+// A pane of 2 mm whose absorption takes 1 - 1/e of the light along its normal n, met at an angle, in front of a panel.
+// lift: of the pane along n over the scene's origin.
+constexpr double kPaneThickness = 2e-3;
+pack::Scene largePane(double size, double degrees, double lift, const glm::dvec3& n) {
+  pack::Scene scene = test::emptyScene(2);  // the straight way alone
+  Material glass = test::dielectric(MaterialKind::glass, 1.5);
+  glass.absorption = glm::dvec3(1 / kPaneThickness);
+  const std::uint32_t material = test::addMaterial(scene, glass);
+  const glm::dvec3 foot = n * lift;
+  test::addSquare(scene, material, foot + n * (kPaneThickness / 2), n, size / 2);
+  test::addSquare(scene, material, foot - n * (kPaneThickness / 2), -n, size / 2);
+  test::addSquare(scene, test::addMaterial(scene, test::emitter(glm::dvec3(1))), foot - n * 0.05, n, size / 2);
+  for (pack::Mesh& mesh : scene.meshes) {
+    mesh.openSurface = true;
+    mesh.origin = glm::dvec3(glm::vec3(foot));  // as in a pack
+  }
+  const glm::dvec3 across = glm::normalize(glm::cross(glm::dvec3(0.3, 0.8, -0.5), n));
+  const double a = degrees * std::numbers::pi / 180;
+  const glm::dvec3 at = foot + across * (0.11 * size) + glm::cross(n, across) * (0.07 * size);
+  test::look(scene, at + n * std::cos(a) + across * std::sin(a), at, {0.1, 0.6, 0.8});
+  return scene;
+}
+
+// Power transmitted by both faces and the medium, without internal reflections.
+double paneTransmittance(double degrees) {
+  const double sine = std::sin(degrees * std::numbers::pi / 180), c = std::sqrt(1 - sine * sine),
+               t = std::sqrt(1 - sine * sine / 2.25), rs = std::pow((c - 1.5 * t) / (c + 1.5 * t), 2),
+               rp = std::pow((1.5 * c - t) / (1.5 * c + t), 2);
+  return (std::pow(1 - rs, 2) + std::pow(1 - rp, 2)) / 2 * std::exp(-1 / t);
+}
+
+TEST(EffectClosedForms, AbsorptionOfLargeThinPanes) {
+  for (const double size : {2.0, 200.0, 2000.0})
+    for (const double degrees : {0.0, 60.0})
+      for (const double lift : {0.0, 500.0}) {
+        SCOPED_TRACE(testing::Message() << size << " m, " << degrees << " degrees, lifted by " << lift << " m");
+        const pack::Scene scene = largePane(size, degrees, lift, {0, 0, 1});
+        std::map<std::string, RenderResult> results = everywhere(scene);
+        RenderParameters parameters = render::defaultParameters(scene);
+        parameters.stokes = true;
+        parameters.embreePath = render::EmbreePath::packet;
+        for (const char* method : {"stokes", "stokes-half", "importance"})
+          results[std::string("packets ") + method] = embree::Renderer(scene, 0).render(method, parameters);
+        const double expected = paneTransmittance(degrees);
+        for (const auto& [name, result] : results)
+          EXPECT_NEAR(stokesAt(result, 0, 1)[0] / expected, 1, name.find("half") == std::string::npos ? 1e-4 : 3e-3)
+              << name;
+      }
+}
+
 // A pane met at 60 degrees, between an environment and a panel: as thin glass, or as the two faces of a slab.
 pack::Scene obliquePane(bool isThin, double transmittance, bool isPolarized) {
   pack::Scene scene = test::emptyScene(24);

@@ -20,6 +20,7 @@
 #include <random>
 #include <type_traits>
 
+#include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
 
 namespace malus::emulation {

@@ -18,3 +18,5 @@ FN word fractionBits(real x) { return emulation::packFraction(x.value); }
 FN real fractionValue(word bits) { return real(emulation::unpackFraction(bits)); }
 FN word wordOfReal(real x) { return static_cast<word>(x.value); }
 FN real realOfWord(word x) { return real(emulation::device.round(x)); }
+FN word floatBits(real x) { return glm::floatBitsToUint(static_cast<float>(x.value)); }
+FN real floatValue(word bits) { return real(glm::uintBitsToFloat(bits)); }

@@ -102,8 +102,8 @@ typename Steps::Hit drawHit(Draw& draw, Steps& steps, Corners& corners) {
     origin = oracle::along(origin, 1, oracle::along(corners.p[i], b, corners.p[0], -b), 1);
   }
   origin = oracle::along(origin, 1, d, -size * std::pow(10.0L, draw.between(-3, 3)));
-  auto h = steps.makeHit(vector(origin), vector(d), vector(corners.p[0]), vector(corners.p[1]), vector(corners.p[2]),
-                         b1, b2, none, none, real(draw.below(3)), 0u);
+  const auto ray = steps.makeRay(vector(origin), vector(d), real(draw.below(3)), real(0));
+  auto h = steps.makeHit(ray, vector(corners.p[0]), vector(corners.p[1]), vector(corners.p[2]), b1, b2, none, none, 0u);
   h.travelled = draw.below(3) == 0 ? real(0) : number(draw, 0, 3);
   return h;
 }
@@ -214,7 +214,7 @@ TYPED_TEST(EmulatedSurfaces, ImportancePathsStayPhysical) {
         path.throughput =
             steps.startThroughput(h.d, vector(draw.direction()), real(0.5), real(0.3), real(0.4), real(0));
       } else {
-        h.d = path.d;
+        h.d = path.ray.d;
         h.c = emulated::clampUnit(-emulated::dot3(h.d, h.normal));
       }
       const Real before = std::max({path.throughput.r.w.value, path.throughput.g.w.value, path.throughput.b.w.value});

@@ -45,6 +45,12 @@ FN real fractionValue(word w) {
 }
 FN word wordOfReal(real x) { return {static_cast<std::uint32_t>(x.lane[0]), static_cast<std::uint32_t>(x.lane[1])}; }
 FN real realOfWord(word w) { return {static_cast<scalar>(w.lane[0]), static_cast<scalar>(w.lane[1])}; }
+FN word floatBits(real x) {
+  return {glm::floatBitsToUint(static_cast<float>(x.lane[0])), glm::floatBitsToUint(static_cast<float>(x.lane[1]))};
+}
+FN real floatValue(word w) {
+  return {static_cast<scalar>(glm::uintBitsToFloat(w.lane[0])), static_cast<scalar>(glm::uintBitsToFloat(w.lane[1]))};
+}
 FN word joinWord(word low, word high) {
   return {(low.lane[0] & 0xffffu) | (high.lane[0] << 16), (low.lane[1] & 0xffffu) | (high.lane[1] << 16)};
 }

@@ -69,7 +69,7 @@ void expectSameNumbers(const LaneStruct& l, const Struct& a, const Struct& b, co
 
 // Fields of the structs that mix numbers, masks and words.
 #define MALUS_HIT(X) \
-  X(d) X(position) X(start) X(error) X(face) X(normal) X(c) X(outside) X(depth) X(material) X(travelled)
+  X(d) X(position) X(start) X(error) X(face) X(normal) X(c) X(outside) X(depth) X(material) X(travelled) X(rounding)
 #define MALUS_MATERIAL(X) \
   X(eta)                  \
   X(contrast)             \
@@ -141,7 +141,7 @@ template <class S, class L>
 Inputs<S, L> drawInputs(Draw& draw) {
   Inputs<S, L> in;
   Vec corner[2][3], origin[2], from[2], d[2], normal[2];
-  float b1[2], b2[2], depth[2];
+  float b1[2], b2[2], depth[2], distance[2];
   for (int i = 0; i < 2; ++i) {
     for (Vec& p : corner[i]) p = numbers(draw, -2, 2);
     origin[i] = draw.below(2) == 0 ? Vec(0) : numbers(draw, -100, 100);
@@ -154,18 +154,19 @@ Inputs<S, L> drawInputs(Draw& draw) {
     const Vec face = f32::cross3(corner[i][1] - corner[i][0], corner[i][2] - corner[i][0]);
     normal[i] = draw.below(3) == 0 ? Vec(0) : face + numbers(draw, -0.5, 0.5);
     depth[i] = static_cast<float>(draw.below(3)) + (draw.below(4) == 0 ? 0.25f : 0.0f);
-    in.hit[i] = in.scalar[i].makeHit(from[i], d[i], corner[i][0], corner[i][1], corner[i][2], b1[i], b2[i], origin[i],
-                                     normal[i], depth[i], static_cast<gpu::uint>(i));
-    in.hit[i].travelled = number(draw, 0, 3);
+    distance[i] = number(draw, 0, 3);
+    in.hit[i] =
+        in.scalar[i].makeHit(in.scalar[i].makeRay(from[i], d[i], depth[i], distance[i]), corner[i][0], corner[i][1],
+                             corner[i][2], b1[i], b2[i], origin[i], normal[i], static_cast<gpu::uint>(i));
     in.material[i] = drawMaterial(draw);
     in.light[i] = {numbers(draw, -3, 3), numbers(draw, 0, 10)};
     in.scalar[i].extra = drawExtra(draw);
   }
-  in.laneHit = in.lanes.makeHit(pack(from[0], from[1]), pack(d[0], d[1]), pack(corner[0][0], corner[1][0]),
-                                pack(corner[0][1], corner[1][1]), pack(corner[0][2], corner[1][2]), pack(b1[0], b1[1]),
-                                pack(b2[0], b2[1]), pack(origin[0], origin[1]), pack(normal[0], normal[1]),
-                                pack(depth[0], depth[1]), Word(0u, 1u));
-  in.laneHit.travelled = pack(in.hit[0].travelled, in.hit[1].travelled);
+  const auto ray = in.lanes.makeRay(pack(from[0], from[1]), pack(d[0], d[1]), pack(depth[0], depth[1]),
+                                    pack(distance[0], distance[1]));
+  in.laneHit = in.lanes.makeHit(ray, pack(corner[0][0], corner[1][0]), pack(corner[0][1], corner[1][1]),
+                                pack(corner[0][2], corner[1][2]), pack(b1[0], b1[1]), pack(b2[0], b2[1]),
+                                pack(origin[0], origin[1]), pack(normal[0], normal[1]), Word(0u, 1u));
   const auto& hit = in.hit;
 #define MALUS_SAME_FIELD(f) expectSame(in.laneHit.f, hit[0].f, hit[1].f, "makeHit " #f);
   MALUS_HIT(MALUS_SAME_FIELD)
@@ -338,9 +339,10 @@ void comparePaths() {
       expectSame(std::get<2>(lane), std::get<2>(first), std::get<2>(second), "emission");
       expectSame(std::get<3>(lane), std::get<3>(first), std::get<3>(second), "unpolarizedContribution");
       expectSame(std::get<4>(lane), std::get<4>(first), std::get<4>(second), "maxComponent");
-      expectSame(lanePath.origin, path[0].origin, path[1].origin, "origin");
-      expectSame(lanePath.d, path[0].d, path[1].d, "direction");
-      expectSame(lanePath.depth, path[0].depth, path[1].depth, "depth");
+      expectSame(lanePath.ray.origin, path[0].ray.origin, path[1].ray.origin, "origin");
+      expectSame(lanePath.ray.d, path[0].ray.d, path[1].ray.d, "direction");
+      expectSame(lanePath.ray.depth, path[0].ray.depth, path[1].ray.depth, "depth");
+      expectSame(lanePath.ray.originDistance, path[0].ray.originDistance, path[1].ray.originDistance, "originDistance");
     }
   }
 }

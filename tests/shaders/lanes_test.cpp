@@ -204,7 +204,9 @@ void compareMethod() {
   MALUS_SAME(transmissionTerms)
   auto p = L::payloadUnpolarized(lanes32::splat3({1, 2}));
   L::payloadSetDepth(p, {3, 4});
+  L::payloadSetOriginDistance(p, {0.5, 0.125});
   EXPECT_EQ(L::payloadDepth(p).lane[1], 4);
+  EXPECT_EQ(L::payloadOriginDistance(p).lane[1], 0.125);
 }
 
 TEST(LanesTest, OpticsInFloat) { compareOptics<float, F32, L32>(); }

@@ -101,12 +101,14 @@ TEST(MethodsTest, PayloadSizesMatchTheDocument) {
   EXPECT_GE(count, 8u);
 }
 
-TYPED_TEST(MethodTest, DepthIsSetAndRead) {
+TYPED_TEST(MethodTest, DepthAndOriginDistanceAreSetAndRead) {
   EXPECT_EQ(sizeof(typename TypeParam::Payload), static_cast<std::size_t>(TypeParam::kPayloadBytes));
   typename TypeParam::Payload p = TypeParam::payloadUnpolarized(make3(5, 6, 7));
   for (const float depth : {0.0f, 1.0f, 31.0f}) {
     TypeParam::payloadSetDepth(p, depth);
+    TypeParam::payloadSetOriginDistance(p, 6.4e-4f);
     EXPECT_EQ(TypeParam::payloadDepth(p), depth);
+    EXPECT_EQ(TypeParam::payloadOriginDistance(p), 6.4e-4f);
   }
 }
 

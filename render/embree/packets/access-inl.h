@@ -6,6 +6,9 @@ struct Rays {
   HWY_ALIGN_MAX float origin[3][kBatch + kLanes];
   HWY_ALIGN_MAX float direction[3][kBatch + kLanes];
   HWY_ALIGN_MAX float depth[kBatch + kLanes];
+#if MALUS_EFFECT_ABSORPTION
+  HWY_ALIGN_MAX float originDistance[kBatch + kLanes];
+#endif
   std::uint32_t count;
 };
 

@@ -16,7 +16,11 @@ void loadExtra(word material) {
 // The hits of rays that meet a surface.
 Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
   const real3 from(gatherR(batch.origin[0], ray), gatherR(batch.origin[1], ray), gatherR(batch.origin[2], ray));
-  const real3 d = rayDirection(batch, ray);
+  real distance = 0.0f;
+#if MALUS_EFFECT_ABSORPTION
+  distance = gatherR(batch.originDistance, ray);
+#endif
+  const Ray traced = makeRay(from, rayDirection(batch, ray), gatherR(batch.depth, ray), distance);
   const MeshRow mesh = gatherRow<MeshRow>(scene->meshes.data(), gatherW(found.mesh, ray));
   const word corners = timesW(addW(mesh.firstTriangle, gatherW(found.triangle, ray)), 3);
   const std::uint32_t* triangles = &scene->triangles.data()->x;
@@ -33,25 +37,23 @@ Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
     interpolated = select3(smooth, gather3(n, c0) * b0 + gather3(n, c1) * b1 + gather3(n, c2) * b2, interpolated);
   }
   const float* p = &scene->positions.data()->x;
-  Hit h = makeHit(from, d, gather3(p, c0), gather3(p, c1), gather3(p, c2), b1, b2, mesh.origin, interpolated,
-                  gatherR(batch.depth, ray), mesh.material);
-  if (kEffectAbsorption) {
-    const real3 way = h.position - from;
-    h.travelled = sqrtR(dot3(way, way));
-  }
-  return h;
+  return makeHit(traced, gather3(p, c0), gather3(p, c1), gather3(p, c2), b1, b2, mesh.origin, interpolated,
+                 mesh.material);
 }
 
 // Adds the chosen lanes to a batch and returns their indices in it.
-word addRays(Rays& batch, mask chosen, const real3& origin, const real3& direction, real depth) {
+word addRays(Rays& batch, mask chosen, const Ray& ray) {
   const std::uint32_t at = batch.count;
-  storeChosen(origin.x, chosen, batch.origin[0] + at);
-  storeChosen(origin.y, chosen, batch.origin[1] + at);
-  storeChosen(origin.z, chosen, batch.origin[2] + at);
-  storeChosen(direction.x, chosen, batch.direction[0] + at);
-  storeChosen(direction.y, chosen, batch.direction[1] + at);
-  storeChosen(direction.z, chosen, batch.direction[2] + at);
-  storeChosen(depth, chosen, batch.depth + at);
+  storeChosen(ray.origin.x, chosen, batch.origin[0] + at);
+  storeChosen(ray.origin.y, chosen, batch.origin[1] + at);
+  storeChosen(ray.origin.z, chosen, batch.origin[2] + at);
+  storeChosen(ray.d.x, chosen, batch.direction[0] + at);
+  storeChosen(ray.d.y, chosen, batch.direction[1] + at);
+  storeChosen(ray.d.z, chosen, batch.direction[2] + at);
+  storeChosen(ray.depth, chosen, batch.depth + at);
+#if MALUS_EFFECT_ABSORPTION
+  storeChosen(ray.originDistance, chosen, batch.originDistance + at);
+#endif
   batch.count = at + static_cast<std::uint32_t>(countM(chosen));
   return numberChosen(chosen, at);
 }
@@ -73,6 +75,9 @@ void cameraRays(const embree::TileInput& tile, std::uint32_t column, std::uint32
     storeR(from.y, batch.origin[1] + at), storeR(d.y, batch.direction[1] + at);
     storeR(from.z, batch.origin[2] + at), storeR(d.z, batch.direction[2] + at);
     storeR(real(camera.depth), batch.depth + at);
+#if MALUS_EFFECT_ABSORPTION
+    storeR(0.0f, batch.originDistance + at);
+#endif
   }
 }
 

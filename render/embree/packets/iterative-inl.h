@@ -47,7 +47,7 @@ void addPaths(Paths& paths, mask chosen, const CameraPath& p, word pixel) {
   for (std::size_t i = 0; i < kFields<Throughput>; ++i)
     storeChosen(getField(p.throughput, i), chosen, paths.throughput[i] + at);
   hn::StoreU(hn::Compress(pixel.v, hn::RebindMask(Words(), chosen.m)), Words(), paths.pixel + at);
-  addRays(paths.rays, chosen, p.origin, p.d, p.depth);
+  addRays(paths.rays, chosen, p.ray);
 }
 
 // Adds light to the pixels of the active lanes. Each pixel has one path in a batch.

@@ -134,6 +134,8 @@ FN real fractionValue(word w) {
 }
 FN word wordOfReal(real x) { return hn::BitCast(Words(), hn::ConvertTo(Ints(), x.v)); }
 FN real realOfWord(word w) { return hn::ConvertTo(Floats(), hn::BitCast(Ints(), w.v)); }
+FN word floatBits(real x) { return hn::BitCast(Words(), x.v); }
+FN real floatValue(word w) { return hn::BitCast(Floats(), w.v); }
 
 // Structs of lanes are arrays of registers: every member is a real or a word.
 template <class Struct>

@@ -104,7 +104,7 @@ void followReflections(std::size_t depth, Level& level) {
       depth, level,
       [&](PendingPacket& p) HWY_ATTR {
         p.follows = p.reflects;
-        if (anyM(p.follows)) p.sent = addRays(level.rays, p.follows, originAbove(p.h), p.s.reflected, p.h.depth - 1.0f);
+        if (anyM(p.follows)) p.sent = addRays(level.rays, p.follows, rayAbove(p.h, p.s.reflected, p.h.depth - 1.0f));
       },
       [&](PendingPacket& p, const Payload& returned) HWY_ATTR {
         real3 slack;
@@ -119,8 +119,7 @@ void followTransmissions(std::size_t depth, Level& level) {
       depth, level,
       [&](PendingPacket& p) HWY_ATTR {
         p.follows = p.transmits;
-        if (anyM(p.follows))
-          p.sent = addRays(level.rays, p.follows, originBelow(p.h), p.s.transmitted, p.h.depth - 1.0f);
+        if (anyM(p.follows)) p.sent = addRays(level.rays, p.follows, rayBelow(p.h, p.s.transmitted, p.h.depth - 1.0f));
       },
       [&](PendingPacket& p, const Payload& returned) HWY_ATTR {
         real3 slack;
@@ -140,7 +139,7 @@ void followFacets(std::size_t depth, Level& level) {
           p.facet = sampleFacet(p.h, camera.facets[i].x, camera.facets[i].y);
           p.follows = andM(p.rough, lessR(0.0f, p.facet.weight));
           if (anyM(p.follows))
-            p.sent = addRays(level.rays, p.follows, originAbove(p.h), p.facet.mirror, facetDepth(p.h.depth));
+            p.sent = addRays(level.rays, p.follows, rayAbove(p.h, p.facet.mirror, facetDepth(p.h.depth)));
         },
         [&](PendingPacket& p, const Payload& returned) HWY_ATTR {
           real3 slack;

@@ -15,6 +15,7 @@
 #include "bake/environment/octahedral_map.h"
 #include "bake/materials/absorption_precision.h"
 #include "bake/materials/film_precision.h"
+#include "bake/meshes/coincident_faces.h"
 #include "bake/meshes/meshes.h"
 #include "bake/pack/format.h"
 #include "bake/textures/texture.h"
@@ -228,6 +229,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   for (pack::Material& m : scene.materials) m.maps.origin -= m.maps.any() ? scene.origin : glm::dvec3(0.0);
   for (std::string& warning : inspectBodies(scene, baked.glassBodies, options.allowOpenGlass))
     baked.notes.push_back(std::move(warning));
+  for (std::string& warning : inspectCoincidentFaces(scene)) baked.notes.push_back(std::move(warning));
   scene.effects = findEffects(scene);
 
   scene.provenance = makeProvenance(d, settings, options);

@@ -128,5 +128,33 @@ TEST_F(GlassBodiesTest, ContactsAreFoundAmongManyBodies) {
   EXPECT_EQ(errorMessage([&] { written(all); }), "");
 }
 
+// Squares of side 1, facing up, on or near the top of the cube at y = 0.5.
+TEST_F(GlassBodiesTest, OpaqueFacesInFacesOfGlassAreAWarning) {
+  folder_.write("square.obj", test::kSquareObj);
+  scene_["materials"]["paper"] = {{"type", "lambert"}, {"albedo", {1, 1, 1}}};
+  add("bottle", {0, 0, 0});
+  const auto label = [&](const json& instance) {
+    while (scene_["meshes"].size() > 1) scene_["meshes"].erase(1);
+    scene_["meshes"].push_back(
+        {{"name", "label"}, {"file", "square.obj"}, {"material", "paper"}, {"instances", {instance}}});
+    return baked().notes;
+  };
+  for (const json& placed :
+       {json{{"translate", {0, 0.5, 0}}}, json{{"translate", {0.1, 0.5, -0.2}}, {"scale", 0.3}},
+        json{{"translate", {0.3, 0.5, 0}}, {"rotateDegrees", {0, 30, 0}}}, json{{"translate", {0, -0.5, 0}}},
+        json{{"translate", {0, 0.5 + 1e-8, 0}}}, json{{"translate", {2, 0.5, 1}}, {"scale", 20}}}) {
+    const std::vector<std::string> notes = label(placed);
+    ASSERT_EQ(notes.size(), 1u) << placed;
+    EXPECT_CONTAINS(notes[0], "'label'", "'bottle'", "apart");
+  }
+  EXPECT_CONTAINS(label({{"translate", {0, 0.5, 0}}})[0], "pairs");
+  // Apart, beside each other, through each other, and from an edge upward.
+  for (const json& placed :
+       {json{{"translate", {0, 0.501, 0}}}, json{{"translate", {1, 0.5, 0}}}, json{{"translate", {0, 0.25, 0}}},
+        json{{"translate", {0.5, 1, 0}}, {"rotateDegrees", {0, 0, 90}}},
+        json{{"translate", {0, 0.5, 0}}, {"rotateDegrees", {1, 0, 0}}}})
+    EXPECT_TRUE(label(placed).empty()) << placed;
+}
+
 }  // namespace
 }  // namespace malus::bake

@@ -1,0 +1,162 @@
+#include "bake/meshes/coincident_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <mutex>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "bake/meshes/body_contacts.h"
+#include "meshprep/clean/box_pairs.h"
+
+namespace malus::bake {
+
+namespace {
+
+constexpr double kRounding = 8 * 0x1p-24;       // of a plane in single precision, relative to the coordinates
+constexpr double kStart = 4e-6;                 // bound on the distance at which rays start, relative to them
+constexpr double kLeastOverlap = 1e-6;          // share of the smaller face
+constexpr std::uint64_t kMostPairs = 50000000;  // a second of tests
+
+using Triangle = std::array<glm::dvec3, 3>;
+
+Triangle corners(const pack::Mesh& mesh, std::uint32_t face) {
+  const glm::uvec3& t = mesh.triangles[face];
+  return {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+}
+
+glm::dvec3 areaVector(const Triangle& t) { return glm::cross(t[1] - t[0], t[2] - t[0]) * 0.5; }
+
+double largestCoordinate(const Triangle& t) {
+  double largest = 0;
+  for (const glm::dvec3& p : t)
+    for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(p[i]));
+  return largest;
+}
+
+// The part of a convex polygon on the inner side of the edge from p to q of a face with normal n.
+std::vector<glm::dvec3> clip(const std::vector<glm::dvec3>& polygon, const glm::dvec3& p, const glm::dvec3& q,
+                             const glm::dvec3& n) {
+  const glm::dvec3 inward = glm::cross(n, q - p);
+  std::vector<glm::dvec3> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double da = glm::dot(a - p, inward), db = glm::dot(b - p, inward);
+    if (da >= 0) kept.push_back(a);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) kept.push_back(a + (b - a) * (da / (da - db)));
+  }
+  return kept;
+}
+
+// Whether b overlaps a, seen along the normal of a, and is in the plane of a there.
+bool coincide(const Triangle& a, const Triangle& b) {
+  const glm::dvec3 va = areaVector(a), vb = areaVector(b);
+  const double areaA = glm::length(va), areaB = glm::length(vb);
+  if (!(areaA > 0 && areaB > 0) || std::abs(glm::dot(va, vb)) < 0.999 * areaA * areaB) return false;
+  const glm::dvec3 n = va / areaA;
+  std::vector<glm::dvec3> part(b.begin(), b.end());
+  for (std::size_t i = 0; i < 3 && !part.empty(); ++i) part = clip(part, a[i], a[(i + 1) % 3], n);
+  glm::dvec3 overlap(0);
+  for (std::size_t i = 2; i < part.size(); ++i) overlap += glm::cross(part[i - 1] - part[0], part[i] - part[0]) * 0.5;
+  if (glm::length(overlap) <= kLeastOverlap * std::min(areaA, areaB)) return false;
+  const double tolerance = kRounding * std::max(largestCoordinate(a), largestCoordinate(b));
+  return std::all_of(part.begin(), part.end(),
+                     [&](const glm::dvec3& p) { return std::abs(glm::dot(p - a[0], n)) <= tolerance; });
+}
+
+bool overlap(const prep::Box& a, const prep::Box& b) {
+  return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+}
+
+prep::Box widened(prep::Box box) {
+  const glm::dvec3 most = glm::max(glm::abs(box.low), glm::abs(box.high));
+  const double margin = kRounding * std::max({most.x, most.y, most.z});
+  return {box.low - margin, box.high + margin};
+}
+
+// The faces of a mesh that reach into a region, and their boxes.
+struct Faces {
+  std::vector<std::uint32_t> index;
+  std::vector<prep::Box> box;
+};
+Faces facesIn(const pack::Mesh& mesh, const prep::Box& region) {
+  Faces faces;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle t = corners(mesh, f);
+    const prep::Box box = widened({glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))});
+    if (!overlap(box, region)) continue;
+    faces.index.push_back(f);
+    faces.box.push_back(box);
+  }
+  return faces;
+}
+
+struct Found {
+  std::size_t count = 0;
+  std::pair<std::uint32_t, std::uint32_t> first;  // faces of the glass and of the other mesh
+  bool isComplete = true;
+};
+
+Found findCoincident(const pack::Mesh& glass, const pack::Mesh& other, const prep::Box& region) {
+  const Faces a = facesIn(glass, region), b = facesIn(other, region);
+  Found found;
+  std::mutex mutex;
+  found.isComplete =
+      prep::forOverlappingBoxes(a.box, b.box, kMostPairs, [&](std::uint32_t i, std::uint32_t j) -> std::uint32_t {
+        const std::pair faces(a.index[i], b.index[j]);
+        if (coincide(corners(glass, faces.first), corners(other, faces.second))) {
+          const std::lock_guard lock(mutex);
+          if (found.count++ == 0 || faces < found.first) found.first = faces;
+        }
+        return 1;
+      });
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> inspectCoincidentFaces(const pack::Scene& scene) {
+  std::vector<std::string> warnings;
+  const auto isGlass = [&](std::size_t i) { return pack::hasInside(scene.materials[scene.meshes[i].material].kind); };
+  const PositionsOf positions = [&](std::size_t i) -> const std::vector<glm::dvec3>& {
+    return scene.meshes[i].positions;
+  };
+  GlassBodies all(scene.meshes.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<prep::Box> boxes = meshBoxes(all, positions);
+  std::transform(boxes.begin(), boxes.end(), boxes.begin(), widened);
+  for (const auto& [first, second] : overlappingPairs(boxes)) {
+    const bool firstIsGlass = isGlass(first);
+    if (firstIsGlass == isGlass(second)) continue;
+    const pack::Mesh &glass = scene.meshes[firstIsGlass ? first : second],
+                     &other = scene.meshes[firstIsGlass ? second : first];
+    const prep::Box region{glm::max(boxes[first].low, boxes[second].low),
+                           glm::min(boxes[first].high, boxes[second].high)};
+    const Found found = findCoincident(glass, other, region);
+    if (!found.isComplete) {
+      warnings.push_back(fmt::format(
+          "glass: too many overlapping faces to find where meshes '{}' and '{}' coincide; cut long thin faces",
+          glass.name, other.name));
+    } else if (found.count > 0) {
+      const Triangle face = corners(glass, found.first.first);
+      const glm::dvec3 at = (face[0] + face[1] + face[2]) / 3.0 + scene.origin;
+      const double apart =
+          kStart * std::max(largestCoordinate(face), largestCoordinate(corners(other, found.first.second)));
+      warnings.push_back(fmt::format(
+          "glass: meshes '{}' and '{}' coincide in {} {}, first faces {} and {} near ({:.6g}, {:.6g}, {:.6g}); either "
+          "may be hit there: move them at least {:.1g} m apart, or cut the covered faces from one mesh",
+          glass.name, other.name, found.count, found.count == 1 ? "pair of faces" : "pairs of faces", found.first.first,
+          found.first.second, at.x, at.y, at.z, apart));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace malus::bake

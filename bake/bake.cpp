@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 
 #include <draco/core/draco_version.h>
@@ -169,6 +170,25 @@ void addAbsorptionNotes(const pack::Scene& scene, std::vector<std::string>& note
   }
 }
 
+// Reports light that single precision, in renderers and image files, takes for 0, or that it loses by a few
+// reflections: the smallest normal float is 1.2e-38.
+void addFaintLightNotes(const pack::Scene& scene, std::vector<std::string>& notes) {
+  constexpr double kFaintest = 1e-30;
+  const auto check = [&](const std::string& what, const glm::dvec3& light, const char* remedy) {
+    const double largest = std::max({light.x, light.y, light.z});
+    if (largest > 0 && largest < kFaintest)
+      notes.push_back(
+          fmt::format("{}: the largest value is {:.3g}, and values below 1.2e-38 become 0 in single precision; "
+                      "expected at least {:g}: {}, and lower exposureEv",
+                      what, largest, kFaintest, remedy));
+  };
+  check("environment", scene.environment.irradiance[0] / std::numbers::pi, "raise its radiance or 'scale'");
+  for (const pack::Material& m : scene.materials)
+    if (pack::isEmitter(m.kind)) check(fmt::format("material '{}'", m.name), m.radiance, "raise its radiance");
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    check(fmt::format("light {}", i), scene.lights[i].intensity, "raise its intensity");
+}
+
 Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
            const std::function<void(std::string_view)>& progress, const BakeOptions& options) {
   Baked baked;
@@ -217,6 +237,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
     bakeEnvironment(image::read(d.environmentImage), d.environmentImage.string(), d.environmentScale,
                     d.environmentRotationDegrees, scene.environment, baked.notes);
   }
+  addFaintLightNotes(scene, baked.notes);
   scene.environment.sun = d.sun;
   scene.environment.skyDegree = d.skyDegree;
 

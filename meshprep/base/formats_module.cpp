@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -72,6 +73,12 @@ void applyRadianceHeader(const RadianceHeader& header, Image& image) {
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = static_cast<float>(image.pixels[i] / (header.exposure * header.colourCorrection[i % 3]));
   image.encoding.chromaticities = header.primaries;
+  double gamma = 1;
+  if (!header.gamma.empty() && (std::sscanf(header.gamma.c_str(), "%lf", &gamma) != 1 || gamma != 1))
+    image.encoding.notes.push_back(
+        fmt::format("has GAMMA={}, which the Radiance format does not define and which is not applied; values are read "
+                    "as linear",
+                    header.gamma));
 }
 
 void readAttributes(const ImageSpec& spec, Image& image) {
@@ -88,6 +95,11 @@ void readAttributes(const ImageSpec& spec, Image& image) {
 
 // start: the first bytes of the file.
 std::string readByOpenImageIo(const std::string& path, std::string_view start, Image& image) {
+  std::optional<RadianceHeader> header;
+  if (start.starts_with("#?")) header = readRadianceHeader(start);
+  if (header && header->format == "32-bit_rle_xyze")
+    return "FORMAT=32-bit_rle_xyze is not supported; expected 32-bit_rle_rgbe: convert it with 'ra_xyze -r IN OUT' of "
+           "Radiance";
   ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);  // as stored, not multiplied by alpha
   const auto input = ImageInput::open(path, &config);
@@ -98,9 +110,7 @@ std::string readByOpenImageIo(const std::string& path, std::string_view start, I
       spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > mostValues(std::filesystem::file_size(path)))
     return fmt::format("unsupported size {} x {} with {} channels", spec.width, spec.height, spec.nchannels);
   const std::string_view format = input->format_name();
-  std::optional<RadianceHeader> header;
   if (format == "hdr") {
-    header = readRadianceHeader(start);
     if (!header || header->rows != spec.height || header->columns != spec.width || spec.nchannels != 3)
       return "unsupported header; expected a positive EXPOSURE and COLORCORR, and a line as -Y HEIGHT +X WIDTH";
   }

@@ -41,6 +41,12 @@ bool readVariable(const std::string& line, RadianceHeader& header) {
                     v + 6, v + 7) != 8)
       return false;
     header.primaries = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]};
+  } else if (line.starts_with("FORMAT=")) {
+    char format[32] = "";
+    (void)std::sscanf(line.c_str(), "FORMAT=%31s", format);
+    header.format = format;
+  } else if (line.starts_with("GAMMA=")) {
+    header.gamma = line.substr(std::string_view("GAMMA=").size());
   }
   return isFactor(header.exposure) && isFactor(header.colourCorrection[0]) && isFactor(header.colourCorrection[1]) &&
          isFactor(header.colourCorrection[2]);

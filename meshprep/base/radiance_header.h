@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace malus::image {
@@ -13,6 +14,8 @@ struct RadianceHeader {
   double exposure = 1;
   std::array<double, 3> colourCorrection{1, 1, 1};
   std::optional<std::array<double, 8>> primaries;  // x and y of red, green, blue and white
+  std::string format;                              // "32-bit_rle_rgbe", "32-bit_rle_xyze"; empty: not stated
+  std::string gamma;                               // of GAMMA, which the format does not define; empty: none
   int rows = 0, columns = 0;                       // scanlines and pixels of each, as stored
   int orientation = 1;                             // of the stored rows, as in orientation.h
 };

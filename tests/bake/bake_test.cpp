@@ -389,5 +389,31 @@ TEST_F(Bake, AsIsKeepsDegenerateAndDuplicateTriangles) {
   EXPECT_EQ(error(), "");
 }
 
+TEST_F(Bake, FaintLightIsAWarning) {
+  const auto notes = [&] { return bake(readSceneFile(folder_.write("scene.json", scene_.dump())), {}, kSilent).notes; };
+  scene_["environment"] = {{"radiance", {1e-40, 0, 0}}};
+  ASSERT_EQ(notes().size(), 1u);
+  EXPECT_CONTAINS(notes()[0], "environment", "1e-40", "1.2e-38");
+  scene_["environment"] = {{"radiance", {1e-25, 0, 1e-40}}};
+  EXPECT_TRUE(notes().empty());
+  scene_["lights"] = {{{"type", "point"}, {"position", {0, 3, 0}}, {"intensity", {1e-39, 1e-39, 1e-39}}}};
+  scene_["materials"]["lamp"] = {{"type", "emitter"}, {"radiance", {0, 1e-35, 0}}};
+  scene_["meshes"][0]["material"] = "lamp";
+  ASSERT_EQ(notes().size(), 2u);
+  EXPECT_CONTAINS(notes()[0], "'lamp'", "1e-35");
+  EXPECT_CONTAINS(notes()[1], "light 0", "1e-39");
+  scene_["materials"]["lamp"]["radiance"] = {0, 0, 0};
+  scene_["lights"] = json::array();
+  EXPECT_TRUE(notes().empty());
+  // An image: by its mean, after 'scale'.
+  image::Image sky{2, 1, {"R", "G", "B"}, {3e-39f, 3e-39f, 3e-39f, 3e-39f, 3e-39f, 3e-39f}, {}, {}};
+  image::writeExr(folder_.path() / "sky.exr", sky);
+  scene_["environment"] = {{"image", "sky.exr"}};
+  ASSERT_EQ(notes().size(), 1u);
+  EXPECT_CONTAINS(notes()[0], "environment", "scale");
+  scene_["environment"]["scale"] = 1e9;
+  EXPECT_TRUE(notes().empty());
+}
+
 }  // namespace
 }  // namespace malus::bake

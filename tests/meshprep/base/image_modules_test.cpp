@@ -471,6 +471,37 @@ TEST_F(ImageModules, AxesAndExposureOfRadianceFiles) {
   }
 }
 
+TEST_F(ImageModules, GammaOfRadianceFilesIsNoted) {
+  const auto read = [&](const std::string& line, Image& image) {
+    const std::string text = "#?RADIANCE\n" + line + "\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\100\100\100\200";
+    write("gamma.hdr", {text.begin(), text.end()});
+    return formats().read(file("gamma.hdr"), image);
+  };
+  for (const char* line : {"GAMMA=2.2", "GAMMA= 0.4545", "GAMMA=two"}) {
+    Image image;
+    ASSERT_EQ(read(line, image), "") << line;
+    ASSERT_EQ(image.encoding.notes.size(), 1u) << line;
+    EXPECT_NE(image.encoding.notes[0].find(line), std::string::npos) << image.encoding.notes[0];
+    EXPECT_EQ(image.pixels[0], 0.25f) << line;
+  }
+  for (const char* line : {"GAMMA=1", "GAMMA= 1.0", "SOFTWARE=GAMMA=2"}) {
+    Image image;
+    ASSERT_EQ(read(line, image), "") << line;
+    EXPECT_TRUE(image.encoding.notes.empty()) << line;
+  }
+}
+
+TEST_F(ImageModules, XyzeFilesAreRefusedByName) {
+  for (const char* line : {"FORMAT=32-bit_rle_xyze", "FORMAT= 32-bit_rle_xyze ", "FORMAT=32-bit_rle_xyze\r"}) {
+    const std::string text = std::string("#?RADIANCE\n") + line + "\n\n-Y 1 +X 1\n\100\100\100\200";
+    write("xyz.hdr", {text.begin(), text.end()});
+    Image image;
+    const std::string message = formats().read(file("xyz.hdr"), image);
+    for (const char* part : {"xyze", "32-bit_rle_rgbe", "ra_xyze"})
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+}
+
 TEST_F(ImageModules, FilesWithoutTheBytesOfAFormatAreErrors) {
   Image image;
   write("sky.hdr", {'#', '?', 'R', 'A', 'D', 'I', 'A', 'N', 'C', 'E', '\n'});

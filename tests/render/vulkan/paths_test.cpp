@@ -2,6 +2,8 @@
 // queries. Each renders the same image; a lowered device (limits.h) takes each of them automatically.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "render/embree/renderer.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/renderer.h"
+#include "tests/render/test_scene.h"
 #include "tests/render/vulkan/limits.h"
 #include "tests/render/vulkan/scenes.h"
 
@@ -174,6 +177,58 @@ TEST(VulkanPaths, DepthOverTheRecursionLimitRenders) {
   // The check of values runs in this form too.
   parameters.checkNumerics = true;
   EXPECT_EQ(renderer.render("stokes", parameters).faults.count, 0u);
+}
+
+// Quad with the corners p, p + u, p + u + v, p + v, facing along cross(u, v).
+void addQuad(pack::Scene& scene, std::uint32_t material, const glm::dvec3& p, const glm::dvec3& u,
+             const glm::dvec3& v) {
+  pack::Mesh mesh;
+  mesh.name = "quad " + std::to_string(scene.meshes.size());
+  mesh.material = material;
+  mesh.openSurface = true;
+  mesh.positions = {p, p + u, p + u + v, p + v};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene.meshes.push_back(std::move(mesh));
+}
+
+constexpr int kPipeReflections = 196;
+
+// A pipe of glass along -z that light crosses with that many total reflections, met at 40 degrees in a plane of
+// constant y; a panel behind its far end.
+pack::Scene lightPipe() {
+  pack::Scene scene = test::emptyScene(200);
+  const double sine = std::sin(40 * std::numbers::pi / 180), inside = sine / 1.5, width = 0.01, height = 0.1,
+               length = kPipeReflections * width * std::sqrt(1 - inside * inside) / inside;
+  const std::uint32_t glass = test::addMaterial(scene, test::dielectric(pack::MaterialKind::glass, 1.5));
+  const std::uint32_t panel = test::addMaterial(scene, test::emitter(glm::dvec3(1)));
+  const glm::dvec3 x(width, 0, 0), y(0, height, 0), z(0, 0, length), low(-width / 2, -height / 2, -length);
+  addQuad(scene, glass, low + z, x, y);
+  addQuad(scene, glass, low, y, x);
+  addQuad(scene, glass, low, z, y);
+  addQuad(scene, glass, low + x, y, z);
+  addQuad(scene, glass, low, x, z);
+  addQuad(scene, glass, low + y, z, x);
+  test::addSquare(scene, panel, {0, 0, -length - 0.5}, {0, 0, 1}, 2);
+  test::look(scene, {-0.5 * sine, 0.013, 0.5 * std::sqrt(1 - sine * sine)}, {0, 0.013, 0});
+  return scene;
+}
+
+// Deeper than the depths that lavapipe recurses to: stacks, by both paths.
+TEST(VulkanPaths, LightPipeAtDepth200) {
+  const pack::Scene scene = lightPipe();
+  // Fresnel's transmittance of the two ends; total reflections in one plane of incidence keep S0.
+  const double c = std::cos(40 * std::numbers::pi / 180), t = std::sqrt(1 - (1 - c * c) / 2.25),
+               rs = std::pow((c - 1.5 * t) / (c + 1.5 * t), 2), rp = std::pow((1.5 * c - t) / (1.5 * c + t), 2),
+               expected = (std::pow(1 - rs, 2) + std::pow(1 - rp, 2)) / 2;
+  Renderer renderer(scene, {});
+  for (const char* method : {"stokes", "importance"})
+    for (const VulkanPath path : {VulkanPath::query, VulkanPath::pipeline}) {
+      SCOPED_TRACE(method + std::string(", ") + vulkanPathName(path));
+      RenderParameters parameters = parametersFor(scene, path);
+      EXPECT_NEAR(renderer.render(method, parameters).pixels[1], expected, 2e-5);
+      parameters.depth = kPipeReflections + 1;  // one too few
+      EXPECT_EQ(renderer.render(method, parameters).pixels[1], 0);
+    }
 }
 
 }  // namespace

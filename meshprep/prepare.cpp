@@ -105,6 +105,7 @@ class Preparation {
       std::iota(mesh_.sourceFaces.begin(), mesh_.sourceFaces.end(), 0u);
     }
     mesh_.sourceCorners.clear();
+    mesh_.sourceCorners.reserve(mesh_.triangles.size());
     for (const glm::uvec3& t : mesh_.triangles)
       mesh_.sourceCorners.emplace_back(mesh_.sourceVertices[t.x], mesh_.sourceVertices[t.y], mesh_.sourceVertices[t.z]);
     mesh_.flipped.assign(mesh_.triangles.size(), 0);
@@ -317,9 +318,11 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
   } catch (const Error& error) {  // names only the face
     throw Error(source, error.what());
   }
+  std::vector<char> isUsed(mesh.positions.size(), 0);
+  for (const glm::uvec3& t : mesh.triangles) isUsed[t.x] = isUsed[t.y] = isUsed[t.z] = 1;
   std::vector<glm::dvec3> used;
-  for (const glm::uvec3& t : mesh.triangles)
-    used.insert(used.end(), {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]});
+  for (std::size_t v = 0; v < isUsed.size(); ++v)
+    if (isUsed[v] != 0) used.push_back(mesh.positions[v]);
   compress::requireAcceptedSize(used, source);
   report.steps.push_back({"polygons-triangulated", counts.polygons, {}});
   report.steps.push_back({"polygons-concave", counts.concave, {}});

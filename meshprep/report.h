@@ -66,7 +66,7 @@ struct Report {
     glm::dvec3 origin{0};  // position = origin + step * integer, metres
     double step = 0;
     int normalBits = 0;                 // 0 without normals
-    double encodeMs = 0, decodeMs = 0;  // wall-clock time
+    double encodeMs = 0, decodeMs = 0;  // processor time
     std::vector<std::string> warnings;  // exceeded default bounds
   } compression;
 

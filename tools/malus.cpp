@@ -1,5 +1,6 @@
 // The `malus` command: subcommands of the modules, exit codes.
 #include <fcntl.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -43,6 +44,15 @@ void occupyStandardStreams() {
       if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) ::_exit(kFailed);
 }
 
+// Keeps freed memory for the next step: a mesh is prepared in many steps, each with lists of all of its faces, and the
+// kernel would clear the pages of each list again.
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
+
 int run(int argc, char** argv) {
   malus::CommandLine line;
   try {
@@ -62,6 +72,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   occupyStandardStreams();
+  keepFreedMemory();
   malus::handleInterrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // makes a write beyond the limit of file sizes fail, as on a full disk
   try {

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 #include <boost/geometry.hpp>  // the index alone lacks the strategies that it uses in Boost 1.83
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 
 namespace malus::prep {
 
@@ -38,12 +39,15 @@ bool forOverlappingBoxes(std::span<const Box> a, std::span<const Box> b, std::ui
   tbb::parallel_for(std::size_t{0}, a.size(), [&](std::size_t i) {
     if (cost.load(std::memory_order_relaxed) > most) return;
     std::uint64_t added = 0;
-    for (auto entry = tree.qbegin(bg::index::intersects(treeBox(a[i]))); entry != tree.qend(); ++entry) {
-      added += visit(static_cast<std::uint32_t>(i), entry->second);
-      if (added < kBatch) continue;
+    bool isOver = false;  // skips the rest, because a query cannot be stopped
+    const auto take = [&](const Entry& entry) {
+      if (isOver) return;
+      added += visit(static_cast<std::uint32_t>(i), entry.second);
+      if (added < kBatch) return;
       cost += std::exchange(added, 0);
-      if (cost.load(std::memory_order_relaxed) > most) return;
-    }
+      isOver = cost.load(std::memory_order_relaxed) > most;
+    };
+    tree.query(bg::index::intersects(treeBox(a[i])), boost::make_function_output_iterator(take));
     cost += added;
   });
   return cost <= most;

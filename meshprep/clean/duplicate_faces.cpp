@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <oneapi/tbb/parallel_sort.h>
+
 #include "meshprep/clean/disjoint_sets.h"
 #include "meshprep/clean/edges.h"
 #include "meshprep/clean/select.h"
@@ -34,7 +36,7 @@ std::vector<Face> sortedFaces(const Mesh& mesh) {
     face.even = (t.x == a && t.y == b) || (t.y == a && t.z == b) || (t.z == a && t.x == b);
     faces.push_back(face);
   }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+  oneapi::tbb::parallel_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
     return a.vertices != b.vertices ? a.vertices < b.vertices : a.triangle < b.triangle;
   });
   return faces;

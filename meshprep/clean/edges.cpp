@@ -4,6 +4,9 @@
 #include <numeric>
 #include <tuple>
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 namespace malus::prep {
 
 std::vector<EdgeUse> edgeUses(std::span<const glm::uvec3> triangles) {
@@ -25,14 +28,14 @@ std::vector<EdgeUse> edgeUses(std::span<const glm::uvec3> triangles) {
       const std::uint32_t low = std::min(from, to);
       uses[end[low]++] = {low, std::max(from, to), i, static_cast<std::uint8_t>(corner), from < to};
     }
-  auto begin = uses.begin();
-  for (const std::uint32_t e : end) {
-    const auto last = uses.begin() + e;
-    std::sort(begin, last, [](const EdgeUse& a, const EdgeUse& b) {
-      return std::tie(a.high, a.triangle) < std::tie(b.high, b.triangle);
-    });
-    begin = last;
-  }
+  constexpr std::size_t kGrain = 4096;
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, end.size(), kGrain), [&](const auto& range) {
+    for (std::size_t low = range.begin(); low < range.end(); ++low)
+      std::sort(uses.begin() + (low == 0 ? 0 : end[low - 1]), uses.begin() + end[low],
+                [](const EdgeUse& a, const EdgeUse& b) {
+                  return std::tie(a.high, a.triangle) < std::tie(b.high, b.triangle);
+                });
+  });
   return uses;
 }
 

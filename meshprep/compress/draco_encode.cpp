@@ -1,13 +1,14 @@
 // Encoding with verification. The sequential result is compared with the input, the edgebreaker result with the
 // sequential one, which has the same quantized values.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -97,10 +98,11 @@ void compareWithSource(const MeshView& mesh, std::span<const glm::dvec3> rounded
                 fmt::format("{}", encoded.deviation.normalMaxDegrees));
 }
 
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+// Processor time of the calling thread: the encodings run at the same time.
+double threadMs() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 std::vector<std::uint32_t> identity(std::size_t size) {
@@ -109,36 +111,65 @@ std::vector<std::uint32_t> identity(std::size_t size) {
   return numbers;
 }
 
-// Replaces the sequential encoding by the edgebreaker one if that is smaller and equivalent. Otherwise returns the
-// reason.
-std::string tryEdgebreaker(const MeshView& mesh, std::span<const glm::ivec3> integers, const Settings& settings,
-                           const Limits& limits, Encoded& encoded) {
-  // Encode.
-  const Clock::time_point start = Clock::now();
-  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kEdgebreaker, mesh, integers, settings.normalBits);
-  const double encodeMs = millisecondsSince(start);
+// Encodes sequentially and compares with the input.
+Encoded encodeSequentially(const MeshView& mesh, std::span<const glm::dvec3> rounded,
+                           std::span<const glm::ivec3> integers, const Settings& settings, const Limits& limits) {
+  Encoded encoded;
+  const double start = threadMs();
+  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kSequential, mesh, integers, settings.normalBits);
+  encoded.encodeMs = threadMs() - start;
+  if (!bytes) throw Error(kLocation, "Draco cannot encode the mesh");
+  encoded.bytes = std::move(*bytes);
+  encoded.method = "sequential";
+  const double decoding = threadMs();
+  encoded.decoded = decode(encoded.bytes, limits, settings.grid, kLocation);
+  encoded.decodeMs = threadMs() - decoding;
+  compareWithSource(mesh, rounded, settings, encoded);
+  encoded.sourceVertices = identity(mesh.positions.size());
+  encoded.sourceTriangles = identity(mesh.triangles.size());
+  return encoded;
+}
+
+// The edgebreaker encoding; without bytes or mesh where Draco refuses.
+struct Edgebreaker {
+  std::optional<std::vector<std::byte>> bytes;
+  std::optional<TriangleMesh> decoded;
+  double encodeMs = 0, decodeMs = 0;
+};
+
+Edgebreaker encodeByEdgebreaker(const MeshView& mesh, std::span<const glm::ivec3> integers, const Settings& settings,
+                                const Limits& limits) {
+  Edgebreaker result;
+  const double start = threadMs();
+  result.bytes = encodeDraco(Method::kEdgebreaker, mesh, integers, settings.normalBits);
+  result.encodeMs = threadMs() - start;
+  if (!result.bytes) return result;
+  const double decoding = threadMs();
+  try {
+    result.decoded = decode(*result.bytes, limits, settings.grid, kLocation);
+  } catch (const Error&) {  // see preferEdgebreaker
+  }
+  result.decodeMs = threadMs() - decoding;
+  return result;
+}
+
+// Replaces the sequential encoding by the edgebreaker one if that is smaller and equivalent: the decoded mesh is a
+// permutation of the sequential result. Otherwise returns the reason. vertices: their order in the decoded mesh.
+std::string preferEdgebreaker(Edgebreaker&& candidate, std::optional<std::vector<std::uint32_t>> vertices,
+                              const Limits& limits, Encoded& encoded) {
+  auto& [bytes, decoded, encodeMs, decodeMs] = candidate;
   if (!bytes) return "edgebreaker refuses the mesh";
   if (bytes->size() >= encoded.bytes.size()) return "edgebreaker is not smaller";
   if (std::max(limits.vertices, limits.triangles) > kMaxPerByte * bytes->size())
     return "edgebreaker makes the mesh smaller than a reader trusts";
-
-  // Require the decoded mesh to be a permutation of the sequential result.
-  const Clock::time_point decoding = Clock::now();
-  TriangleMesh decoded;
-  try {
-    decoded = decode(*bytes, limits, settings.grid, kLocation);
-  } catch (const Error&) {
-    return "edgebreaker changes the counts: faces that are degenerate or not manifold, or loose vertices";
-  }
-  const double decodeMs = millisecondsSince(decoding);
-  std::optional<std::vector<std::uint32_t>> vertices = edgebreakerOrder(mesh, integers);
+  if (!decoded) return "edgebreaker changes the counts: faces that are degenerate or not manifold, or loose vertices";
   if (!vertices) return "edgebreaker gives an unknown order of vertices";
-  std::optional<std::vector<std::uint32_t>> triangles = sourceTriangles(encoded.decoded, decoded, *vertices);
+  std::optional<std::vector<std::uint32_t>> triangles = sourceTriangles(encoded.decoded, *decoded, *vertices);
   if (!triangles) return "edgebreaker changes the triangles";
 
   encoded.bytes = std::move(*bytes);
   encoded.method = "edgebreaker";
-  encoded.decoded = std::move(decoded);
+  encoded.decoded = std::move(*decoded);
   encoded.sourceVertices = std::move(*vertices);
   encoded.sourceTriangles = std::move(*triangles);
   encoded.encodeMs = encodeMs;
@@ -214,23 +245,13 @@ Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const 
   const Limits limits{static_cast<std::uint32_t>(mesh.positions.size()),
                       static_cast<std::uint32_t>(mesh.triangles.size())};
 
-  // Encode sequentially and compare with the input.
   Encoded encoded;
-  const Clock::time_point start = Clock::now();
-  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kSequential, mesh, integers, settings.normalBits);
-  encoded.encodeMs = millisecondsSince(start);
-  if (!bytes) throw Error(kLocation, "Draco cannot encode the mesh");
-  encoded.bytes = std::move(*bytes);
-  encoded.method = "sequential";
-  const Clock::time_point decoding = Clock::now();
-  encoded.decoded = decode(encoded.bytes, limits, settings.grid, kLocation);
-  encoded.decodeMs = millisecondsSince(decoding);
-  compareWithSource(mesh, rounded, settings, encoded);
-  encoded.sourceVertices = identity(mesh.positions.size());
-  encoded.sourceTriangles = identity(mesh.triangles.size());
-
-  // Use edgebreaker if it is smaller and equivalent.
-  encoded.sequentialReason = tryEdgebreaker(mesh, integers, settings, limits, encoded);
+  Edgebreaker candidate;
+  std::optional<std::vector<std::uint32_t>> vertices;
+  oneapi::tbb::parallel_invoke([&] { encoded = encodeSequentially(mesh, rounded, integers, settings, limits); },
+                               [&] { candidate = encodeByEdgebreaker(mesh, integers, settings, limits); },
+                               [&] { vertices = edgebreakerOrder(mesh, integers); });
+  encoded.sequentialReason = preferEdgebreaker(std::move(candidate), std::move(vertices), limits, encoded);
   return encoded;
 }
 

@@ -115,7 +115,7 @@ struct Encoded {
   std::vector<std::uint32_t> sourceTriangles;
 
   Deviation deviation;
-  double encodeMs = 0, decodeMs = 0;  // wall-clock time of the chosen encoding
+  double encodeMs = 0, decodeMs = 0;  // processor time of the chosen encoding
 };
 
 // Rounds the positions to the grid. Throws Error: settings out of range, positions outside of the grid, values that are

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <tuple>
 
+#include <oneapi/tbb/parallel_sort.h>
+
 namespace malus::compress {
 
 namespace {
@@ -24,8 +26,8 @@ CanonicalTriangle canonical(const glm::uvec3& t, std::size_t index) {
 auto key(const CanonicalTriangle& t) { return std::tie(t.corners.x, t.corners.y, t.corners.z, t.index); }
 
 void sort(std::vector<CanonicalTriangle>& triangles) {
-  std::sort(triangles.begin(), triangles.end(),
-            [](const CanonicalTriangle& a, const CanonicalTriangle& b) { return key(a) < key(b); });
+  oneapi::tbb::parallel_sort(triangles.begin(), triangles.end(),
+                             [](const CanonicalTriangle& a, const CanonicalTriangle& b) { return key(a) < key(b); });
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
 #include "meshprep/clean/disjoint_sets.h"
@@ -37,13 +39,19 @@ glm::dvec3 faceNormal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
 }
 
 NormalCounts addPieceNormals(Mesh& mesh, const IsSmooth& isSmooth) {
-  // Step 1: normals of the triangles.
+  // Step 1: normals of the triangles and angles of their corners.
   const std::size_t triangleCount = mesh.triangles.size();
   std::vector<glm::dvec3> faceNormals(triangleCount);
-  for (std::size_t i = 0; i < triangleCount; ++i) {
-    const glm::uvec3 t = mesh.triangles[i];
-    faceNormals[i] = faceNormal(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
-  }
+  std::vector<glm::dvec3> cornerAngles(triangleCount);
+  constexpr std::size_t kGrain = 4096;
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, triangleCount, kGrain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const glm::uvec3 t = mesh.triangles[i];
+      const glm::dvec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+      faceNormals[i] = faceNormal(a, b, c);
+      cornerAngles[i] = {cornerAngle(a, b, c), cornerAngle(b, c, a), cornerAngle(c, a, b)};
+    }
+  });
 
   // Step 2: merge the corners at both ends of every smooth edge.
   DisjointSets pieces(3 * triangleCount);
@@ -61,10 +69,7 @@ NormalCounts addPieceNormals(Mesh& mesh, const IsSmooth& isSmooth) {
   std::vector<glm::dvec3> sums(3 * triangleCount, glm::dvec3(0));
   std::vector<double> weights(3 * triangleCount, 0.0);
   for (std::uint32_t corner = 0; corner < 3 * triangleCount; ++corner) {
-    const glm::uvec3 t = mesh.triangles[corner / 3];
-    const int at = static_cast<int>(corner % 3);
-    const double angle =
-        cornerAngle(mesh.positions[t[at]], mesh.positions[t[(at + 1) % 3]], mesh.positions[t[(at + 2) % 3]]);
+    const double angle = cornerAngles[corner / 3][static_cast<int>(corner % 3)];
     const std::uint32_t piece = pieces.find(corner);
     sums[piece] += angle * faceNormals[corner / 3];
     weights[piece] += angle;

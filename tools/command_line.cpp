@@ -12,6 +12,7 @@
 #include "meshprep/base/nearest_name.h"
 #include "meshprep/base/text.h"
 #include "meshprep/cli.h"
+#include "render/bench/cli.h"
 #include "render/cli.h"
 #include "render/compare/cli.h"
 #include "render/compare_images_cli.h"
@@ -61,6 +62,27 @@ void appendNames(const CLI::App& app, std::vector<std::string>& names) {
   }
 }
 
+// The commands that were given, outer ones first: bench, rays.
+std::vector<const CLI::App*> givenCommands(const CLI::App& app) {
+  std::vector<const CLI::App*> given;
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) given.push_back(at = at->get_subcommands().front());
+  return given;
+}
+
+// "bench rays"
+std::string joinedName(const std::vector<const CLI::App*>& commands) {
+  std::string name;
+  for (const CLI::App* command : commands) name += (name.empty() ? "" : " ") + command->get_name();
+  return name;
+}
+
+std::vector<std::string> visibleCommands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); }))
+    names.push_back(command->get_name());
+  return names;
+}
+
 // The nearest of the values that a message of CLI11 lists ("--option: value not in {a,b}"), as a clause; else empty.
 std::string nearestValueClause(const std::string& message) {
   constexpr std::string_view kNotIn = " not in {", kBefore = ": ";
@@ -101,6 +123,7 @@ CommandLine::CommandLine() : app_("malus: polarized mirror and glass reflections
   bake::addUnpackCommand(app_);
   render::addRenderCommand(app_);
   render::addCompareCommand(app_);
+  render::addBenchCommand(app_);
   render::addCompareImagesCommand(app_);
   render::addSweepCommand(app_);
   render::addMaterialCommand(app_);
@@ -129,23 +152,20 @@ void CommandLine::parse(std::vector<std::string> arguments) {
 }
 
 std::string CommandLine::describeUnknown() const {
-  const std::vector<CLI::App*> parsed = app_.get_subcommands();
-  std::vector<std::string> extras = app_.remaining(true);
+  const std::vector<const CLI::App*> given = givenCommands(app_);
+  const std::vector<std::string> extras = app_.remaining(true);
   if (extras.empty()) return {};
-  if (parsed.empty()) {
+  const std::string prefix = given.empty() ? std::string() : joinedName(given) + ": ";
+  const std::vector<std::string> commands = visibleCommands(given.empty() ? app_ : *given.back());
+  if (!commands.empty()) {
     // The command is the first word; options in front of it may be unknown too.
     const auto word =
         std::find_if(extras.begin(), extras.end(), [](const std::string& e) { return !e.starts_with('-'); });
-    if (word != extras.end()) {
-      std::vector<std::string> names;
-      for (const CLI::App* command : app_.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); }))
-        names.push_back(command->get_name());
-      return fmt::format("unknown command '{}'{}", *word, nearestClause(*word, names));
-    }
+    if (word != extras.end())
+      return fmt::format("{}unknown command '{}'{}", prefix, *word, nearestClause(*word, commands));
   }
   const auto option = std::find_if(extras.begin(), extras.end(),
                                    [](const std::string& e) { return e.size() > 1 && e[0] == '-' && e != "--"; });
-  const std::string prefix = parsed.empty() ? std::string() : parsed.front()->get_name() + ": ";
   if (option == extras.end()) {
     const auto behindMark =
         std::find_if(extras.begin(), extras.end(), [](const std::string& e) { return e.starts_with(kProtected); });
@@ -153,7 +173,7 @@ std::string CommandLine::describeUnknown() const {
     return fmt::format("{}unexpected argument '{}' after '--'", prefix, behindMark->substr(kProtected.size() - 1));
   }
   std::vector<std::string> names;
-  for (const CLI::App* command : parsed) appendNames(*command, names);
+  for (const CLI::App* command : given) appendNames(*command, names);
   appendNames(app_, names);
   const std::string name = option->substr(0, option->find('='));
   return fmt::format("{}unknown option '{}'{}", prefix, name, nearestClause(name, names));
@@ -161,11 +181,10 @@ std::string CommandLine::describeUnknown() const {
 
 std::string CommandLine::describe(const CLI::ParseError& error) const {
   std::string text = describeUnknown();
-  const std::vector<CLI::App*> parsed = app_.get_subcommands();
-  const std::string command = parsed.empty() ? std::string() : " " + parsed.front()->get_name();
-  if (text.empty()) text = parsed.empty() ? error.what() : parsed.front()->get_name() + ": " + error.what();
+  const std::string command = joinedName(givenCommands(app_));
+  if (text.empty()) text = command.empty() ? error.what() : command + ": " + error.what();
   text += nearestValueClause(error.what());
-  return fmt::format("{}; see 'malus{} --help'", oneLine(text), command);
+  return fmt::format("{}; see 'malus{} --help'", oneLine(text), command.empty() ? "" : " " + command);
 }
 
 }  // namespace malus

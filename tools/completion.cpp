@@ -55,8 +55,15 @@ std::string bashCompletion(const CLI::App& app) {
   addOptions(app, "", global, values);
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); })) {
     commands.push_back(command->get_name());
-    Words names;
+    Words names, inner;
     addOptions(*command, command->get_name(), names, values);
+    for (const CLI::App* nested : command->get_subcommands([](const CLI::App*) { return true; })) {
+      inner.push_back(nested->get_name());
+      addOptions(*nested, command->get_name(), names, values);
+    }
+    if (!inner.empty())
+      values += fmt::format("    \"{0} {0}\") [[ $current == -* ]] || words='{1}' ;;\n", command->get_name(),
+                            fmt::join(inner, " "));
     for (const std::string& name : global)
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     options += fmt::format("      {}) words='{}' ;;\n", command->get_name(), fmt::join(names, " "));

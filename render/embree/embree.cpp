@@ -86,7 +86,10 @@ struct Intersect : RTCIntersectArguments {
   }
 };
 struct Occluded : RTCOccludedArguments {
-  Occluded() { rtcInitOccludedArguments(this); }
+  explicit Occluded(bool coherent) {
+    rtcInitOccludedArguments(this);
+    flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  }
 };
 template <class Query, class Packet, class Arguments>
 void call(Query query, const int* valid, RTCScene scene, Packet& packet, Arguments arguments) {
@@ -99,9 +102,7 @@ struct Intersect : RTCIntersectContext {
     flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
 };
-struct Occluded : Intersect {
-  Occluded() : Intersect(false) {}
-};
+using Occluded = Intersect;
 template <class Query, class Packet, class Context>
 void call(Query query, const int* valid, RTCScene scene, Packet& packet, Context context) {
   query(valid, scene, &context, &packet);
@@ -118,9 +119,30 @@ void Bvh::nearest(const int* valid, RTCRayHit8& packet, bool coherent) const {
 void Bvh::nearest(const int* valid, RTCRayHit16& packet, bool coherent) const {
   call(rtcIntersect16, valid, scene_, packet, Intersect(coherent));
 }
-void Bvh::occluded(const int* valid, RTCRay4& packet) const { call(rtcOccluded4, valid, scene_, packet, Occluded()); }
-void Bvh::occluded(const int* valid, RTCRay8& packet) const { call(rtcOccluded8, valid, scene_, packet, Occluded()); }
-void Bvh::occluded(const int* valid, RTCRay16& packet) const { call(rtcOccluded16, valid, scene_, packet, Occluded()); }
+void Bvh::occluded(const int* valid, RTCRay4& packet, bool coherent) const {
+  call(rtcOccluded4, valid, scene_, packet, Occluded(coherent));
+}
+void Bvh::occluded(const int* valid, RTCRay8& packet, bool coherent) const {
+  call(rtcOccluded8, valid, scene_, packet, Occluded(coherent));
+}
+void Bvh::occluded(const int* valid, RTCRay16& packet, bool coherent) const {
+  call(rtcOccluded16, valid, scene_, packet, Occluded(coherent));
+}
+
+bool Bvh::isNative(unsigned width) const {
+  switch (width) {
+    case 1:
+      return true;
+    case 4:
+      return rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED) != 0;
+    case 8:
+      return rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0;
+    case 16:
+      return rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+    default:
+      return false;
+  }
+}
 
 Bvh::~Bvh() {
   if (scene_) rtcReleaseScene(scene_);

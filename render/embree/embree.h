@@ -69,9 +69,12 @@ class Bvh {
   void nearest(const int* valid, RTCRayHit4& packet, bool coherent) const;
   void nearest(const int* valid, RTCRayHit8& packet, bool coherent) const;
   void nearest(const int* valid, RTCRayHit16& packet, bool coherent) const;
-  void occluded(const int* valid, RTCRay4& packet) const;
-  void occluded(const int* valid, RTCRay8& packet) const;
-  void occluded(const int* valid, RTCRay16& packet) const;
+  void occluded(const int* valid, RTCRay4& packet, bool coherent) const;
+  void occluded(const int* valid, RTCRay8& packet, bool coherent) const;
+  void occluded(const int* valid, RTCRay16& packet, bool coherent) const;
+
+  // Whether packets of a width are traced as such on this processor; others are split.
+  bool isNative(unsigned width) const;
 
   static std::string version();  // "Embree 3.13.5"
 

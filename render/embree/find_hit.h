@@ -2,6 +2,10 @@
 
 bool findHit(const Ray& ray, Hit& hit) {
   ++rays;
+  if (kCheckNumerics && log) {
+    bounce = camera.depth - static_cast<int>(ray.depth);
+    (*log)[{bounce, false}].add(ray.origin, ray.d);
+  }
   const embree::Intersection at = bvh.nearest(ray.origin, ray.d);
   if (at.mesh == embree::Intersection::kMiss) return false;
   const Mesh& mesh = scene.meshes[at.mesh];
@@ -13,6 +17,13 @@ bool findHit(const Ray& ray, Hit& hit) {
       mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * at.b1 + n[corner.z] * at.b2 : real3(0);
   hit = makeHit(ray, p[corner.x], p[corner.y], p[corner.z], at.b1, at.b2, mesh.origin, interpolated, mesh.material);
   return true;
+}
+
+// Shadow rays of a hit follow the ray that met it.
+bool visible([[maybe_unused]] bool needed, const real3& origin, const real3& way) {
+  ++rays;
+  if (kCheckNumerics && log) (*log)[{bounce, true}].add(origin, way);
+  return bvh.visible(origin, way, 1);
 }
 
 void noteFault(const Hit& h, const vec4& stokes, uint kind, uint colour, float slack) {

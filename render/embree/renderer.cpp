@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -100,37 +102,77 @@ Renderer::~Renderer() = default;
 
 std::string Renderer::device() const { return fmt::format("{}, {} threads", Bvh::version(), impl_->threads); }
 
+int Renderer::threads() const { return impl_->threads; }
+
 std::vector<std::string> Renderer::methods() const { return render::methodNames(); }
 
-render::RenderResult Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
-  const render::MethodInfo& info = render::methodNamed(name);
+namespace {
+// An image to render, with what its tiles need.
+struct PreparedImage {
+  PreparedImage(const pack::Scene& source, const Bvh& bvh, const render::RenderScene& scene, std::string_view name,
+                const render::RenderParameters& parameters)
+      : camera(render::makeCameraParameters(source, parameters)) {
+    const bool stokes = render::hasStokes(render::methodNamed(name), parameters);
+    result.width = parameters.region.width;
+    result.height = parameters.region.height;
+    result.channels = stokes ? render::kStokesChannels : render::kColourChannels;
+    result.pixels.resize(result.channels * result.width * result.height);
+    tile = {&bvh, &scene, &camera, 0, 0, 0, 0, result.pixels.data(), stokes};
+  }
+  PreparedImage(const PreparedImage&) = delete;
+  PreparedImage& operator=(const PreparedImage&) = delete;
+
+  gpu::CameraParameters camera;
   render::RenderResult result;
-  result.width = parameters.region.width;
-  result.height = parameters.region.height;
-  result.channels = render::hasStokes(info, parameters) ? render::kStokesChannels : render::kColourChannels;
-  result.pixels.resize(result.channels * result.width * result.height);
-  result.device = device();
-  const gpu::CameraParameters camera = render::makeCameraParameters(*impl_->source, parameters);
-  const TileInput image{
-      impl_->bvh.get(), &impl_->scene, &camera, 0, 0, 0, 0, result.pixels.data(), render::hasStokes(info, parameters)};
+  TileInput tile{};
+};
+}  // namespace
+
+render::RenderResult Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
+  PreparedImage image(*impl_->source, *impl_->bvh, impl_->scene, name, parameters);
   const std::uint32_t effects = render::compiledEffects(*impl_->source, parameters);
   const bool scalar = tracesSingleRays(parameters);
-  result.embreePath = scalar ? render::EmbreePath::scalar : render::EmbreePath::packet;
+  image.result.device = device();
+  image.result.embreePath = scalar ? render::EmbreePath::scalar : render::EmbreePath::packet;
 
   const auto start = Clock::now();
   if (scalar) {
     const Method& method = findBuild(allMethods(), name, parameters.checkNumerics ? kEveryEffect : effects);
     const auto renderTile = parameters.checkNumerics ? method.renderTileChecked : method.renderTile;
-    renderTiles(image, impl_->threads, kTileSide, kTileSide, result, renderTile);
+    renderTiles(image.tile, impl_->threads, kTileSide, kTileSide, image.result, renderTile);
   } else {
     const PacketMethod& method = findBuild(allPacketMethods(), name, effects);
     tbb::enumerable_thread_specific<PacketMemory> memory([&] { return PacketMemory(impl_->order); });
-    renderTiles(image, impl_->threads, kPacketTileWidth, kPacketTileHeight, result,
+    renderTiles(image.tile, impl_->threads, kPacketTileWidth, kPacketTileHeight, image.result,
                 [&](const TileInput& tile) { return method.renderTile(tile, impl_->order, memory.local()); });
   }
-  result.cost.traceMs = result.cost.wallMs = sinceMs(start);
-  result.cost.buildMs = impl_->buildMs;
-  return result;
+  image.result.cost.traceMs = image.result.cost.wallMs = sinceMs(start);
+  image.result.cost.buildMs = impl_->buildMs;
+  return std::move(image.result);
 }
+
+RayLog Renderer::logRays(std::string_view name, const render::RenderParameters& parameters) {
+  PreparedImage image(*impl_->source, *impl_->bvh, impl_->scene, name, parameters);
+  const Method& method = findBuild(allMethods(), name, kEveryEffect);
+  // A log per tile, so that the order does not depend on the threads.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, RayLog> logs;
+  std::mutex merging;
+  renderTiles(image.tile, impl_->threads, kTileSide, kTileSide, image.result, [&](TileInput tile) {
+    RayLog log;
+    tile.log = &log;
+    const TileOutput output = method.renderTileChecked(tile);
+    const std::scoped_lock lock(merging);
+    logs[{tile.beginY, tile.beginX}] = std::move(log);
+    return output;
+  });
+  RayLog all;
+  for (auto& [tile, log] : logs) {
+    append(all, log);
+    log.clear();
+  }
+  return all;
+}
+
+const Bvh& Renderer::bvh() const { return *impl_->bvh; }
 
 }  // namespace malus::embree

@@ -1,4 +1,4 @@
-// The Embree renderer: single precision, one ray at a time, tiles in parallel on TBB threads.
+// The Embree renderer: single precision, packets or one ray at a time, tiles in parallel on TBB threads.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bake/pack/scene.h"
+#include "render/embree/embree.h"
+#include "render/embree/ray_log.h"
 #include "render/renderer.h"
 
 namespace malus::embree {
@@ -21,8 +23,14 @@ class Renderer final : public render::Renderer {
 
   render::Backend backend() const override { return render::Backend::embree; }
   std::string device() const override;
+  int threads() const;
   std::vector<std::string> methods() const override;
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
+
+  // The rays that render() traces with the same arguments, tile by tile. Memory: 24 bytes per ray, twice.
+  RayLog logRays(std::string_view method, const render::RenderParameters& parameters);
+  // The acceleration structure, valid as long as the renderer.
+  const Bvh& bvh() const;
 
  private:
   struct Impl;

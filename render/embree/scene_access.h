@@ -18,7 +18,8 @@ struct SceneAccess {
         extras(scene.extras.data()),
         textures(scene.textures.data()),
         textureTexels(scene.textureTexels.data()),
-        environmentTexels(scene.environmentTexels.data()) {}
+        environmentTexels(scene.environmentTexels.data()),
+        log(tile.log) {}
 
   const Bvh& bvh;
   const render::RenderScene& scene;
@@ -29,6 +30,8 @@ struct SceneAccess {
   const gpu::Texture* textures;
   const glm::vec3* textureTexels;
   const glm::vec3* environmentTexels;
+  RayLog* log;     // of the tracers that check numerics; null: none
+  int bounce = 0;  // of the ray that was traced last, if there is a log
   std::uint64_t rays = 0;
   std::uint32_t pixelX = 0, pixelY = 0;  // the pixel that is rendered, in the whole image
   render::Faults faults;
@@ -50,11 +53,6 @@ struct SceneAccess {
   void textureSize(gpu::uint index, float& width, float& height) const {
     width = static_cast<float>(textures[index].width);
     height = static_cast<float>(textures[index].height);
-  }
-
-  bool visible([[maybe_unused]] bool needed, const glm::vec3& origin, const glm::vec3& way) {
-    ++rays;
-    return bvh.visible(origin, way, 1);
   }
 };
 

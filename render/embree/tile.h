@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "render/embree/embree.h"
+#include "render/embree/ray_log.h"
 #include "render/scene/fault.h"
 #include "shaders/gpu/scene.h"
 
@@ -17,6 +18,7 @@ struct TileInput {
   std::uint32_t beginX, beginY, endX, endY;  // pixels within the region
   float* pixels;                             // of the whole region, top row first
   bool stokes;                               // iterative methods: render Stokes vectors by four analysers
+  RayLog* log = nullptr;                     // takes the rays; of renderTileChecked only
 };
 
 struct TileOutput {

@@ -55,6 +55,11 @@ TEST_F(Completion, OffersMatchingWordsOnly) {
   EXPECT_EQ(complete("--vers"), std::set<std::string>{"--version"});
 }
 
+TEST_F(Completion, OffersNestedCommands) {
+  EXPECT_EQ(complete("bench ''"), std::set<std::string>{"rays"});
+  EXPECT_EQ(complete("bench rays --rou"), std::set<std::string>{"--rounds"});
+}
+
 TEST_F(Completion, OffersFixedValues) {
   EXPECT_EQ(complete("render --backend ''"), (std::set<std::string>{"embree", "reference", "vulkan"}));
   EXPECT_TRUE(complete("render scene.pack --method ''").contains("stokes"));

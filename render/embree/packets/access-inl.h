@@ -160,7 +160,7 @@ struct PacketAccess {
     }
     HWY_ALIGN_MAX std::uint32_t valid[kLanes];
     hn::Store(selectW(needed, ~0u, 0u).v, Words(), valid);
-    bvh->occluded(reinterpret_cast<const int*>(valid), query);
+    bvh->occluded(reinterpret_cast<const int*>(valid), query, false);
     rays += countM(needed);
     return notM(lessR(loadR(query.tfar), 0.0f));
   }

@@ -1,0 +1,85 @@
+// `malus bench rays`: what it prints, and the rays that it writes against a program that only traces them. Times are
+// printed for both and not judged.
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/command.h"
+
+namespace malus::test {
+namespace {
+
+using nlohmann::json;
+
+class Bench : public testing::Test {
+ protected:
+  void SetUp() override {
+    writeTinyScene(folder_.path());
+    ASSERT_EQ(malus({"bake", folder_ / "scene.json", "-o", folder_ / "tiny.pack"}).exitCode, 0);
+  }
+  Folder folder_;
+};
+
+TEST_F(Bench, PrintsFloorAndRatio) {
+  const Finished done = malus({"bench", "rays", folder_ / "tiny.pack", "--methods", "schlick,stokes,importance",
+                               "--width", "32", "--threads", "1", "--rounds", "2", "--json"});
+  ASSERT_EQ(done.exitCode, 0) << done.err;
+  const json bench = json::parse(done.out);
+  EXPECT_EQ(bench.at("width"), 32);
+  EXPECT_EQ(bench.at("rounds"), 2);
+  double floorMs = 0;
+  std::size_t rays = 0;
+  for (const json& c : bench.at("classes")) {
+    floorMs += c.at("ms").get<double>();
+    rays += c.at("rays").get<std::size_t>();
+    EXPECT_LE(c.at("ms"), c.at("singleMs"));
+    EXPECT_LE(c.at("hits"), c.at("rays"));
+    EXPECT_FALSE(c.at("bestCall").get<std::string>().empty());
+  }
+  EXPECT_EQ(bench.at("classes").front().at("rays"), 32 * 24);
+  EXPECT_NEAR(bench.at("floorMs").get<double>(), floorMs, 1e-9);
+  const json& rows = bench.at("rows");
+  EXPECT_GE(rows.size(), 3u);
+  EXPECT_EQ(rows.front().at("rays"), rays);
+  for (const json& row : rows) {
+    EXPECT_GT(row.at("ratio").get<double>(), 0);
+    EXPECT_NEAR(row.at("ratio").get<double>() * row.at("floorMs").get<double>(), row.at("totalMs").get<double>(), 1e-9);
+    EXPECT_LE(row.at("totalMs"), row.at("medianMs"));
+  }
+  const Finished text = malus({"bench", "rays", folder_ / "tiny.pack", "--methods", "schlick", "--rounds", "1"});
+  EXPECT_TRUE(contains(text.out, "floor", "fastest call", "schlick", "ratio", "shadow")) << text.out;
+}
+
+TEST_F(Bench, AnotherProgramFindsTheSameHits) {
+  const Finished done = malus({"bench", "rays", folder_ / "tiny.pack", "--methods", "fresnel", "--threads", "1",
+                               "--rounds", "5", "--json", "--write-rays", folder_ / "rays"});
+  ASSERT_EQ(done.exitCode, 0) << done.err;
+  const Finished floor = run({RAY_FLOOR, folder_ / "tiny.pack", folder_ / "rays"});
+  ASSERT_EQ(floor.exitCode, 0) << floor.err;
+  const json expected = json::parse(floor.out).at("classes");
+  const json classes = json::parse(done.out).at("classes");
+  ASSERT_EQ(classes.size(), expected.size());
+  double single = 0, expectedSingle = 0;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    for (const char* key : {"depth", "shadow", "rays", "hits"})
+      EXPECT_EQ(classes[i].at(key), expected[i].at(key)) << key << " of class " << i;
+    EXPECT_EQ(expected[i].at("packetHits"), expected[i].at("hits"));
+    single += classes[i].at("singleMs").get<double>();
+    expectedSingle += expected[i].at("singleMs").get<double>();
+  }
+  std::printf("single rays: bench %.3f ms, ray_floor %.3f ms\n", single, expectedSingle);
+}
+
+TEST_F(Bench, RefusesBadInput) {
+  EXPECT_EQ(malus({"bench"}).exitCode, 2);
+  const Finished unknown = malus({"bench", "ray", folder_ / "tiny.pack"});
+  EXPECT_EQ(unknown.exitCode, 2);
+  EXPECT_TRUE(contains(unknown.err, "'ray'", "'rays'")) << unknown.err;
+  const Finished option = malus({"bench", "rays", folder_ / "tiny.pack", "--round", "3"});
+  EXPECT_EQ(option.exitCode, 2);
+  EXPECT_TRUE(contains(option.err, "'--round'", "'--rounds'")) << option.err;
+  EXPECT_EQ(malus({"bench", "rays", folder_ / "tiny.pack", "--rounds", "0"}).exitCode, 2);
+  EXPECT_EQ(malus({"bench", "rays", folder_ / "tiny.pack", "--write-rays", folder_ / "tiny.pack"}).exitCode, 2);
+  expectRefusal(malus({"bench", "rays", folder_ / "none.pack"}), "none.pack");
+}
+
+}  // namespace
+}  // namespace malus::test

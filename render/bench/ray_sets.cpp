@@ -32,8 +32,7 @@ void RaySets::requireMemory(std::uint64_t rays) const {
 
 std::size_t RaySets::add(const std::string& method) {
   console::progress(fmt::format("logging the rays of {}", method));
-  const std::uint64_t rays = renderer_.render(method, parameters_).cost.rays;
-  requireMemory(rays);
+  requireMemory(renderer_.render(method, parameters_).cost.rays);
   embree::RayLog log = renderer_.logRays(method, parameters_);
   for (std::size_t i = 0; i < sets_.size(); ++i)
     if (std::ranges::equal(sets_[i].classes, log, [](const Class& stored, const auto& logged) {

@@ -1,5 +1,7 @@
 // Hooks of shaders/surfaces/hooks.h that need the surfaces: members of both kinds of tracer, included inside them.
 
+#include "shaders/surfaces/barycentrics.h"
+
 bool findHit(const Ray& ray, Hit& hit) {
   ++rays;
   if (kCheckNumerics && log) {
@@ -12,10 +14,12 @@ bool findHit(const Ray& ray, Hit& hit) {
   const glm::uvec3 corner = scene.triangles[mesh.firstTriangle + at.triangle];
   const real3* p = scene.positions.data() + mesh.firstVertex;
   const real3* n = scene.normals.data() + mesh.firstVertex;
-  const real b0 = 1 - at.b1 - at.b2;
+  const real3 &p0 = p[corner.x], &p1 = p[corner.y], &p2 = p[corner.z];
+  const Barycentrics b = barycentricCoordinates(ray.origin - mesh.origin, ray.d, p0, p1, p2);
+  const real b0 = 1 - b.b1 - b.b2;
   const real3 interpolated =
-      mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * at.b1 + n[corner.z] * at.b2 : real3(0);
-  hit = makeHit(ray, p[corner.x], p[corner.y], p[corner.z], at.b1, at.b2, mesh.origin, interpolated, mesh.material);
+      mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * b.b1 + n[corner.z] * b.b2 : real3(0);
+  hit = makeHit(ray, p0, p1, p2, b.b1, b.b2, mesh.origin, interpolated, mesh.material);
   return true;
 }
 

@@ -16,8 +16,6 @@ struct Rays {
 struct Intersections {
   HWY_ALIGN_MAX std::uint32_t mesh[kBatch + kLanes];
   HWY_ALIGN_MAX std::uint32_t triangle[kBatch + kLanes];
-  HWY_ALIGN_MAX float b1[kBatch + kLanes];
-  HWY_ALIGN_MAX float b2[kBatch + kLanes];
   HWY_ALIGN_MAX std::uint32_t order[kBatch + kLanes];  // indices of the rays
 };
 
@@ -33,6 +31,8 @@ FN word addW(word a, word b) { return hn::Add(a.v, b.v); }
 FN word timesW(word a, std::uint32_t factor) { return hn::Mul(a.v, hn::Set(Words(), factor)); }
 FN std::uint32_t firstLane(word a) { return hn::GetLane(a.v); }
 FN bool sameInAll(word a) { return hn::AllTrue(Words(), hn::Eq(a.v, hn::Set(Words(), firstLane(a)))); }
+// Whether the lanes are successive numbers.
+FN bool isSuccessive(word a) { return hn::AllTrue(Words(), hn::Eq(a.v, hn::Iota(Words(), firstLane(a)))); }
 FN real3 gather3(const float* from, word index) {
   return {gatherR(from, index), gatherR(from + 1, index), gatherR(from + 2, index)};
 }
@@ -40,17 +40,22 @@ FN real3 gather3(const float* from, word index) {
 // The lanes of a that are chosen, next to each other from `to` on.
 FN void storeChosen(real a, mask chosen, float* to) { storeR(hn::Compress(a.v, chosen.m), to); }
 
-// Index of each chosen lane when the chosen lanes are numbered from `first` on.
-FN word numberChosen(mask chosen, std::uint32_t first) {
-  HWY_ALIGN std::uint32_t number[kLanes];
-  HWY_ALIGN std::uint32_t isChosen[kLanes];
-  hn::Store(selectW(chosen, 1u, 0u).v, Words(), isChosen);
+// Number of chosen lanes before each lane.
+using Ranks = decltype(hn::IndicesFromVec(Floats(), hn::Zero(Ints())));
+FN Ranks rankChosen(mask chosen) {
+  HWY_ALIGN std::int32_t rank[kLanes];
+  HWY_ALIGN std::int32_t isChosen[kLanes];
+  hn::Store(hn::BitCast(Ints(), selectW(chosen, 1u, 0u).v), Ints(), isChosen);
+  std::int32_t before = 0;
   for (std::size_t i = 0; i < kLanes; ++i) {
-    number[i] = first;
-    first += isChosen[i];
+    rank[i] = before;
+    before += isChosen[i];
   }
-  return loadW(number);
+  return hn::IndicesFromVec(Floats(), hn::Load(Ints(), rank));
 }
+
+// The inverse of storeChosen: the values from `from` on, in the lanes that were chosen.
+FN real loadChosen(const float* from, Ranks ranks) { return hn::TableLookupLanes(loadR(from).v, ranks); }
 
 // A row of a table of structs whose members are floats and words of four bytes, per lane.
 template <class Struct>
@@ -94,7 +99,9 @@ struct PacketAccess {
   MaterialExtra extra;  // of the packet that is shaded
   mask active;          // its lanes that have a ray
   std::uint64_t rays;
-  std::uint32_t* bucketEnds;  // for sort()
+  std::uint32_t* bucketEnds;                                 // for sortByMaterial()
+  HWY_ALIGN_MAX std::uint32_t octants[kBatch + kLanes];      // of a batch
+  HWY_ALIGN_MAX std::uint32_t octantOrder[kBatch + kLanes];  // indices of its rays, by octant
 
   void begin(const embree::PacketInput& input) {
     scene = input.tile.scene;
@@ -165,76 +172,5 @@ struct PacketAccess {
     return notM(lessR(loadR(query.tfar), 0.0f));
   }
 
-  // Finds the nearest triangles along `batch` and sorts the rays.
-  void intersect(const Rays& batch, Intersections& found, bool coherent) {
-    const std::uint32_t count = batch.count;
-    rays += count;
-    embree::RayHitPacket<kLanes> query;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      query.ray.time[i] = 0, query.ray.mask[i] = ~0u, query.ray.id[i] = 0, query.ray.flags[i] = 0;
-    }
-    for (std::uint32_t at = 0; at < count; at += static_cast<std::uint32_t>(kLanes)) {
-      HWY_ALIGN_MAX int valid[kLanes];
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        valid[i] = at + i < count ? -1 : 0;
-        query.ray.tnear[i] = embree::kNearest, query.ray.tfar[i] = 1e30f;
-        query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-      }
-      storeR(loadR(batch.origin[0] + at), query.ray.org_x), storeR(loadR(batch.direction[0] + at), query.ray.dir_x);
-      storeR(loadR(batch.origin[1] + at), query.ray.org_y), storeR(loadR(batch.direction[1] + at), query.ray.dir_y);
-      storeR(loadR(batch.origin[2] + at), query.ray.org_z), storeR(loadR(batch.direction[2] + at), query.ray.dir_z);
-      bvh->nearest(valid, query, coherent);
-      hn::StoreU(loadW(query.hit.geomID).v, Words(), found.mesh + at);
-      hn::StoreU(loadW(query.hit.primID).v, Words(), found.triangle + at);
-      storeR(loadR(query.hit.u), found.b1 + at);
-      storeR(loadR(query.hit.v), found.b2 + at);
-    }
-    sort(found, count);
-  }
-
-  // The index, or one behind the last for the lanes that are not active: what those store is not read.
-  word parked(word index) { return selectW(active, index, static_cast<std::uint32_t>(kBatch)); }
-
-  std::uint32_t bucket(std::uint32_t mesh) {
-    return mesh == embree::Intersection::kMiss ? 0 : shadingOrder->bucketOfMesh[mesh];
-  }
-
-  // Counting sort by bucket.
-  void sort(Intersections& found, std::uint32_t count) {
-    const std::size_t buckets = shadingOrder->kindOfBucket.size();
-    for (std::size_t b = 0; b < buckets; ++b) bucketEnds[b] = 0;
-    for (std::uint32_t i = 0; i < count; ++i) ++bucketEnds[bucket(found.mesh[i])];
-    std::uint32_t sum = 0;
-    for (std::size_t b = 0; b < buckets; ++b) {
-      const std::uint32_t size = bucketEnds[b];
-      bucketEnds[b] = sum;
-      sum += size;
-    }
-    for (std::uint32_t i = 0; i < count; ++i) found.order[bucketEnds[bucket(found.mesh[i])]++] = i;
-  }
-
-  // Calls leave(ray) for the packets of rays that leave the scene and meet(kind, ray) for those of each kind of
-  // surface, with their indices in the batch, and `active` set. The lanes that are not active repeat an active one.
-  template <class Leave, class Meet>
-  void forEachPacket(const Intersections& found, Leave leave, Meet meet) {
-    const std::size_t buckets = shadingOrder->kindOfBucket.size();
-    std::uint32_t first = 0;
-    for (std::size_t b = 0; b < buckets;) {
-      const std::uint32_t kind = shadingOrder->kindOfBucket[b];
-      std::uint32_t end = bucketEnds[b];
-      std::size_t next = b + 1;
-      while (b > 0 && next < buckets && shadingOrder->kindOfBucket[next] == kind) end = bucketEnds[next++];
-      for (std::uint32_t at = first; at < end; at += static_cast<std::uint32_t>(kLanes)) {
-        const std::uint32_t left = HWY_MIN(end - at, static_cast<std::uint32_t>(kLanes));
-        active = hn::FirstN(Floats(), left);
-        const word ray = selectW(active, loadW(found.order + at), found.order[end - 1]);
-        if (b == 0)
-          leave(ray);
-        else
-          meet(kind, ray);
-      }
-      first = end;
-      b = next;
-    }
-  }
+#include "render/embree/packets/intersect-inl.h"
 };

@@ -1,5 +1,7 @@
 // Hits on lanes: members of the packet tracers, which have the surfaces (shaders/surfaces/hooks.h).
 
+#include "shaders/surfaces/barycentrics.h"
+
 real3 rayDirection(const Rays& batch, word ray) {
   return {gatherR(batch.direction[0], ray), gatherR(batch.direction[1], ray), gatherR(batch.direction[2], ray)};
 }
@@ -13,36 +15,49 @@ void loadExtra(word material) {
   if (kReadsExtras) extra = gatherRow<MaterialExtra>(scene->extras.data(), material);
 }
 
-// The hits of rays that meet a surface.
-Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
-  const real3 from(gatherR(batch.origin[0], ray), gatherR(batch.origin[1], ray), gatherR(batch.origin[2], ray));
+// row(values): a packet of a row of the batch.
+template <class Row>
+Ray loadRay(const Rays& batch, Row row) {
   real distance = 0.0f;
 #if MALUS_EFFECT_ABSORPTION
-  distance = gatherR(batch.originDistance, ray);
+  distance = row(batch.originDistance);
 #endif
-  const Ray traced = makeRay(from, rayDirection(batch, ray), gatherR(batch.depth, ray), distance);
+  return makeRay({row(batch.origin[0]), row(batch.origin[1]), row(batch.origin[2])},
+                 {row(batch.direction[0]), row(batch.direction[1]), row(batch.direction[2])}, row(batch.depth),
+                 distance);
+}
+
+// Rays of a batch by their indices.
+Ray loadRay(const Rays& batch, word ray) {
+  if (!isSuccessive(ray)) return loadRay(batch, [&](const float* values) HWY_ATTR { return gatherR(values, ray); });
+  const std::uint32_t first = firstLane(ray);
+  return loadRay(batch, [&](const float* values) HWY_ATTR { return loadR(values + first); });
+}
+
+// The hits of rays that meet a surface.
+Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
+  const Ray traced = loadRay(batch, ray);
   const MeshRow mesh = gatherRow<MeshRow>(scene->meshes.data(), gatherW(found.mesh, ray));
   const word corners = timesW(addW(mesh.firstTriangle, gatherW(found.triangle, ray)), 3);
   const std::uint32_t* triangles = &scene->triangles.data()->x;
   const word c0 = timesW(addW(mesh.firstVertex, gatherW(triangles, corners)), 3);
   const word c1 = timesW(addW(mesh.firstVertex, gatherW(triangles + 1, corners)), 3);
   const word c2 = timesW(addW(mesh.firstVertex, gatherW(triangles + 2, corners)), 3);
-  const real b1 = gatherR(found.b1, ray);
-  const real b2 = gatherR(found.b2, ray);
+  const float* p = &scene->positions.data()->x;
+  const real3 p0 = gather3(p, c0), p1 = gather3(p, c1), p2 = gather3(p, c2);
+  const Barycentrics b = barycentricCoordinates(traced.origin - mesh.origin, traced.d, p0, p1, p2);
   real3 interpolated = splat3(0.0f);
   const mask smooth = notM(equalW(mesh.hasNormals, 0u));
   if (anyM(smooth)) {
     const float* n = &scene->normals.data()->x;
-    const real b0 = real(1.0f) - b1 - b2;
-    interpolated = select3(smooth, gather3(n, c0) * b0 + gather3(n, c1) * b1 + gather3(n, c2) * b2, interpolated);
+    const real b0 = real(1.0f) - b.b1 - b.b2;
+    interpolated = select3(smooth, gather3(n, c0) * b0 + gather3(n, c1) * b.b1 + gather3(n, c2) * b.b2, interpolated);
   }
-  const float* p = &scene->positions.data()->x;
-  return makeHit(traced, gather3(p, c0), gather3(p, c1), gather3(p, c2), b1, b2, mesh.origin, interpolated,
-                 mesh.material);
+  return makeHit(traced, p0, p1, p2, b.b1, b.b2, mesh.origin, interpolated, mesh.material);
 }
 
-// Adds the chosen lanes to a batch and returns their indices in it.
-word addRays(Rays& batch, mask chosen, const Ray& ray) {
+// Adds the chosen lanes to a batch and returns the index of the first; the others follow.
+std::uint32_t addRays(Rays& batch, mask chosen, const Ray& ray) {
   const std::uint32_t at = batch.count;
   storeChosen(ray.origin.x, chosen, batch.origin[0] + at);
   storeChosen(ray.origin.y, chosen, batch.origin[1] + at);
@@ -55,7 +70,7 @@ word addRays(Rays& batch, mask chosen, const Ray& ray) {
   storeChosen(ray.originDistance, chosen, batch.originDistance + at);
 #endif
   batch.count = at + static_cast<std::uint32_t>(countM(chosen));
-  return numberChosen(chosen, at);
+  return at;
 }
 
 // The camera's rays through one sample of each pixel of a tile, in rows. column, row: of the sample in its pixel.

@@ -114,11 +114,11 @@ void addFacetPaths(std::uint32_t i, Level& level) {
 }
 
 // Follows a batch of paths to their ends. depth: of the recursion.
-void followPaths(std::size_t depth, const Paths& paths, bool coherent) {
+void followPaths(std::size_t depth, const Paths& paths) {
   if (paths.rays.count == 0) return;
   if (levels[depth] == nullptr) levels[depth] = new Level;
   Level& level = *levels[depth];
-  intersect(paths.rays, level.found, coherent);
+  intersect(paths.rays, level.found);
   level.reflected.rays.count = level.transmitted.rays.count = 0;
   level.roughCount = 0;
   forEachPacket(
@@ -134,12 +134,12 @@ void followPaths(std::size_t depth, const Paths& paths, bool coherent) {
         loadExtra(h.material);
         meetSurface(kind, h, p, gatherW(paths.pixel, path), level);
       });
-  followPaths(depth + 1, level.reflected, false);
+  followPaths(depth + 1, level.reflected);
   for (std::uint32_t i = 0; kEffectRoughness && level.roughCount > 0 && i < gpu::kFacets; ++i) {
     addFacetPaths(i, level);
-    followPaths(depth + 1, level.reflected, false);
+    followPaths(depth + 1, level.reflected);
   }
-  followPaths(depth + 1, level.transmitted, false);
+  followPaths(depth + 1, level.transmitted);
 }
 
 Paths primary;
@@ -158,7 +158,7 @@ void tracePixels(const embree::TileInput& tile, const glm::vec4& behind) {
         for (std::size_t f = 0; f < kFields<Throughput>; ++f) storeR(getField(c, f), primary.throughput[f] + at);
         hn::StoreU(path.v, Words(), primary.pixel + at);
       }
-      followPaths(0, primary, true);
+      followPaths(0, primary);
     }
 }
 

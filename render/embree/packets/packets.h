@@ -26,7 +26,7 @@ struct ShadingOrder {
 bool hasPacketInstructions();
 
 // Most pixels of a tile: rays that are traced and shaded together.
-inline constexpr std::uint32_t kPacketTileWidth = 32;
+inline constexpr std::uint32_t kPacketTileWidth = 16;
 inline constexpr std::uint32_t kPacketTileHeight = 16;
 inline constexpr std::size_t kBatch = kPacketTileWidth * kPacketTileHeight;
 

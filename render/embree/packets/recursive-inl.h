@@ -13,7 +13,6 @@ void checkSent(const Hit&, const Payload&, const real3&) {}
 // Surfaces whose rays have not all returned.
 struct PendingPacket {
   Hit h;
-  Material m;
   Scattering s;
   SurfaceLight toCamera;
   real3 sDir;
@@ -23,9 +22,9 @@ struct PendingPacket {
   mask reflects;  // lanes that follow the reflected ray, the facets, the transmitted ray
   mask rough;
   mask transmits;
-  mask follows;  // lanes whose ray is on its way
-  word ray;      // index of the ray that hit the surface
-  word sent;     // index of the ray that is on its way
+  mask follows;        // lanes whose ray is on its way
+  word ray;            // index of the ray that hit the surface
+  std::uint32_t sent;  // index of the first ray that is on its way; the others follow
 };
 
 // Payloads by the index of their ray, a row per field.
@@ -44,12 +43,18 @@ struct Level {
 Level* levels[embree::kMostLevels] = {};
 
 void storePayload(const Payload& payload, Payloads& to, word ray) {
+  if (isSuccessive(ray)) {
+    for (std::size_t i = 0; i < kFields<Payload>; ++i) storeR(getField(payload, i), to.field[i] + firstLane(ray));
+    return;
+  }
   for (std::size_t i = 0; i < kFields<Payload>; ++i) scatterR(getField(payload, i), to.field[i], ray);
 }
 
-Payload loadPayload(const Payloads& from, word ray) {
+// The payloads from `first` on, in the chosen lanes.
+Payload loadPayload(const Payloads& from, std::uint32_t first, mask chosen) {
+  const Ranks ranks = rankChosen(chosen);
   Payload payload;
-  for (std::size_t i = 0; i < kFields<Payload>; ++i) setField(payload, i, gatherR(from.field[i], ray));
+  for (std::size_t i = 0; i < kFields<Payload>; ++i) setField(payload, i, loadChosen(from.field[i] + first, ranks));
   return payload;
 }
 
@@ -60,12 +65,12 @@ static void addLight(PendingPacket& p, mask chosen, const SurfaceLight& light) {
 // Collects the light that needs no ray but shadow rays, and decides which rays follow.
 void meetSurface(std::uint32_t kind, PendingPacket& p) {
   loadExtra(p.h.material);
-  p.m = materialAt(p.h);
+  const Material m = materialAt(p.h);
   p.active = active;
-  p.s = surfaceScattering(p.h, p.m, kind);
+  ::new (&p.s) Scattering(surfaceScattering(p.h, m, kind));
   p.sDir = surfaceS(p.h.d, p.s.frameNormal);
   DirectLight direct = noDirectLight();
-  if (anyM(p.s.reflects)) direct = directLight(p.h, p.m, p.s.reflected);
+  if (anyM(p.s.reflects)) direct = directLight(p.h, m, p.s.reflected);
   p.toCamera = lightUnpolarized(splat3(0.0f));
   if (hasBase(kind)) p.toCamera = lightFromBelow(p.s.reflection, direct.diffuse);
   p.highlight = direct.highlight;
@@ -92,10 +97,10 @@ void followRays(std::size_t depth, Level& level, Choose choose, Combine combine)
     choose(p);
   }
   if (level.rays.count == 0) return;
-  traceRays(depth + 1, level.rays, level.returned, false);
+  traceRays(depth + 1, level.rays, level.returned);
   for (std::size_t i = 0; i < level.pendingCount; ++i) {
     PendingPacket& p = level.pending[i];
-    if (anyM(p.follows)) combine(p, loadPayload(level.returned, selectW(p.follows, p.sent, 0u)));
+    if (anyM(p.follows)) combine(p, loadPayload(level.returned, p.sent, p.follows));
   }
 }
 
@@ -144,15 +149,15 @@ void followFacets(std::size_t depth, Level& level) {
         [&](PendingPacket& p, const Payload& returned) HWY_ATTR {
           real3 slack;
           loadExtra(p.h.material);
-          addLight(p, p.follows, facetLight(p.h, p.m, p.facet, returned, p.sDir, slack));
+          addLight(p, p.follows, facetLight(p.h, materialAt(p.h), p.facet, returned, p.sDir, slack));
         });
 }
 
 // The light that returns along a batch of rays. depth: of the recursion.
-void traceRays(std::size_t depth, const Rays& batch, Payloads& light, bool coherent) {
+void traceRays(std::size_t depth, const Rays& batch, Payloads& light) {
   if (levels[depth] == nullptr) levels[depth] = new Level;
   Level& level = *levels[depth];
-  intersect(batch, level.found, coherent);
+  intersect(batch, level.found);
   level.pendingCount = 0;
   forEachPacket(
       level.found,
@@ -161,7 +166,7 @@ void traceRays(std::size_t depth, const Rays& batch, Payloads& light, bool coher
       },
       [&](std::uint32_t kind, word ray) HWY_ATTR {
         PendingPacket& p = level.pending[level.pendingCount];
-        p.h = gatherHit(batch, level.found, ray);
+        ::new (&p.h) Hit(gatherHit(batch, level.found, ray));
         if (isSource(kind)) {
           loadExtra(p.h.material);
           storePayload(shadeSource(p.h, materialAt(p.h), kind), light, parked(ray));
@@ -194,7 +199,7 @@ void addSamples() {
     real cos2;
     real sin2;
     cameraFrameRotation(d, camera.up, cos2, sin2);
-    const Stokes s = rotateStokes(payloadStokes(loadPayload(primaryLight, pixel), d), cos2, sin2);
+    const Stokes s = rotateStokes(payloadStokes(loadPayload(primaryLight, at, true), d), cos2, sin2);
     for (std::size_t i = 0; i < 12; ++i) storeR(loadR(sums[i] + at) + getField(s, i), sums[i] + at);
   }
 }
@@ -211,7 +216,7 @@ void renderTile(const embree::TileInput& tile) {
   for (std::uint32_t j = 0; j < camera.samples; ++j)
     for (std::uint32_t i = 0; i < camera.samples; ++i) {
       cameraRays(tile, i, j, primary);
-      traceRays(0, primary, primaryLight, true);
+      traceRays(0, primary, primaryLight);
       addSamples();
     }
   for (std::uint32_t at = 0; at < primary.count; at += static_cast<std::uint32_t>(kLanes)) {

@@ -283,6 +283,19 @@ class Stock(unittest.TestCase):
         self.assertGreater(stock.check_bounds(self.image, self.mean, 4096)["violations"], 0)
 
 
+class Speed(unittest.TestCase):
+    def test_both_trace_the_same_rays_without_glass(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "speed.json"
+            done = subprocess.run([kTools / "compare", "--speed", "--scenes", "engine", "--width", "128", "--rounds", "1",
+                                   "--json", file], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("| engine |", done.stdout)
+            result = json.loads(file.read_text())["scenes"]["engine"]
+        self.assertAlmostEqual(result["mitsubaRays"] / result["rays"], 1, delta=0.05)
+        self.assertAlmostEqual(result["ratio"], result["millionRaysPerSecond"] / result["mitsubaMillionRaysPerSecond"])
+
+
 class Numbers(unittest.TestCase):
     def test_statistics_count_outliers(self):
         a = np.full((4, 4, 3, 4), 0.5)

@@ -13,7 +13,8 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-mi.set_variant("llvm_ad_mono_polarized")
+if mi.variant() is None:  # speed.py has chosen another
+    mi.set_variant("llvm_ad_mono_polarized")
 
 from environment import Environment  # noqa: E402  (needs the variant)
 

@@ -25,6 +25,19 @@ void addMethod(CLI::App& command, std::string& method) {
       ->capture_default_str();
 }
 
+void addBackends(CLI::App& command, std::vector<Backend>& backends, const char* description) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--backends",
+          [&backends](const std::vector<std::string>& names) {
+            backends.clear();
+            for (const std::string& name : names) backends.push_back(backendNamed(name));
+          },
+          description)
+      ->delimiter(',')
+      ->check(CLI::IsMember(methodBackendNames()));
+}
+
 void addDevice(CLI::App& command, std::string& device, unsigned& threads) {
   command.add_option("--threads", threads, "CPU threads; 0 for all")
       ->transform(wholeNumberBetween(0, 1024))

@@ -19,6 +19,8 @@ namespace malus::render {
 // --backend, --method, --device, --threads, --vulkan-path and --embree-path
 void addBackend(CLI::App& command, Backend& backend);
 void addMethod(CLI::App& command, std::string& method);
+// --backends: those that render by methods
+void addBackends(CLI::App& command, std::vector<Backend>& backends, const char* description);
 void addDevice(CLI::App& command, std::string& device, unsigned& threads);
 void addPaths(CLI::App& command, VulkanPath& vulkan, EmbreePath& embree);
 

@@ -74,9 +74,8 @@ void addBenchCommand(CLI::App& app) {
   addWidth(*command, a->job.width);
   addHeight(*command, a->job.height);
   addDepth(*command, a->job.depth);
-  command->add_option("--threads", a->settings.threads, "CPU threads; 0 for all")
-      ->transform(wholeNumberBetween(0, 1024))
-      ->capture_default_str();
+  addBackends(*command, a->settings.backends, "Renderers (default: embree)");
+  addDevice(*command, a->settings.device, a->settings.threads);
   command->add_option("--rounds", a->settings.rounds, "Repetitions; the least time counts")
       ->transform(wholeNumberBetween(1, 1000))
       ->capture_default_str();

@@ -1,5 +1,5 @@
-// malus bench rays PACK [--methods M,...] [--width N] [--height N] [--depth N] [--threads N] [--rounds N] [--json]
-//                       [--write-rays FILE]
+// malus bench rays PACK [--methods M,...] [--width N] [--height N] [--depth N] [--backends B,...] [--device D]
+//                       [--threads N] [--rounds N] [--json] [--write-rays FILE]
 //
 // --json prints what toJson (rays.h) describes. --write-rays writes the rays of the first method: the line
 // "malus-rays 1", then for each class the line "BOUNCE SHADOW COUNT" (SHADOW: 1 or 0) and 6 arrays of COUNT floats in
@@ -11,8 +11,8 @@
 
 namespace malus::render {
 
-// Adds the subcommand `bench`. Its callback throws malus::Error for packs that cannot be read and for rays that do not
-// fit into half of the memory.
+// Adds the subcommand `bench`. Its callback throws malus::Error for packs that cannot be read, rays that do not fit
+// into half of the memory, and Vulkan without a device.
 void addBenchCommand(CLI::App& app);
 
 }  // namespace malus::render

@@ -76,7 +76,8 @@ std::vector<RayFloor> RaySets::floors() const {
       const embree::RayCall& call = calls_[static_cast<std::size_t>(best - c.leastMs.begin())];
       std::vector<std::pair<std::string, double>> calls;
       for (std::size_t i = 0; i < calls_.size(); ++i) calls.emplace_back(calls_[i].name(), c.leastMs[i]);
-      floor.classes.push_back({c.kind, c.traced.size(), c.hits, call, *best, c.leastMs.front(), std::move(calls)});
+      floor.classes.push_back(
+          {c.kind, c.traced.size(), c.hits, call.name(), *best, c.leastMs.front(), std::move(calls)});
     }
   }
   return floors;

@@ -6,27 +6,13 @@
 #include <vector>
 
 #include "render/bench/rays.h"
+#include "render/embree/ray_replay.h"
 #include "render/embree/renderer.h"
 
 namespace malus::render {
 
 class RaySets {
  public:
-  // renderer must outlive the object. Rays are those of renders with parameters.
-  RaySets(embree::Renderer& renderer, const RenderParameters& parameters);
-
-  // Logs the rays of a method. Returns the index of its set: that of an earlier method if they are the same. Throws
-  // Error if the rays do not fit into half of the memory. Packets may trace a few rays more or less: a ray that meets
-  // an edge may meet either triangle.
-  std::size_t add(const std::string& method);
-
-  // Traces every class of every set once by every call.
-  void replayRound();
-
-  // Of the rounds so far, at least one.
-  std::vector<RayFloor> floors() const;
-
- private:
   struct Class {
     embree::RayClass kind;
     embree::RayArrays traced, sorted;
@@ -38,6 +24,23 @@ class RaySets {
     std::vector<Class> classes;
   };
 
+  // renderer must outlive the object. Rays are those of renders with parameters.
+  RaySets(embree::Renderer& renderer, const RenderParameters& parameters);
+
+  // Logs the rays of a method. Returns the index of its set: that of an earlier method if they are the same. Throws
+  // Error if the rays do not fit into half of the memory. Packets may trace a few rays more or less: a ray that meets
+  // an edge may meet either triangle.
+  std::size_t add(const std::string& method);
+
+  // Traces every class of every set once by every call.
+  void replayRound();
+
+  const std::vector<Set>& sets() const { return sets_; }
+
+  // Of the rounds so far, at least one.
+  std::vector<RayFloor> floors() const;
+
+ private:
   void requireMemory(std::uint64_t rays) const;
 
   embree::Renderer& renderer_;

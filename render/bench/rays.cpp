@@ -1,17 +1,25 @@
 #include "render/bench/rays.h"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "meshprep/base/console.h"
 #include "render/bench/ray_sets.h"
+#include "render/bench/vulkan_ray_sets.h"
 #include "render/embree/packets/packets.h"
 #include "render/embree/renderer.h"
+#include "render/make_renderer.h"
 
 namespace malus::render {
 
 namespace {
+
+bool has(const RaysBenchSettings& settings, Backend backend) {
+  return std::ranges::find(settings.backends, backend) != settings.backends.end();
+}
 
 template <class Value>
 auto sum(const RayFloor& floor, Value ClassFloor::*member) {
@@ -20,14 +28,34 @@ auto sum(const RayFloor& floor, Value ClassFloor::*member) {
   return total;
 }
 
+// The rows of a method, without times.
+void addRows(RaysBench& bench, const RaysBenchSettings& settings, const std::string& method, std::size_t floor,
+             const std::vector<VulkanPath>& vulkanPaths) {
+  if (has(settings, Backend::embree)) {
+    if (embree::hasPacketInstructions())
+      bench.rows.push_back({Backend::embree, method, embreePathName(EmbreePath::packet), floor, {}});
+    bench.rows.push_back({Backend::embree, method, embreePathName(EmbreePath::scalar), floor, {}});
+  }
+  for (const VulkanPath path : vulkanPaths)
+    bench.rows.push_back({Backend::vulkan, method, vulkanPathName(path), floor, {}});
+}
+
+RenderParameters withPath(RenderParameters parameters, const std::string& path) {
+  for (const EmbreePath p : {EmbreePath::packet, EmbreePath::scalar})
+    if (path == embreePathName(p)) parameters.embreePath = p;
+  for (const VulkanPath p : {VulkanPath::pipeline, VulkanPath::query})
+    if (path == vulkanPathName(p)) parameters.vulkanPath = p;
+  return parameters;
+}
+
 // Each round starts with another row, so that a drift of the machine's speed meets every row alike.
-void renderRows(embree::Renderer& renderer, const RenderParameters& parameters, RaysBench& bench, unsigned round) {
+void renderRows(embree::Renderer& embree, Renderer* vulkan, const RenderParameters& parameters, RaysBench& bench,
+                unsigned round) {
   for (std::size_t i = 0; i < bench.rows.size(); ++i) {
     BenchRow& row = bench.rows[(i + round) % bench.rows.size()];
-    RenderParameters own = parameters;
-    own.embreePath = row.path;
     console::progress(fmt::format("round {} of {}: {}", round + 1, bench.rounds, row.method));
-    row.samples.push_back(renderer.render(row.method, own).cost.traceMs);
+    Renderer& renderer = row.backend == Backend::vulkan ? *vulkan : embree;
+    row.samples.push_back(renderer.render(row.method, withPath(parameters, row.path)).cost.traceMs);
   }
 }
 
@@ -42,24 +70,32 @@ double BenchRow::totalMs() const { return std::ranges::min(samples); }
 RaysBench benchRays(const pack::Scene& scene, const RenderParameters& parameters, const RaysBenchSettings& settings) {
   embree::Renderer renderer(scene, settings.threads);
   RaySets sets(renderer, parameters);
+  std::unique_ptr<Renderer> vulkanRenderer;
+  if (has(settings, Backend::vulkan))
+    vulkanRenderer = makeRenderer(Backend::vulkan, scene, {settings.device, settings.threads});
   RaysBench bench;
   bench.scene = scene.name;
   bench.device = renderer.device();
   bench.width = parameters.width;
   bench.height = parameters.height;
   bench.rounds = settings.rounds;
-  for (const std::string& method : settings.methods) {
-    const std::size_t floor = sets.add(method);
-    if (embree::hasPacketInstructions()) bench.rows.push_back({method, EmbreePath::packet, floor, {}});
-    bench.rows.push_back({method, EmbreePath::scalar, floor, {}});
+  for (const std::string& method : settings.methods)
+    addRows(bench, settings, method, sets.add(method),
+            vulkanRenderer ? vulkanRenderer->vulkanPaths() : std::vector<VulkanPath>{});
+  std::optional<VulkanRaySets> vulkanSets;
+  if (vulkanRenderer) {
+    bench.vulkanDevice = vulkanRenderer->device();
+    vulkanSets.emplace(sets, scene, vulkan::Options{settings.device, settings.threads});
   }
   for (unsigned round = 0; round < settings.rounds; ++round) {
     console::progress(fmt::format("round {} of {}: rays alone", round + 1, settings.rounds));
-    sets.replayRound();
-    renderRows(renderer, parameters, bench, round);
+    if (has(settings, Backend::embree)) sets.replayRound();
+    if (vulkanSets) vulkanSets->replayRound();
+    renderRows(renderer, vulkanRenderer.get(), parameters, bench, round);
   }
   console::progressDone();
-  bench.floors = sets.floors();
+  if (has(settings, Backend::embree)) bench.floors = sets.floors();
+  if (vulkanSets) bench.vulkanFloors = vulkanSets->floors();
   return bench;
 }
 

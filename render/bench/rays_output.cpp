@@ -13,7 +13,7 @@ namespace malus::render {
 
 namespace {
 
-nlohmann::json classesJson(const RayFloor& floor) {
+nlohmann::json classesJson(const RayFloor& floor, bool isEmbree) {
   nlohmann::json list = nlohmann::json::array();
   for (const ClassFloor& c : floor.classes) {
     nlohmann::json calls = nlohmann::json::object();
@@ -22,25 +22,39 @@ nlohmann::json classesJson(const RayFloor& floor) {
                     {"shadow", c.kind.shadow},
                     {"rays", c.rays},
                     {"hits", c.hits},
-                    {"bestCall", c.bestCall.name()},
+                    {"bestCall", c.bestCall},
                     {"ms", c.ms},
-                    {"singleMs", c.singleMs},
                     {"calls", calls}});
+    if (isEmbree) list.back()["singleMs"] = c.singleMs;
   }
   return list;
 }
 
-std::string floorTable(const RayFloor& floor) {
-  std::string text = fmt::format("rays of {}\n", fmt::join(floor.methods, ", "));
-  text += fmt::format("  {:<14} {:>10} {:>7} {:<22} {:>8} {:>10}\n", "bounce", "rays", "met", "fastest call", "ms",
-                      "single ms");
+nlohmann::json floorJson(const RayFloor& floor, bool isEmbree) {
+  nlohmann::json json{{"methods", floor.methods}, {"floorMs", floor.ms()}, {"classes", classesJson(floor, isEmbree)}};
+  if (isEmbree) json["singleMs"] = floor.singleMs();
+  return json;
+}
+
+nlohmann::json vulkanJson(const RaysBench& bench) {
+  if (bench.vulkanDevice.empty()) return nullptr;
+  nlohmann::json floors = nlohmann::json::array();
+  for (const RayFloor& floor : bench.vulkanFloors) floors.push_back(floorJson(floor, false));
+  return {{"device", bench.vulkanDevice}, {"floors", floors}};
+}
+
+std::string floorTable(const RayFloor& floor, bool isEmbree) {
+  const auto single = [&](double ms) { return isEmbree ? fmt::format(" {:>10.2f}", ms) : ""; };
+  std::string text = fmt::format("rays of {}{}\n", fmt::join(floor.methods, ", "), isEmbree ? "" : ", Vulkan");
+  text += fmt::format("  {:<14} {:>10} {:>7} {:<22} {:>8}{}\n", "bounce", "rays", "met", "fastest call", "ms",
+                      isEmbree ? fmt::format(" {:>10}", "single ms") : "");
   for (const ClassFloor& c : floor.classes)
-    text += fmt::format("  {:<14} {:>10} {:>5.0f} % {:<22} {:>8.2f} {:>10.2f}\n",
+    text += fmt::format("  {:<14} {:>10} {:>5.0f} % {:<22} {:>8.2f}{}\n",
                         fmt::format("{}{}", c.kind.bounce, c.kind.shadow ? ", shadow" : ""), c.rays,
-                        100.0 * static_cast<double>(c.hits) / static_cast<double>(c.rays), c.bestCall.name(), c.ms,
-                        c.singleMs);
-  return text + fmt::format("  {:<14} {:>10} {:>7} {:<22} {:>8.2f} {:>10.2f}\n", "floor", floor.rays(), "", "",
-                            floor.ms(), floor.singleMs());
+                        100.0 * static_cast<double>(c.hits) / static_cast<double>(c.rays), c.bestCall, c.ms,
+                        single(c.singleMs));
+  return text + fmt::format("  {:<14} {:>10} {:>7} {:<22} {:>8.2f}{}\n", "floor", floor.rays(), "", "", floor.ms(),
+                            single(floor.singleMs()));
 }
 
 }  // namespace
@@ -48,33 +62,27 @@ std::string floorTable(const RayFloor& floor) {
 nlohmann::json toJson(const RaysBench& bench) {
   nlohmann::json rows = nlohmann::json::array();
   for (const BenchRow& row : bench.rows) {
-    const RayFloor& floor = bench.floors[row.floor];
-    rows.push_back({{"method", row.method},
-                    {"path", embreePathName(row.path)},
+    const RayFloor& floor = bench.floor(row);
+    rows.push_back({{"backend", backendInfo(row.backend).name},
+                    {"method", row.method},
+                    {"path", row.path},
                     {"rays", floor.rays()},
                     {"floorMs", floor.ms()},
                     {"totalMs", row.totalMs()},
                     {"medianMs", computeSpread(row.samples).median},
                     {"ratio", row.totalMs() / floor.ms()}});
   }
-  nlohmann::json others = nlohmann::json::array();
-  for (std::size_t i = 1; i < bench.floors.size(); ++i)
-    others.push_back({{"methods", bench.floors[i].methods},
-                      {"floorMs", bench.floors[i].ms()},
-                      {"singleMs", bench.floors[i].singleMs()},
-                      {"classes", classesJson(bench.floors[i])}});
-  return {{"scene", bench.scene},
-          {"device", bench.device},
-          {"machine", machineJson()},
-          {"date", currentDate()},
-          {"width", bench.width},
-          {"height", bench.height},
-          {"rounds", bench.rounds},
-          {"floorMs", bench.floors.front().ms()},
-          {"singleMs", bench.floors.front().singleMs()},
-          {"classes", classesJson(bench.floors.front())},
-          {"rows", rows},
-          {"otherFloors", others}};
+  nlohmann::json json{{"scene", bench.scene},   {"device", bench.device}, {"machine", machineJson()},
+                      {"date", currentDate()},  {"width", bench.width},   {"height", bench.height},
+                      {"rounds", bench.rounds}, {"rows", rows},           {"vulkan", vulkanJson(bench)}};
+  if (bench.floors.empty()) return json;
+  const RayFloor& first = bench.floors.front();
+  json["floorMs"] = first.ms();
+  json["singleMs"] = first.singleMs();
+  json["classes"] = classesJson(first, true);
+  nlohmann::json& others = json["otherFloors"] = nlohmann::json::array();
+  for (std::size_t i = 1; i < bench.floors.size(); ++i) others.push_back(floorJson(bench.floors[i], true));
+  return json;
 }
 
 std::string toTable(const RaysBench& bench) {
@@ -82,12 +90,16 @@ std::string toTable(const RaysBench& bench) {
   std::string text = fmt::format("{}, {} x {}, {}, {}\nleast times of {} rounds [ms]\n", printable(bench.scene),
                                  bench.width, bench.height, bench.device,
                                  cpu.is_string() ? printable(cpu.get<std::string>()) : "unknown CPU", bench.rounds);
-  for (const RayFloor& floor : bench.floors) text += floorTable(floor);
-  text += fmt::format("{:<16} {:<8} {:>8} {:>8} {:>8} {:>7}\n", "method", "path", "floor", "total", "median", "ratio");
+  if (!bench.vulkanDevice.empty()) text += fmt::format("Vulkan: {}\n", printable(bench.vulkanDevice));
+  for (const RayFloor& floor : bench.floors) text += floorTable(floor, true);
+  for (const RayFloor& floor : bench.vulkanFloors) text += floorTable(floor, false);
+  text += fmt::format("{:<8} {:<18} {:<8} {:>8} {:>8} {:>8} {:>7}\n", "renderer", "method", "path", "floor", "total",
+                      "median", "ratio");
   for (const BenchRow& row : bench.rows) {
-    const double floor = bench.floors[row.floor].ms();
-    text += fmt::format("{:<16} {:<8} {:>8.1f} {:>8.1f} {:>8.1f} {:>7.2f}\n", row.method, embreePathName(row.path),
-                        floor, row.totalMs(), computeSpread(row.samples).median, row.totalMs() / floor);
+    const double floor = bench.floor(row).ms();
+    text += fmt::format("{:<8} {:<18} {:<8} {:>8.1f} {:>8.1f} {:>8.1f} {:>7.2f}\n", backendInfo(row.backend).name,
+                        row.method, row.path, floor, row.totalMs(), computeSpread(row.samples).median,
+                        row.totalMs() / floor);
   }
   return text;
 }

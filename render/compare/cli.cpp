@@ -174,19 +174,6 @@ void runCompare(const Arguments& a) {
   if (!a.json) console::printLine("report: {}", (folder / "index.html").string());
 }
 
-void addBackends(CLI::App& command, std::vector<Backend>& backends) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--backends",
-          [&backends](const std::vector<std::string>& names) {
-            backends.clear();
-            for (const std::string& name : names) backends.push_back(backendNamed(name));
-          },
-          "Renderers (default: all that render by methods)")
-      ->delimiter(',')
-      ->check(CLI::IsMember(methodBackendNames()));
-}
-
 }  // namespace
 
 void addCompareCommand(CLI::App& app) {
@@ -199,7 +186,7 @@ void addCompareCommand(CLI::App& app) {
   command->add_option("--show", a->shown, "Print the results of several devices side by side, render nothing")
       ->type_name("FILE...");
   command->add_option("--methods", settings.methods, "Methods (default: all)")->delimiter(',')->transform(methodName());
-  addBackends(*command, settings.backends);
+  addBackends(*command, settings.backends, "Renderers (default: all that render by methods)");
   CLI::Option* width = addWidth(*command, settings.widths);
   CLI::Option* height = addHeight(*command, settings.heights);
   command->add_option("--scale", settings.scale, "Size relative to the pack's, along each side (default: 1)")

@@ -26,6 +26,11 @@ bool readsMaterialExtras(const Variant& variant) {
 
 bool isIterative(const Variant& variant) { return render::methodNamed(variant.method).isIterative; }
 
+const char* raygenPath(const Variant& variant) {
+  if (variant.replay != Replay::none) return "shaders/stages/replay.rgen";
+  return isIterative(variant) ? "shaders/stages/camera_path.rgen" : "shaders/stages/raygen.rgen";
+}
+
 }  // namespace
 
 bool has(const Variant& variant, Effect effect) { return (variant.effects & shaders::effectBit(effect)) != 0; }
@@ -64,12 +69,12 @@ std::string preamble(const Variant& variant) {
   if (variant.fourAnalysers) text += "#define MALUS_FOUR_ANALYSERS\n";
   if (variant.countRays) text += "#define MALUS_COUNT_RAYS\n";
   if (variant.checkNumerics) text += "#define MALUS_CHECK_NUMERICS\n";
+  if (variant.replay == Replay::shadow) text += "#define MALUS_REPLAY_SHADOWS\n";
   return text;
 }
 
 std::vector<StageSource> stageSources(const Variant& variant) {
-  std::vector<StageSource> sources = {
-      {isIterative(variant) ? "shaders/stages/camera_path.rgen" : "shaders/stages/raygen.rgen", Stage::raygen}};
+  std::vector<StageSource> sources = {{raygenPath(variant), Stage::raygen}};
   if (variant.tracing == Tracing::rayQueries) return sources;
   if (variant.tracing == Tracing::hitRecords) {
     sources.push_back({"shaders/stages/hit_record.rmiss", Stage::miss});

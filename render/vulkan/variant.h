@@ -21,12 +21,20 @@ enum class Tracing : std::uint8_t {
   rayQueries,  // the same by ray queries, without other shaders
 };
 
+// Shaders that trace recorded rays and do not shade (ray_replay.h).
+enum class Replay : std::uint8_t {
+  none,  // shaders that render
+  nearest,
+  shadow,
+};
+
 struct Variant {
   std::string method = "fresnel";
   std::uint32_t effects = shaders::kEveryEffect;  // bits of shaders::Effect
   bool fourAnalysers = false;                     // iterative: Stokes vectors, not only colours
   bool countRays = false;
   bool checkNumerics = false;
+  Replay replay = Replay::none;  // else method and effects do not matter
   Tracing tracing = Tracing::recursion;
   // Without recursion: entries of the stack, which are waiting paths of an iterative method (pathStackSize()) and
   // waiting surfaces of a recursive one. At least 1; with recursion 0.
@@ -54,7 +62,7 @@ struct StageSource {
 };
 // With recursion: ray generation, the environment's miss shader, the shadow's where the variant has shadows, and a
 // closest-hit shader for each gpu::SurfaceKind of the variant, in order. With hit records: ray generation, one miss and
-// one closest-hit shader. With ray queries: ray generation only.
+// one closest-hit shader. With ray queries, and to replay rays by them: ray generation only.
 std::vector<StageSource> stageSources(const Variant& variant);
 
 // Text of a shader file by its path; empty: no such file. "shaders/methods/selected.h" is the variant's method.

@@ -1,5 +1,9 @@
 // `malus bench rays`: what it prints, and the rays that it writes against a program that only traces them. Times are
 // printed for both and not judged.
+#include <algorithm>
+#include <set>
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/command.h"
@@ -68,6 +72,37 @@ TEST_F(Bench, AnotherProgramFindsTheSameHits) {
   std::printf("single rays: bench %.3f ms, ray_floor %.3f ms\n", single, expectedSingle);
 }
 
+TEST_F(Bench, TracesTheSameRaysByVulkan) {
+  const Finished done = malus({"bench", "rays", folder_ / "tiny.pack", "--methods", "fresnel,importance", "--backends",
+                               "embree,vulkan", "--device", "llvmpipe", "--width", "32", "--rounds", "2", "--json"});
+  ASSERT_EQ(done.exitCode, 0) << done.err;
+  const json bench = json::parse(done.out);
+  const json& floor = bench.at("vulkan").at("floors").front();
+  EXPECT_TRUE(contains(bench.at("vulkan").at("device"), "llvmpipe"));
+  ASSERT_EQ(floor.at("classes").size(), bench.at("classes").size());
+  double sum = 0;
+  for (std::size_t i = 0; i < floor.at("classes").size(); ++i) {
+    const json &found = floor.at("classes")[i], &expected = bench.at("classes")[i];
+    for (const char* key : {"depth", "shadow", "rays"}) EXPECT_EQ(found.at(key), expected.at(key)) << key;
+    EXPECT_NEAR(found.at("hits").get<double>(), expected.at("hits").get<double>(), 2);  // edges
+    EXPECT_EQ(found.at("calls").size(), 2u);
+    EXPECT_EQ(found.at("ms"), std::min(found.at("calls").at("query"), found.at("calls").at("pipeline")));
+    sum += found.at("ms").get<double>();
+  }
+  EXPECT_NEAR(floor.at("floorMs").get<double>(), sum, 1e-9);
+  std::set<std::string> rows;
+  for (const json& row : bench.at("rows")) {
+    rows.insert(row.at("backend").get<std::string>() + " " + row.at("path").get<std::string>());
+    EXPECT_GT(row.at("ratio").get<double>(), 0);
+  }
+  for (const char* row : {"embree scalar", "vulkan pipeline", "vulkan query"}) EXPECT_TRUE(rows.contains(row)) << row;
+  const Finished alone = malus({"bench", "rays", folder_ / "tiny.pack", "--methods", "fresnel", "--backends", "vulkan",
+                                "--device", "llvmpipe", "--width", "8", "--rounds", "1", "--json"});
+  const json vulkanOnly = json::parse(alone.out);
+  EXPECT_FALSE(vulkanOnly.contains("floorMs"));
+  for (const json& row : vulkanOnly.at("rows")) EXPECT_EQ(row.at("backend"), "vulkan");
+}
+
 TEST_F(Bench, RefusesBadInput) {
   EXPECT_EQ(malus({"bench"}).exitCode, 2);
   const Finished unknown = malus({"bench", "ray", folder_ / "tiny.pack"});
@@ -77,6 +112,7 @@ TEST_F(Bench, RefusesBadInput) {
   EXPECT_EQ(option.exitCode, 2);
   EXPECT_TRUE(contains(option.err, "'--round'", "'--rounds'")) << option.err;
   EXPECT_EQ(malus({"bench", "rays", folder_ / "tiny.pack", "--rounds", "0"}).exitCode, 2);
+  EXPECT_EQ(malus({"bench", "rays", folder_ / "tiny.pack", "--backends", "reference"}).exitCode, 2);
   EXPECT_EQ(malus({"bench", "rays", folder_ / "tiny.pack", "--write-rays", folder_ / "tiny.pack"}).exitCode, 2);
   expectRefusal(malus({"bench", "rays", folder_ / "none.pack"}), "none.pack");
 }

@@ -78,7 +78,7 @@ TEST_F(Bench, TracesTheSameRaysByVulkan) {
   ASSERT_EQ(done.exitCode, 0) << done.err;
   const json bench = json::parse(done.out);
   const json& floor = bench.at("vulkan").at("floors").front();
-  EXPECT_TRUE(contains(bench.at("vulkan").at("device"), "llvmpipe"));
+  EXPECT_TRUE(contains(bench.at("vulkan").at("device").get<std::string>(), "llvmpipe"));
   ASSERT_EQ(floor.at("classes").size(), bench.at("classes").size());
   double sum = 0;
   for (std::size_t i = 0; i < floor.at("classes").size(); ++i) {

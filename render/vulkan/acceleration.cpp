@@ -1,5 +1,9 @@
 #include "render/vulkan/acceleration.h"
 
+#include <algorithm>
+#include <span>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
@@ -29,34 +33,15 @@ const char* levelName(VkAccelerationStructureTypeKHR type) {
   return type == VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR ? "top-level structure" : "bottom-level structure";
 }
 
-}  // namespace
-
-Acceleration::Acceleration(const Device& device, const render::RenderScene& scene, const Buffer& positions,
-                           const Buffer& triangles)
-    : bottoms_(buildBottoms(device, scene, positions, triangles)), top_(buildTop(device, scene, bottoms_)) {}
-
-VkDeviceSize Acceleration::bottomBytes() const {
-  VkDeviceSize bytes = 0;
-  for (const Level& bottom : bottoms_) bytes += bottom.storage.sizeBytes();
-  return bytes;
-}
-
-std::vector<Acceleration::Level> Acceleration::buildBottoms(const Device& device, const render::RenderScene& scene,
-                                                            const Buffer& positions, const Buffer& triangles) {
-  requireCounts(device, scene);
-  std::vector<Level> bottoms;
-  for (const render::MeshRun& run : render::findMeshRuns(scene))
-    bottoms.push_back(buildBottom(device, scene, run, positions, triangles));
-  return bottoms;
-}
+// Bytes of bottom-level structures that are built before they are compacted. Bounds the memory for those that are not
+// compacted yet.
+constexpr VkDeviceSize kBatchBytes = VkDeviceSize{1} << 28;
 
 // One opaque geometry per mesh, in the order of the meshes: gl_InstanceCustomIndexEXT + gl_GeometryIndexEXT is the
-// index of the mesh and of its hit record.
-Acceleration::Level Acceleration::buildBottom(const Device& device, const render::RenderScene& scene,
-                                              const render::MeshRun& run, const Buffer& positions,
-                                              const Buffer& triangles) {
-  std::vector<VkAccelerationStructureGeometryKHR> geometries;
-  std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
+// index of the mesh and of its hit record. Both sides of a triangle are hit: rays leave glass through the back.
+void addGeometries(const render::RenderScene& scene, const render::MeshRun& run, const Buffer& positions,
+                   const Buffer& triangles, std::vector<VkAccelerationStructureGeometryKHR>& geometries,
+                   std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges) {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {
     VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
     geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
@@ -72,7 +57,86 @@ Acceleration::Level Acceleration::buildBottom(const Device& device, const render
     geometries.push_back(geometry);
     ranges.push_back({scene.meshTriangles[i], 0, 0, 0});
   }
-  return compact(device, build(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometries, ranges));
+}
+
+// Orders two builds or copies of structures: they share scratch memory, or one reads what the other writes.
+void recordBarrier(VkCommandBuffer commands) {
+  constexpr VkAccessFlags kAccess =
+      VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR | VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR;
+  const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, kAccess, kAccess};
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
+                       VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+}  // namespace
+
+// A structure that is about to be built. Info refers to the geometries.
+struct Acceleration::Build {
+  Build(const Device& device, VkAccelerationStructureTypeKHR type,
+        std::vector<VkAccelerationStructureGeometryKHR> itsGeometries,
+        std::vector<VkAccelerationStructureBuildRangeInfoKHR> itsRanges);
+
+  std::vector<VkAccelerationStructureGeometryKHR> geometries;
+  std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;  // of the primitives of each geometry
+  VkAccelerationStructureBuildGeometryInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
+  VkDeviceSize scratchBytes = 0;
+  Level level;
+};
+
+Acceleration::Build::Build(const Device& device, VkAccelerationStructureTypeKHR type,
+                           std::vector<VkAccelerationStructureGeometryKHR> itsGeometries,
+                           std::vector<VkAccelerationStructureBuildRangeInfoKHR> itsRanges)
+    : geometries(std::move(itsGeometries)), ranges(std::move(itsRanges)) {
+  info.type = type;
+  info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+  if (type == VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR)
+    info.flags |= VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR;
+  info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
+  info.geometryCount = static_cast<std::uint32_t>(geometries.size());
+  info.pGeometries = geometries.data();
+  std::vector<std::uint32_t> counts;
+  counts.reserve(ranges.size());
+  for (const auto& range : ranges) counts.push_back(range.primitiveCount);
+  VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
+  device.functions().getAccelerationStructureBuildSizes(device.get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
+                                                        &info, counts.data(), &sizes);
+  scratchBytes = sizes.buildScratchSize;
+  level = makeLevel(device, type, sizes.accelerationStructureSize);
+  info.dstAccelerationStructure = level.structure.get();
+}
+
+Acceleration::Acceleration(const Device& device, const render::RenderScene& scene, const Buffer& positions,
+                           const Buffer& triangles)
+    : bottoms_(buildBottoms(device, scene, positions, triangles)), top_(buildTop(device, scene, bottoms_)) {}
+
+VkDeviceSize Acceleration::bottomBytes() const {
+  VkDeviceSize bytes = 0;
+  for (const Level& bottom : bottoms_) bytes += bottom.storage.sizeBytes();
+  return bytes;
+}
+
+std::vector<Acceleration::Level> Acceleration::buildBottoms(const Device& device, const render::RenderScene& scene,
+                                                            const Buffer& positions, const Buffer& triangles) {
+  requireCounts(device, scene);
+  std::vector<Level> bottoms;
+  std::vector<Build> batch;
+  VkDeviceSize bytes = 0;
+  const auto finishBatch = [&] {
+    for (Level& level : compact(device, buildAll(device, batch))) bottoms.push_back(std::move(level));
+    batch.clear();
+    bytes = 0;
+  };
+  for (const render::MeshRun& run : render::findMeshRuns(scene)) {
+    std::vector<VkAccelerationStructureGeometryKHR> geometries;
+    std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
+    addGeometries(scene, run, positions, triangles, geometries, ranges);
+    batch.emplace_back(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, std::move(geometries),
+                       std::move(ranges));
+    bytes += batch.back().level.storage.sizeBytes();
+    if (bytes > kBatchBytes) finishBatch();
+  }
+  if (!batch.empty()) finishBatch();
+  return bottoms;
 }
 
 // An instance per run of meshes, at their origin.
@@ -95,15 +159,21 @@ Acceleration::Level Acceleration::buildTop(const Device& device, const render::R
         device.functions().getAccelerationStructureDeviceAddress(device.get(), &addressInfo);
     list.push_back(instance);
   }
-  const Buffer instances = upload(
-      device, "instances of the scene", std::as_bytes(std::span(list)),
-      VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR);
+  // Read once, by the build: not worth a copy to device-local memory.
+  const std::span bytes = std::as_bytes(std::span(list));
+  Buffer instances(
+      device, "instances of the scene", bytes.size(),
+      VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR,
+      kSharedMemory);
+  if (!bytes.empty()) instances.write(bytes);
   VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
   geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
   geometry.geometry.instances = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR};
   geometry.geometry.instances.data.deviceAddress = instances.address();
-  return build(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, {geometry},
-               {{static_cast<std::uint32_t>(list.size()), 0, 0, 0}});
+  const VkAccelerationStructureBuildRangeInfoKHR range{static_cast<std::uint32_t>(list.size()), 0, 0, 0};
+  std::vector<Build> build;
+  build.emplace_back(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, std::vector{geometry}, std::vector{range});
+  return std::move(buildAll(device, build).levels.front());
 }
 
 Acceleration::Level Acceleration::makeLevel(const Device& device, VkAccelerationStructureTypeKHR type,
@@ -123,63 +193,69 @@ Acceleration::Level Acceleration::makeLevel(const Device& device, VkAcceleration
   return result;
 }
 
-Acceleration::Level Acceleration::compact(const Device& device, Level level) {
+Acceleration::Built Acceleration::buildAll(const Device& device, std::vector<Build>& builds) {
   constexpr VkQueryType kQuery = VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR;
-  VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-  info.queryType = kQuery;
-  info.queryCount = 1;
-  const Owned<VkQueryPool> pool =
-      create(device.get(), vkCreateQueryPool, info, vkDestroyQueryPool, "vkCreateQueryPool (compacted size)");
-  const VkAccelerationStructureKHR built = level.structure.get();
-  device.submit("compacted size", [&](VkCommandBuffer commands) {
-    vkCmdResetQueryPool(commands, pool.get(), 0, 1);
-    device.functions().cmdWriteAccelerationStructuresProperties(commands, 1, &built, kQuery, pool.get(), 0);
+  const VkAccelerationStructureTypeKHR type = builds.front().info.type;
+  const bool compacts = type == VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
+  const auto count = static_cast<std::uint32_t>(builds.size());
+  Built result;
+  if (compacts) {
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = kQuery;
+    info.queryCount = count;
+    result.sizes =
+        create(device.get(), vkCreateQueryPool, info, vkDestroyQueryPool, "vkCreateQueryPool (compacted size)");
+  }
+  // Structures are built one after another in the same scratch memory.
+  const VkDeviceSize alignment = device.capabilities().minAccelerationStructureScratchOffsetAlignment;
+  const VkDeviceSize bytes = std::ranges::max_element(builds, {}, &Build::scratchBytes)->scratchBytes;
+  const Buffer scratch(device, fmt::format("scratch of the {}", levelName(type)), bytes + alignment,
+                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, kDeviceMemory);
+  const VkDeviceAddress address = (scratch.address() + alignment - 1) / alignment * alignment;
+  std::vector<VkAccelerationStructureKHR> handles;
+  for (const Build& build : builds) handles.push_back(build.level.structure.get());
+  device.submit(fmt::format("build of the {}", levelName(type)), [&](VkCommandBuffer commands) {
+    if (compacts) vkCmdResetQueryPool(commands, result.sizes.get(), 0, count);
+    for (Build& build : builds) {
+      build.info.scratchData.deviceAddress = address;
+      const VkAccelerationStructureBuildRangeInfoKHR* const first = build.ranges.data();
+      device.functions().cmdBuildAccelerationStructures(commands, 1, &build.info, &first);
+      recordBarrier(commands);
+    }
+    if (compacts)
+      device.functions().cmdWriteAccelerationStructuresProperties(commands, count, handles.data(), kQuery,
+                                                                  result.sizes.get(), 0);
   });
-  VkDeviceSize bytes = 0;
-  check(vkGetQueryPoolResults(device.get(), pool.get(), 0, 1, sizeof bytes, &bytes, sizeof bytes,
-                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-        "vkGetQueryPoolResults (compacted size)");
-  if (bytes == 0 || bytes >= level.storage.sizeBytes()) return level;
-
-  Level result = makeLevel(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, bytes);
-  VkCopyAccelerationStructureInfoKHR copy{VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR};
-  copy.src = built;
-  copy.dst = result.structure.get();
-  copy.mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR;
-  device.submit("compaction",
-                [&](VkCommandBuffer commands) { device.functions().cmdCopyAccelerationStructure(commands, &copy); });
+  for (Build& build : builds) result.levels.push_back(std::move(build.level));
   return result;
 }
 
-Acceleration::Level Acceleration::build(const Device& device, VkAccelerationStructureTypeKHR type,
-                                        const std::vector<VkAccelerationStructureGeometryKHR>& geometries,
-                                        const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges) {
-  VkAccelerationStructureBuildGeometryInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
-  info.type = type;
-  info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
-  if (type == VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR)
-    info.flags |= VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR;
-  info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
-  info.geometryCount = static_cast<std::uint32_t>(geometries.size());
-  info.pGeometries = geometries.data();
-  std::vector<std::uint32_t> counts;
-  counts.reserve(ranges.size());
-  for (const auto& range : ranges) counts.push_back(range.primitiveCount);
-  VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-  device.functions().getAccelerationStructureBuildSizes(device.get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
-                                                        &info, counts.data(), &sizes);
-
-  Level result = makeLevel(device, type, sizes.accelerationStructureSize);
-  const VkDeviceSize alignment = device.capabilities().minAccelerationStructureScratchOffsetAlignment;
-  const Buffer scratch(device, fmt::format("scratch of the {}", levelName(type)), sizes.buildScratchSize + alignment,
-                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, kDeviceMemory);
-  info.dstAccelerationStructure = result.structure.get();
-  info.scratchData.deviceAddress = (scratch.address() + alignment - 1) / alignment * alignment;
-  const VkAccelerationStructureBuildRangeInfoKHR* const first = ranges.data();
-  device.submit(fmt::format("build of the {}", levelName(type)), [&](VkCommandBuffer commands) {
-    device.functions().cmdBuildAccelerationStructures(commands, 1, &info, &first);
+std::vector<Acceleration::Level> Acceleration::compact(const Device& device, Built built) {
+  struct Compaction {
+    std::size_t index;
+    Level level;
+  };
+  std::vector<Compaction> compactions;
+  for (std::uint32_t i = 0; i < built.levels.size(); ++i) {
+    VkDeviceSize bytes = 0;
+    check(vkGetQueryPoolResults(device.get(), built.sizes.get(), i, 1, sizeof bytes, &bytes, sizeof bytes,
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "vkGetQueryPoolResults (compacted size)");
+    if (bytes > 0 && bytes < built.levels[i].storage.sizeBytes())
+      compactions.push_back({i, makeLevel(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, bytes)});
+  }
+  if (compactions.empty()) return std::move(built.levels);
+  device.submit("compaction", [&](VkCommandBuffer commands) {
+    for (const Compaction& c : compactions) {
+      VkCopyAccelerationStructureInfoKHR copy{VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR};
+      copy.src = built.levels[c.index].structure.get();
+      copy.dst = c.level.structure.get();
+      copy.mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR;
+      device.functions().cmdCopyAccelerationStructure(commands, &copy);
+    }
   });
-  return result;
+  for (Compaction& c : compactions) built.levels[c.index] = std::move(c.level);
+  return std::move(built.levels);
 }
 
 }  // namespace malus::vulkan

@@ -24,15 +24,16 @@ class Acceleration {
     Buffer storage;
     Owned<VkAccelerationStructureKHR> structure;  // destroyed before its storage
   };
-  // geometries: with ranges[i] primitives in geometries[i].
-  static Level build(const Device& device, VkAccelerationStructureTypeKHR type,
-                     const std::vector<VkAccelerationStructureGeometryKHR>& geometries,
-                     const std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges);
+  struct Build;
+  struct Built {
+    std::vector<Level> levels;
+    Owned<VkQueryPool> sizes;  // compacted size of each bottom level
+  };
   static Level makeLevel(const Device& device, VkAccelerationStructureTypeKHR type, VkDeviceSize bytes);
-  // The level in a buffer without unused memory.
-  static Level compact(const Device& device, Level level);
-  static Level buildBottom(const Device& device, const render::RenderScene& scene, const render::MeshRun& run,
-                           const Buffer& positions, const Buffer& triangles);
+  // Builds structures of one type by one submission. Takes their levels.
+  static Built buildAll(const Device& device, std::vector<Build>& builds);
+  // The levels in buffers without unused memory, copied by one submission.
+  static std::vector<Level> compact(const Device& device, Built built);
   static std::vector<Level> buildBottoms(const Device& device, const render::RenderScene& scene,
                                          const Buffer& positions, const Buffer& triangles);
   static Level buildTop(const Device& device, const render::RenderScene& scene, const std::vector<Level>& bottoms);

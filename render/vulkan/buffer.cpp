@@ -32,11 +32,11 @@ VkDeviceAddress Buffer::address() const {
   return device_->functions().getBufferDeviceAddress(device_->get(), &info);
 }
 
-void Buffer::write(std::span<const std::byte> bytes) {
-  assert(bytes.size() <= sizeBytes_);
+void Buffer::write(std::span<const std::byte> bytes, VkDeviceSize offset) {
+  assert(offset + bytes.size() <= sizeBytes_);
   void* to = nullptr;
   check(vkMapMemory(device_->get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &to), "vkMapMemory");
-  std::memcpy(to, bytes.data(), bytes.size());
+  std::memcpy(static_cast<std::byte*>(to) + offset, bytes.data(), bytes.size());
   vkUnmapMemory(device_->get(), memory_.get());
 }
 
@@ -46,29 +46,6 @@ void Buffer::read(std::span<std::byte> bytes) const {
   check(vkMapMemory(device_->get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &from), "vkMapMemory");
   std::memcpy(bytes.data(), from, bytes.size());
   vkUnmapMemory(device_->get(), memory_.get());
-}
-
-void copyToBuffer(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
-                  const Buffer& destination) {
-  if (bytes.empty()) return;
-  const std::string step = fmt::format("upload of {}", purpose);
-  Buffer staging(device, step, std::min<VkDeviceSize>(bytes.size(), kUploadBytes), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                 kUploadMemory);
-  for (std::size_t at = 0; at < bytes.size(); at += kUploadBytes) {
-    const std::size_t count = std::min<std::size_t>(bytes.size() - at, kUploadBytes);
-    staging.write(bytes.subspan(at, count));
-    device.submit(step, [&](VkCommandBuffer commands) {
-      const VkBufferCopy copy{0, at, count};
-      vkCmdCopyBuffer(commands, staging.get(), destination.get(), 1, &copy);
-    });
-  }
-}
-
-Buffer upload(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
-              VkBufferUsageFlags usage) {
-  Buffer result(device, purpose, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kDeviceMemory);
-  copyToBuffer(device, purpose, bytes, result);
-  return result;
 }
 
 }  // namespace malus::vulkan

@@ -9,9 +9,6 @@
 
 namespace malus::vulkan {
 
-// Most bytes of the host-visible memory of an upload. Larger arrays are copied in parts.
-inline constexpr VkDeviceSize kUploadBytes = VkDeviceSize{1} << 24;
-
 class Buffer {
  public:
   Buffer() = default;
@@ -24,8 +21,8 @@ class Buffer {
   VkDeviceSize sizeBytes() const { return sizeBytes_; }
   // Needs VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
   VkDeviceAddress address() const;
-  // Both need host-visible memory, and at most sizeBytes() bytes. Throw Error.
-  void write(std::span<const std::byte> bytes);
+  // Both need host-visible memory and access at most sizeBytes() bytes. offset: where the bytes begin. Throw Error.
+  void write(std::span<const std::byte> bytes, VkDeviceSize offset = 0);
   void read(std::span<std::byte> bytes) const;
 
  private:
@@ -34,14 +31,5 @@ class Buffer {
   Owned<VkBuffer> buffer_;  // destroyed before its memory
   VkDeviceSize sizeBytes_ = 0;
 };
-
-// Copies bytes into a buffer with VK_BUFFER_USAGE_TRANSFER_DST_BIT through a host-visible buffer of at most
-// kUploadBytes, and waits. Throws Error.
-void copyToBuffer(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
-                  const Buffer& destination);
-
-// Makes a device-local buffer with these contents. Throws Error.
-Buffer upload(const Device& device, std::string_view purpose, std::span<const std::byte> bytes,
-              VkBufferUsageFlags usage);
 
 }  // namespace malus::vulkan

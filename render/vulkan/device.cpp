@@ -10,32 +10,6 @@
 
 namespace malus::vulkan {
 
-namespace {
-
-// A command buffer for one submission.
-class Commands {
- public:
-  Commands(VkDevice device, VkCommandPool pool, std::string_view purpose) : device_(device), pool_(pool) {
-    VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    info.commandPool = pool;
-    info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    info.commandBufferCount = 1;
-    check(vkAllocateCommandBuffers(device, &info, &commands_), fmt::format("vkAllocateCommandBuffers ({})", purpose));
-  }
-  ~Commands() { vkFreeCommandBuffers(device_, pool_, 1, &commands_); }
-  Commands(const Commands&) = delete;
-  Commands& operator=(const Commands&) = delete;
-
-  const VkCommandBuffer& get() const { return commands_; }
-
- private:
-  VkDevice device_;
-  VkCommandPool pool_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
-};
-
-}  // namespace
-
 Device::Device(const Instance& instance, const std::string& wanted, bool statistics)
     : physical_(choosePhysicalDevice(instance, wanted)) {
   createDevice(statistics && capabilities().pipelineExecutableInfo);
@@ -43,6 +17,11 @@ Device::Device(const Instance& instance, const std::string& wanted, bool statist
   VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
   pool.queueFamilyIndex = capabilities().queueFamily;
   pool_ = create(get(), vkCreateCommandPool, pool, vkDestroyCommandPool, "vkCreateCommandPool");
+  VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+  commands.commandPool = pool_.get();
+  commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  commands.commandBufferCount = 1;
+  check(vkAllocateCommandBuffers(get(), &commands, &commands_), "vkAllocateCommandBuffers");
 }
 
 void Device::createDevice(bool statistics) {
@@ -83,21 +62,22 @@ void Device::createDevice(bool statistics) {
 
 void Device::submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const {
   const auto step = [&](const char* function) { return fmt::format("{} ({})", function, purpose); };
-  const Commands commands(get(), pool_.get(), purpose);
+  // A submission that failed may have left the buffer in the recording state.
+  check(vkResetCommandPool(get(), pool_.get(), 0), step("vkResetCommandPool"));
   VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  check(vkBeginCommandBuffer(commands.get(), &begin), step("vkBeginCommandBuffer"));
-  record(commands.get());
+  check(vkBeginCommandBuffer(commands_, &begin), step("vkBeginCommandBuffer"));
+  record(commands_);
   // Waiting for the queue does not make writes of the device visible to the host, nor to later submissions.
   const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_MEMORY_WRITE_BIT,
                                 VK_ACCESS_HOST_READ_BIT | VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
-  vkCmdPipelineBarrier(commands.get(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+  vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                        VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
                        nullptr);
-  check(vkEndCommandBuffer(commands.get()), step("vkEndCommandBuffer"));
+  check(vkEndCommandBuffer(commands_), step("vkEndCommandBuffer"));
   VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
   submit.commandBufferCount = 1;
-  submit.pCommandBuffers = &commands.get();
+  submit.pCommandBuffers = &commands_;
   check(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), step("vkQueueSubmit"));
   check(vkQueueWaitIdle(queue_), step("vkQueueWaitIdle"));
 }

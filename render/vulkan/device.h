@@ -29,7 +29,7 @@ class Device {
   bool hasStatistics() const { return functions_.getPipelineExecutableStatistics != nullptr; }
 
   // Records commands, submits them and waits for their end. Their writes are visible to the host and to later
-  // submissions. purpose: for messages. Throws Error.
+  // submissions. purpose: for messages. Calls must not overlap. Throws Error.
   void submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const;
 
  private:
@@ -40,6 +40,7 @@ class Device {
   DeviceFunctions functions_;
   VkQueue queue_ = VK_NULL_HANDLE;
   Owned<VkCommandPool> pool_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;  // of every submission; freed with its pool
 };
 
 }  // namespace malus::vulkan

@@ -15,6 +15,7 @@
 #include "render/vulkan/shader_table.h"
 #include "render/vulkan/timestamps.h"
 #include "render/vulkan/tracing_choice.h"
+#include "render/vulkan/uploads.h"
 
 namespace malus::vulkan {
 

@@ -4,6 +4,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "render/vulkan/uploads.h"
+
 namespace malus::vulkan {
 
 namespace {
@@ -29,20 +31,33 @@ using glm::uvec3;
 }  // namespace elements
 
 template <typename T>
-Buffer uploadArray(const Device& device, std::string_view name, const std::vector<T>& values,
-                   VkBufferUsageFlags usage) {
+Buffer addArray(const Device& device, Uploads& uploads, std::string_view name, const std::vector<T>& values,
+                VkBufferUsageFlags usage) {
   requireBindable(device, name, values.size() * sizeof(T));
-  return upload(device, name, std::as_bytes(std::span(values)), usage);
+  return uploads.add(name, std::as_bytes(std::span(values)), usage);
+}
+
+VkDeviceSize totalBytes(const render::RenderScene& scene) {
+  VkDeviceSize bytes = 0;
+#define MALUS_ACCELERATION_STRUCTURE(number, name)
+#define MALUS_PIXEL_BUFFER(number, name, element)
+#define MALUS_SCENE_BUFFER(number, name, element, usage) bytes += std::span(scene.name).size_bytes();
+#define MALUS_HOST_BUFFER(number, name, type, access)
+#include "shaders/gpu/bindings.def"
+  return bytes;
 }
 
 }  // namespace
 
 SceneBuffers::SceneBuffers(const Device& device, const render::RenderScene& scene) {
+  Uploads uploads(device, "the scene", totalBytes(scene));
 #define MALUS_ACCELERATION_STRUCTURE(number, name)
 #define MALUS_PIXEL_BUFFER(number, name, element)
-#define MALUS_SCENE_BUFFER(number, name, element, usage) name = uploadArray(device, #name, scene.name, usages::usage);
+#define MALUS_SCENE_BUFFER(number, name, element, usage) \
+  name = addArray(device, uploads, #name, scene.name, usages::usage);
 #define MALUS_HOST_BUFFER(number, name, type, access)
 #include "shaders/gpu/bindings.def"
+  uploads.finish();
 }
 
 void SceneBuffers::bind(Bindings& bindings) const {

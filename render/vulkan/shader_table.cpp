@@ -4,6 +4,8 @@
 #include <cstring>
 #include <map>
 
+#include "render/vulkan/uploads.h"
+
 namespace malus::vulkan {
 
 namespace {

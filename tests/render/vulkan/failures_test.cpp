@@ -95,5 +95,45 @@ TEST(VulkanAcceleration, BottomLevelIsCompacted) {
   EXPECT_TRUE(calls.messages.empty());
 }
 
+// A scene is uploaded by one submission and its bottom levels are built by one, however many there are.
+TEST(VulkanSubmissions, SceneNeedsThree) {
+  for (const int squares : {1, 5}) {
+    pack::Scene scene = test::goldScene();
+    for (int i = 0; i < squares; ++i) {
+      const glm::dvec3 centre(i + 1, 0, -1);
+      test::addSquare(scene, 0, centre, {0, 0, 1}, 1);
+      scene.meshes.back().origin = centre;
+    }
+    test::watchVulkanCalls(0);
+    const Renderer renderer(scene, Options{});
+    EXPECT_EQ(test::vulkanCalls().submissions, 3u) << squares;
+    test::padStructures(4096);
+    test::watchVulkanCalls(0);
+    const Renderer compacted(scene, Options{});
+    test::padStructures(0);
+    EXPECT_EQ(test::vulkanCalls().compactions, squares + 1u);
+    EXPECT_EQ(test::vulkanCalls().submissions, 4u) << squares;
+  }
+}
+
+// An image as large as one before: a submission per launch, no new object, no change of descriptors.
+TEST(VulkanSubmissions, NextImageNeedsOneForEachLaunch) {
+  const pack::Scene scene = test::goldAndPaintScene();
+  Renderer renderer(scene, Options{});
+  const render::RenderParameters parameters = render::defaultParameters(scene);
+  for (const char* method : {"fresnel", "importance"}) {
+    const std::vector<float> expected = renderer.render(method, parameters).pixels;
+    test::watchVulkanCalls(0);
+    const render::RenderResult found = renderer.render(method, parameters);
+    const test::VulkanCalls calls = test::vulkanCalls();
+    EXPECT_EQ(found.pixels, expected);
+    EXPECT_EQ(found.cost.launches, 1u);
+    EXPECT_EQ(calls.submissions, found.cost.launches);
+    EXPECT_EQ(calls.descriptorWrites, 0u);
+    EXPECT_TRUE(calls.live.empty()) << calls.live.begin()->first;
+    EXPECT_TRUE(calls.allocations.empty());
+  }
+}
+
 }  // namespace
 }  // namespace malus::vulkan

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "meshprep/base/error.h"
-#include "render/vulkan/buffer.h"
+#include "render/vulkan/uploads.h"
 #include "tests/render/vulkan/vulkan_calls.h"
 
 namespace malus::vulkan {

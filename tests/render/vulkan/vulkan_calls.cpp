@@ -351,22 +351,8 @@ WATCHED VkResult VKAPI_CALL vkAllocateMemory(VkDevice device, const VkMemoryAllo
   return result;
 }
 
-WATCHED VkResult VKAPI_CALL vkAllocateCommandBuffers(VkDevice device, const VkCommandBufferAllocateInfo* info,
-                                                     VkCommandBuffer* buffers) {
-  if (fails("vkAllocateCommandBuffers")) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  const VkResult result =
-      loaderFunction<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers")(device, info, buffers);
-  if (result == VK_SUCCESS) count("vkAllocateCommandBuffers", static_cast<int>(info->commandBufferCount));
-  return result;
-}
-
-WATCHED void VKAPI_CALL vkFreeCommandBuffers(VkDevice device, VkCommandPool pool, std::uint32_t number,
-                                             const VkCommandBuffer* buffers) {
-  count("vkAllocateCommandBuffers", -static_cast<int>(number));
-  loaderFunction<PFN_vkFreeCommandBuffers>("vkFreeCommandBuffers")(device, pool, number, buffers);
-}
-
-// Calls that can fail and leave nothing to destroy. Descriptor sets are freed with their pool.
+// Calls that can fail and leave nothing to destroy. Descriptor sets and command buffers are freed with
+// their pool.
 #define WATCH_CALL(function, parameters, arguments)             \
   WATCHED VkResult VKAPI_CALL function parameters {             \
     if (fails(#function)) return VK_ERROR_OUT_OF_DEVICE_MEMORY; \
@@ -382,10 +368,30 @@ WATCH_CALL(vkMapMemory,
            (VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize bytes, VkMemoryMapFlags flags,
             void** data),
            (device, memory, offset, bytes, flags, data))
+WATCH_CALL(vkResetCommandPool, (VkDevice device, VkCommandPool pool, VkCommandPoolResetFlags flags),
+           (device, pool, flags))
 WATCH_CALL(vkBeginCommandBuffer, (VkCommandBuffer commands, const VkCommandBufferBeginInfo* info), (commands, info))
 WATCH_CALL(vkEndCommandBuffer, (VkCommandBuffer commands), (commands))
-WATCH_CALL(vkQueueSubmit, (VkQueue queue, std::uint32_t number, const VkSubmitInfo* infos, VkFence fence),
-           (queue, number, infos, fence))
+WATCH_CALL(vkAllocateCommandBuffers,
+           (VkDevice device, const VkCommandBufferAllocateInfo* info, VkCommandBuffer* buffers),
+           (device, info, buffers))
+WATCHED VkResult VKAPI_CALL vkQueueSubmit(VkQueue queue, std::uint32_t number, const VkSubmitInfo* infos,
+                                          VkFence fence) {
+  if (fails("vkQueueSubmit")) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  {
+    const std::lock_guard lock(state().mutex);
+    ++state().calls.submissions;
+  }
+  return loaderFunction<PFN_vkQueueSubmit>("vkQueueSubmit")(queue, number, infos, fence);
+}
+WATCHED void VKAPI_CALL vkUpdateDescriptorSets(VkDevice device, std::uint32_t writes, const VkWriteDescriptorSet* write,
+                                               std::uint32_t copies, const VkCopyDescriptorSet* copy) {
+  {
+    const std::lock_guard lock(state().mutex);
+    ++state().calls.descriptorWrites;
+  }
+  loaderFunction<PFN_vkUpdateDescriptorSets>("vkUpdateDescriptorSets")(device, writes, write, copies, copy);
+}
 WATCHED VkResult VKAPI_CALL vkGetQueryPoolResults(VkDevice device, VkQueryPool pool, std::uint32_t first,
                                                   std::uint32_t number, std::size_t bytes, void* data,
                                                   VkDeviceSize stride, VkQueryResultFlags flags) {

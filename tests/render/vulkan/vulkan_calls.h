@@ -39,6 +39,8 @@ struct VulkanCalls {
   std::vector<std::string> messages;             // of the validation layers
   std::vector<Allocation> allocations;           // those that succeeded
   std::uint64_t largestUpload = 0;               // bytes of the largest buffer that can only be copied from
+  std::size_t submissions = 0;                   // to queues
+  std::size_t descriptorWrites = 0;              // calls of vkUpdateDescriptorSets
   std::size_t compactions = 0;                   // copies of acceleration structures that compact
   std::vector<std::uint64_t> structureBytes;     // of acceleration structures, in the order of their creation
   std::vector<std::thread::id> pipelineThreads;  // of each pipeline

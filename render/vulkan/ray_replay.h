@@ -29,7 +29,7 @@ struct ReplayTime {
 
 class RayReplay {
  public:
-  // Builds the same acceleration structures as the renderer, with a device object of its own. scene is not needed
+  // Builds the same acceleration structures as the renderer, on a separate VkDevice. scene is not needed
   // afterwards. Throws Error as the renderer does.
   RayReplay(const pack::Scene& scene, const Options& options);
   ~RayReplay();

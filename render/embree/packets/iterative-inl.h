@@ -36,6 +36,10 @@ real threshold;                                // paths with a smaller throughpu
 
 Throughput loadThroughput(const Paths& paths, word path) {
   Throughput c;
+  if (isSuccessive(path)) {
+    for (std::size_t i = 0; i < kFields<Throughput>; ++i) setField(c, i, loadR(paths.throughput[i] + firstLane(path)));
+    return c;
+  }
   for (std::size_t i = 0; i < kFields<Throughput>; ++i) setField(c, i, gatherR(paths.throughput[i], path));
   return c;
 }

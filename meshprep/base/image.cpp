@@ -52,11 +52,9 @@ const FormatsModule& formatsModule(const fs::path& path) {
 
 // By the first bytes of the file.
 bool isExrOrPng(const fs::path& path) {
-  using std::string_view_literals::operator""sv;
   char start[8] = {};
   std::ifstream(path, std::ios::binary).read(start, sizeof start);
-  const std::string_view bytes(start, sizeof start);
-  return bytes.starts_with("v/1\1"sv) || bytes == "\x89PNG\r\n\x1a\n"sv;
+  return startsAsExrOrPng({start, sizeof start});
 }
 
 void checkResult(const fs::path& path, const char* problem, const std::string& message) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "meshprep/base/image.h"
@@ -30,6 +31,12 @@ struct GreyPixels {
   const std::uint16_t* values = nullptr;
   const char* description = "";
 };
+
+// Whether a file with these 8 first bytes is read by Module; FormatsModule never gets one.
+inline bool startsAsExrOrPng(std::string_view start) {
+  using std::string_view_literals::operator""sv;
+  return start.starts_with("v/1\1"sv) || start == "\x89PNG\r\n\x1a\n"sv;
+}
 
 struct Module {
   std::string (*read)(const std::string& path, Image& image);

@@ -1,4 +1,5 @@
 // Fuzzes the image reader of every format and the conversion to linear colours. An image that is read is complete.
+#include <algorithm>
 #include <cstdlib>
 
 #include "meshprep/base/error.h"
@@ -14,11 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   malus::image::Image image;
   // Formats are recognized by their contents, whatever the extension.
   const std::string file = writeTemporary(data, size, ".image");
-  // By EXR's and PNG's module, and if it refuses the file by the other one, which reads these formats too.
-  if (!malusImageModule()->read(file, image).empty()) {
-    image = {};
-    if (!malusFormatsModule()->read(file, image).empty()) return 0;
-  }
+  char start[8] = {};
+  std::copy_n(data, std::min(size, sizeof start), start);
+  const auto read =
+      malus::image::startsAsExrOrPng({start, sizeof start}) ? malusImageModule()->read : malusFormatsModule()->read;
+  if (!read(file, image).empty()) return 0;
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
   if (width == 0 || height == 0 || image.pixels.size() != width * height * image.channels.size()) std::abort();
   try {

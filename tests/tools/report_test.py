@@ -129,6 +129,31 @@ class Report(unittest.TestCase):
         del without["effects"]
         self.assertNotIn('id="effects"', self.page(without))
 
+    def test_scaling(self):
+        def point(size):
+            spread = {"low": 0.9 * size, "median": size, "high": 1.1 * size}
+            return {"size": size, "scene": "lights", "width": 8, "height": 8, "depth": 6, "rows":
+                    [{"method": m, "traceMs": spread, "buildMs": spread, "processMs": spread, "peakMiB": spread}
+                     for m in ("schlick", "stokes")]}
+        self.assertNotIn('id="scaling"', self.page())
+        scaling = {"device": "Embree <3>", "machine": {"cpu": "CPU", "threads": 2}, "date": "2026-01-31 12:30 UTC",
+                   "rounds": 5, "series": [{"name": "lights", "points": [point(1), point(4)]},
+                                           {"name": "layers", "points": [point(1), point(3)]}]}
+        file = self.folder / "scaling.json"
+        file.write_text(json.dumps(scaling))
+        page = self.page()
+        section = page[page.index('id="scaling"'):page.index('id="paper"')]
+        self.assertEqual(section.count("<svg"), 2)
+        for text in ("Embree &lt;3&gt; on CPU", "2026-01-31", "point lights", "panes of thin glass", "trace, stokes"):
+            self.assertIn(text, section)
+        del scaling["series"][1]["points"][1]["rows"][0]["peakMiB"]
+        for wrong, word in (("{", "JSON"), ("[]", "series"), (json.dumps(scaling), "peakMiB")):
+            file.write_text(wrong)
+            done = self.run_script(self.folder)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn("scaling.json", done.stderr)
+            self.assertIn(word, done.stderr)
+
     def run_script(self, *arguments):
         return subprocess.run([sys.executable, str(kScript), *map(str, arguments)], capture_output=True, text=True,
                               check=False)

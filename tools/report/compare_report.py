@@ -3,9 +3,9 @@
 
     compare_report.py FOLDER
 
-The page is self-contained: plots are SVG, images are data URIs, style and script are inline. Exit codes: 0 done,
-1 failed (one line on stderr), 2 usage. Debian packages: python3-matplotlib, python3-jinja2, python3-numpy,
-python3-openimageio.
+FOLDER/scaling.json, written by tools/scaling, is shown too if it is there. The page is self-contained: plots are SVG,
+images are data URIs, style and script are inline. Exit codes: 0 done, 1 failed (one line on stderr), 2 usage. Debian
+packages: python3-matplotlib, python3-jinja2, python3-numpy, python3-openimageio.
 """
 import pathlib
 import sys

@@ -18,6 +18,7 @@ from report_gpu import gpu_sections
 from report_images import ExrImage, jpeg, kHeroWidth, kImageWidth, kStokesWidth, packed_stokes, png, shrunk
 from report_paths import ratio_with_interval, without_recursion
 from report_plots import error_against_time
+from report_scaling import device_line, read_scaling, scaling_plots
 from report_terms import kTerms, term
 from report_words import first_sentence, second_sentence, short_recommendation, short_verdict
 
@@ -212,6 +213,7 @@ def page(folder: pathlib.Path, results: dict) -> str:
     devices = results.get("devices") or {}
     model = results.get("gpuModel") or []
     effects = results.get("effects") or []
+    scaling = read_scaling(folder / "scaling.json")
     return environment.get_template("index.html.j2").render(
         results=results, devices=devices, machine=results.get("machine") or {}, settings=results.get("settings") or {}, driver=results.get("driver") or {},
         scenes=[(name, results["scenes"][name], views) for name, views in scenes.items()],
@@ -219,6 +221,8 @@ def page(folder: pathlib.Path, results: dict) -> str:
                   for f in findings(groups, wrongs, added, devices, model, results["rows"])],
         effects=effects, reasons=replacement_reasons(effects), interval=ratio_interval,
         paths=results.get("paths") or [], ratio_with_interval=ratio_with_interval, without_recursion=without_recursion,
+        scaling_plots=[Markup(plot) for plot in scaling_plots(scaling)] if scaling else [],
+        scaling_device=device_line(scaling) if scaling else "",
         gpu=gpu_sections(model, results["rows"]), number=number, wheel=wheel(),
         dolp_gradient=gradient(mapped(numpy.linspace(0, 1, 32), "viridis")), least_dolp=kSignificantDoLP,
         image_width=kImageWidth, stokes_width=kStokesWidth,

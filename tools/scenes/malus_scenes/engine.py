@@ -140,31 +140,38 @@ are a few duplicate faces and faces without area, and oil filter and coil are in
 """
 
 
-def write(folder):
+MATERIALS = {
+    "case": {"type": "metal", "preset": "aluminium"},
+    "cylinders": {"type": "paint", "eta": 1.6, "albedo": [0.022, 0.022, 0.024]},
+    "chrome": {"type": "metal", "preset": "chromium"},
+    "aluminium": {"type": "metal", "preset": "aluminium"},
+    "copper": {"type": "metal", "preset": "copper"},
+    "black": {"type": "paint", "eta": 1.5, "albedo": 0.02},
+    "red": {"type": "paint", "eta": 1.5, "albedo": [0.42, 0.012, 0.016],
+            "highlight": {"exponent": 400, "strength": 1}},
+    "white": {"type": "lambert", "albedo": 0.8},
+    "glass": {"type": "glass", "preset": "bk7"},
+    "black-glass": {"type": "mirror-glass", "eta": 1.9},
+    "plinth": {"type": "mirror-glass", "preset": "bk7"},
+}
+SETTINGS = {
+    "name": "engine", "title": "A V-twin motorcycle engine", "origin": [0.0, 0.35, 0.0],
+    "camera": CAMERA,
+    "resolution": [2048, 2048], "depth": 8, "exposureEv": 0.0,
+    "environment": {"image": "studio.hdr", "scale": 1.0, "ambientIrradiance": 0.8},
+    "lights": [{"type": "point", "position": [-1.2, 2.2, 2.0], "intensity": [7.0, 6.8, 6.4]},
+               {"type": "point", "position": [1.8, 1.6, -0.9], "intensity": [3.5, 3.7, 4.2]}],
+}
+
+
+def counts():
+    """Returns the numbers of bolts, ticks and pipe pieces of `parts` with the expected vertices and triangles."""
     vertices, triangles = total(parts(20, 20, 20))
     spent = [20 * sum(kind) for kind in zip(BOLT, TICK, PIPE_PIECE)]
-    pieces = parts(*remainder(EXPECTED[0] - vertices + spent[0], EXPECTED[1] - triangles + spent[1]))
-    materials = {
-        "case": {"type": "metal", "preset": "aluminium"},
-        "cylinders": {"type": "paint", "eta": 1.6, "albedo": [0.022, 0.022, 0.024]},
-        "chrome": {"type": "metal", "preset": "chromium"},
-        "aluminium": {"type": "metal", "preset": "aluminium"},
-        "copper": {"type": "metal", "preset": "copper"},
-        "black": {"type": "paint", "eta": 1.5, "albedo": 0.02},
-        "red": {"type": "paint", "eta": 1.5, "albedo": [0.42, 0.012, 0.016],
-                "highlight": {"exponent": 400, "strength": 1}},
-        "white": {"type": "lambert", "albedo": 0.8},
-        "glass": {"type": "glass", "preset": "bk7"},
-        "black-glass": {"type": "mirror-glass", "eta": 1.9},
-        "plinth": {"type": "mirror-glass", "preset": "bk7"},
-    }
-    settings = {
-        "name": "engine", "title": "A V-twin motorcycle engine", "origin": [0.0, 0.35, 0.0],
-        "camera": CAMERA,
-        "resolution": [2048, 2048], "depth": 8, "exposureEv": 0.0,
-        "environment": {"image": "studio.hdr", "scale": 1.0, "ambientIrradiance": 0.8},
-        "lights": [{"type": "point", "position": [-1.2, 2.2, 2.0], "intensity": [7.0, 6.8, 6.4]},
-                   {"type": "point", "position": [1.8, 1.6, -0.9], "intensity": [3.5, 3.7, 4.2]}],
-    }
-    write_scene(folder, settings, materials, pieces, EXPECTED, sky(), README)
+    return remainder(EXPECTED[0] - vertices + spent[0], EXPECTED[1] - triangles + spent[1])
+
+
+def write(folder):
+    pieces = parts(*counts())
+    write_scene(folder, SETTINGS, MATERIALS, pieces, EXPECTED, sky(), README)
     return total(pieces)

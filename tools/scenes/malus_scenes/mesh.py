@@ -35,7 +35,10 @@ class Soup:
 
     def face(self, points):
         """Adds one polygon of points in metres. Corners that coincide on the grid are merged."""
-        corners = [grid(p) for p in points]
+        self.grid_face([grid(p) for p in points])
+
+    def grid_face(self, corners):
+        """Adds one polygon of grid points. Corners that coincide are merged."""
         kept = [c for i, c in enumerate(corners) if c != corners[i - 1]]
         if len(kept) >= 3:
             self.polygons.append(kept)
@@ -45,8 +48,12 @@ class Soup:
         if transform is None:
             self.polygons.extend(other.polygons)
             return self
+        moved = {}
         for polygon in other.polygons:
-            self.face([transform(tuple(c / UNITS_PER_METRE for c in corner)) for corner in polygon])
+            for corner in polygon:
+                if corner not in moved:
+                    moved[corner] = grid(transform(tuple(c / UNITS_PER_METRE for c in corner)))
+            self.grid_face([moved[corner] for corner in polygon])
         return self
 
     def moved(self, offset):

@@ -1,4 +1,5 @@
 """A scene on its way to disk: parts with their meshes, counted as `malus prep` counts, and scene.json."""
+import functools
 import json
 
 from .mesh import Soup, prepare
@@ -15,7 +16,10 @@ class Part:
         self.name, self.material, self.soup, self.format = name, material, soup, format
         self.flat, self.sheet, self.crease, self.instances = flat, sheet, crease, instances
         self.welded, self.blemishes = welded, blemishes
-        self.prepared = prepare(soup, flat, crease if crease is not None else 40.0, name)
+
+    @functools.cached_property
+    def prepared(self):
+        return prepare(self.soup, self.flat, self.crease if self.crease is not None else 40.0, self.name)
 
     @property
     def counts(self):
@@ -41,9 +45,12 @@ class Part:
 
     def write(self, folder, comment):
         """Writes the mesh file, blemishes included. Raises ValueError where they change the counts."""
-        soup = with_blemishes(self.soup, *self.blemishes) if any(self.blemishes) else Soup(self.soup.polygons)
-        if prepare(soup, self.flat, self.crease if self.crease is not None else 40.0).counts != self.prepared.counts:
-            raise ValueError(f"{self.name}: the blemishes change the counts")
+        soup = self.soup
+        if any(self.blemishes):
+            soup = with_blemishes(soup, *self.blemishes)
+            crease = self.crease if self.crease is not None else 40.0
+            if prepare(soup, self.flat, crease).counts != self.prepared.counts:
+                raise ValueError(f"{self.name}: the blemishes change the counts")
         write_mesh(folder / f"{self.name}.{self.format}", soup, self.welded, comment)
 
 
@@ -68,15 +75,20 @@ def total(parts):
     return tuple(sum(values) for values in zip((0, 0), *(part.counts for part in parts)))
 
 
-def write_scene(folder, settings, materials, parts, expected, sky=None, readme=""):
-    """Writes scene.json, meshes/, the environment (`sky`: rows of RGBE pixels) and README.md. Raises
-    ValueError unless all parts together have exactly the expected (vertices, triangles)."""
+def _check(name, materials, parts, expected):
     if total(parts) != expected:
-        raise ValueError(f"{settings['name']}: {total(parts)} vertices and triangles instead of {expected}")
+        raise ValueError(f"{name}: {total(parts)} vertices and triangles instead of {expected}")
     glass = {name for name, m in materials.items() if m["type"] == "glass"}
     for part in parts:
         if part.material in glass and part.open_edges:
             raise ValueError(f"{part.name}: a glass body with {part.open_edges} open edges")
+
+
+def write_scene(folder, settings, materials, parts, expected, sky=None, readme=""):
+    """Writes scene.json, meshes/, the environment (`sky`: rows of RGBE pixels) and README.md. Raises
+    ValueError unless all parts together have exactly the expected (vertices, triangles); None: unchecked."""
+    if expected is not None:
+        _check(settings["name"], materials, parts, expected)
 
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
     for old in (folder / "meshes").iterdir():

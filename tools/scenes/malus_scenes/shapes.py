@@ -2,10 +2,25 @@
 
 Sections of prisms and lofts are closed outlines in a plane; `n` is always a number of sides.
 """
+import contextlib
 import math
 
-from .mesh import Soup
+from .mesh import Soup, grid
 from .vectors import cross, unit
+
+_steps = 1
+
+
+@contextlib.contextmanager
+def finer(steps):
+    """Shapes made in this context have `steps` times as many sides, and as many pieces between two sections; their
+    number of triangles grows with steps squared. Quads and boxes stay unchanged."""
+    global _steps
+    before, _steps = _steps, steps
+    try:
+        yield
+    finally:
+        _steps = before
 
 
 def quad(a, b, c, d):
@@ -37,6 +52,8 @@ def strip(points, offset):
 def rounded_rectangle(width, height, radius, steps):
     """Function of an inset to an outline with quarter-circle corners of `steps` segments. The inset must
     stay below the radius."""
+    steps *= _steps
+
     def outline(inset):
         points = []
         for quarter, (sx, sy) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1))):
@@ -51,6 +68,8 @@ def rounded_rectangle(width, height, radius, steps):
 def belt(circles, n):
     """Function of an inset to the convex outline around circles (x, y, radius), like a belt: for each of
     n directions the point of the circle that reaches farthest."""
+    n *= _steps
+
     def outline(inset):
         points = []
         for i in range(n):
@@ -62,16 +81,28 @@ def belt(circles, n):
     return outline
 
 
+def _between(sections):
+    """The sections with those of `finer` between them, interpolated linearly."""
+    out = [sections[0]]
+    for low, high in zip(sections, sections[1:]):
+        for k in range(1, _steps):
+            t = k / _steps
+            out.append([tuple(a + (b - a) * t for a, b in zip(p, q)) for p, q in zip(low, high)])
+        out.append(high)
+    return out
+
+
 def loft(sections, cap_first=True, cap_last=True):
     """A skin through closed sections (lists of 3D points, equally many, counter-clockwise seen from the
     last section). Caps are convex polygons."""
     soup = Soup()
-    for low, high in zip(sections, sections[1:]):
+    rings = [[grid(p) for p in section] for section in _between(sections)]
+    for low, high in zip(rings, rings[1:]):
         n = len(low)
         for i in range(n):
             j = (i + 1) % n
-            soup.face([low[i], low[j], high[j]])
-            soup.face([low[i], high[j], high[i]])
+            soup.grid_face([low[i], low[j], high[j]])
+            soup.grid_face([low[i], high[j], high[i]])
     if cap_first:
         soup.face(list(reversed(sections[0])))
     if cap_last:
@@ -87,6 +118,7 @@ def slab(outline, levels, cap_first=True, cap_last=True):
 def lathe(profile, n, phase=0.0):
     """Turned about +y: profile is a list of (radius, y), outside on its right when y grows. A radius of 0
     closes that end; a profile whose first point is its last is a ring."""
+    n *= _steps
     rings = []
     for radius, y in profile:
         if radius == 0.0:
@@ -100,6 +132,7 @@ def lathe(profile, n, phase=0.0):
 def tube(path, radius, n, cap_first=True, cap_last=True):
     """A round tube along a polyline, its section carried along without twist. radius: a number, or one
     a point."""
+    n *= _steps
     radii = radius if isinstance(radius, (list, tuple)) else [radius] * len(path)
     tangents = []
     for i in range(len(path)):

@@ -1,8 +1,7 @@
 // Light of a pixel by the number of specular interactions on its paths, without a limit of the depth: the tracer of the
 // reference in the other direction, from the camera. A path carries an importance vector per colour (a row of the
 // Mueller matrices up to the camera), so that polarization is that of the reference. The paths with the largest
-// importance are followed first, until a pixel has used its rays; the light of the others is estimated. Template of the
-// tracer, which is private to renderer.cpp.
+// importance are followed first, until a pixel has used its rays; the light of the others is estimated.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +9,11 @@
 #include <queue>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "bake/pack/format.h"
-#include "render/reference/mueller.h"
-#include "render/reference/surface.h"
+#include "render/reference/hit.h"
+#include "render/reference/lights.h"
 #include "render/scene/render_scene.h"
 
 namespace malus::reference {
@@ -21,19 +22,18 @@ inline constexpr std::uint32_t kRaysPerPixel = 1024;
 inline constexpr std::uint32_t kMostInteractions = 4096;
 inline constexpr double kLeastImportance = 1e-6;  // of S0; paths below are left
 
-template <class Tracer>
 class DepthPaths {
  public:
   // energy[i]: light after i interactions, the last element also after more; over pixels and colours.
   std::vector<double> energy = std::vector<double>(pack::kMaxDepth + 2);
   std::vector<bool> darkBacks;  // per material: a one-sided emitter was met from behind
-  std::uint64_t unfollowed = 0;
+  std::uint64_t rays = 0, unfollowed = 0;
 
-  explicit DepthPaths(Tracer& tracer) : darkBacks(tracer.scene.materials.size()), tracer_(tracer) {}
+  explicit DepthPaths(const SceneAccess& access) : darkBacks(access.scene.materials.size()), access_(access) {}
 
   void followPixel(const dvec3& origin, const dvec3& direction) {
     waiting_ = {};
-    push({origin, origin, direction, unpolarized(dvec3(1)), 0, false});
+    push({{origin, direction, glm::vec3(origin), 0, 0, false}, unpolarized(dvec3(1)), 0});
     endedLight_ = endedImportance_ = 0;
     for (std::uint32_t ray = 0; ray < kRaysPerPixel && !waiting_.empty(); ++ray) {
       const Path path = waiting_.top();
@@ -45,19 +45,16 @@ class DepthPaths {
   }
 
  private:
-  using Hit = typename Tracer::Hit;
-
   struct Path {
-    dvec3 origin, queryOrigin, d;
+    Ray ray;
     Light importance;  // row vectors, in the canonical frame of the ray
     std::uint32_t interactions;
-    bool isBehindRough;
     double size() const { return std::max({importance[0][0], importance[1][0], importance[2][0]}); }
     bool operator<(const Path& other) const { return size() < other.size(); }
   };
 
   static Light times(const Light& row, const Mueller& m) { return {row[0] * m[0], row[1] * m[1], row[2] * m[2]}; }
-  static Light times(const Light& row, const dmat4& m) { return {row[0] * m, row[1] * m, row[2] * m}; }
+  static Light times(const Light& row, const FrameRotation& m) { return {row[0] * m, row[1] * m, row[2] * m}; }
 
   void push(const Path& path) {
     if (path.size() >= kLeastImportance && path.interactions <= kMostInteractions) waiting_.push(path);
@@ -90,76 +87,93 @@ class DepthPaths {
   }
 
   void follow(const Path& p) {
-    Hit h{};
-    h.d = p.d;
-    if (!tracer_.intersect(p.origin, p.queryOrigin, p.d, h)) {
-      end(p.importance, tracer_.environmentLight(p.d), p.interactions);
+    const dvec3& d = p.ray.d;
+    ++rays;
+    const embree::Intersection found = access_.bvh.nearest(p.ray.queryOrigin, glm::vec3(d));
+    if (found.mesh == embree::Intersection::kMiss) {
+      end(p.importance, environmentLight(access_.scene.environment, d), p.interactions);
       return;
     }
+    Hit h;
+    findHit(access_, p.ray, found, h);
     const pack::Material& m = *h.surface.material;
-    const Light row = scaled(p.importance, transmittanceOver(Tracer::absorptionAt(h), h.travelled));
+    const Light row = scaled(p.importance, mediumTransmittance(p.ray, h));
     if (pack::isEmitter(m.kind)) {
       if (!h.outside && !m.twoSided) darkBacks[h.materialIndex] = true;
-      end(row, tracer_.emittedLight(h), p.interactions);
+      end(row, emittedLight(h), p.interactions);
     } else if (!pack::isInterface(m.kind)) {
-      dvec3 diffuse, highlight;
-      tracer_.directLight(h, 1, h.normal, diffuse, highlight);
-      end(row, unpolarized(diffuse), p.interactions);
+      end(row, unpolarized(directLightAt(h, h.normal).diffuse), p.interactions);
     } else if (pack::isPolarizingElement(m.kind)) {
-      const dmat4 rotation = toSurface(p.d, f64::sDirection(p.d, glm::cross(h.face, m.axis)));
-      const Light behind = times(times(times(row, glm::transpose(rotation)), polarizingElementMatrix(m)), rotation);
-      push({h.position, tracer_.queryBelow(h), p.d, behind, p.interactions + 1, p.isBehindRough});
+      const FrameRotation rotation = toSurface(d, f64::sDirection(d, glm::cross(h.face, m.axis)));
+      const Light behind = times(times(times(row, transposed(rotation)), polarizingElementMatrix(m)), rotation);
+      push({rayBelow(h, d, p), behind, p.interactions + 1});
     } else {
       followInterface(p, h, row);
     }
   }
 
+  static Ray rayAbove(const Hit& h, const dvec3& d, bool isBehindRough) {
+    return {h.position, d, glm::vec3(queryAbove(h)), 0, 0, isBehindRough};
+  }
+  static Ray rayBelow(const Hit& h, const dvec3& d, const Path& p) {
+    return {h.position, d, glm::vec3(queryBelow(h)), 0, 0, p.ray.isBehindRough};
+  }
+
+  DirectLight directLightAt(const Hit& h, const dvec3& mirror) {
+    arrivals_.clear(), ways_.clear(), visible_.clear();
+    findArrivals(access_.scene, h, true, mirror, arrivals_, ways_);
+    for (const ShadowRay& way : ways_)
+      visible_.push_back(access_.bvh.visible(way.origin, way.direction, way.length) ? 1 : 0);
+    rays += ways_.size();
+    return directLight(access_, h, arrivals_, visible_);
+  }
+
   void followInterface(const Path& p, Hit& h, const Light& row) {
     const pack::Material& m = *h.surface.material;
-    const auto [n1, n2, refracted, isTotal] = tracer_.refractionAt(h);
-    const Interface interface = evaluateInterface(h.surface, h.c, n1, n2);
-    const dvec3 mirror = f64::mirrorDirection(p.d, h.normal, h.c), s = f64::sDirection(p.d, h.normal);
-    dvec3 diffuse, highlight;
-    tracer_.directLight(h, 1, mirror, diffuse, highlight);
+    const Refraction refraction = refractionAt(h);
+    const Interface interface = evaluateInterface(h.surface, h.c, refraction.n1, refraction.n2);
+    const dvec3 mirror = f64::mirrorDirection(h.d, h.normal, h.c), s = f64::sDirection(h.d, h.normal);
+    const auto [diffuse, highlight] = directLightAt(h, mirror);
 
     // Light of the surface itself, in the frame of the surface.
-    const Light atSurface = times(row, glm::transpose(toSurface(p.d, s)));
+    const Light atSurface = times(row, transposed(toSurface(h.d, s)));
     const bool isClear = pack::isClear(m.kind);
     if (!isClear) record(atSurface, interface.transmission * unpolarized(diffuse), p.interactions);
     const Light reflected = times(atSurface, interface.reflection);
     record(reflected, unpolarized(highlight), p.interactions + 1);
 
     // Rays that leave it.
-    if (m.roughness > 0 && !p.isBehindRough) {
-      followFacets(p, h, row, n1, n2);
+    if (m.roughness > 0 && !p.ray.isBehindRough) {
+      followFacets(p, h, row, refraction);
       return;
     }
-    push({h.position, tracer_.queryAbove(h), mirror, times(reflected, toSurface(mirror, s)), p.interactions + 1,
-          p.isBehindRough});
-    if (isClear && !isTotal)
-      push({h.position, tracer_.queryBelow(h), refracted,
-            times(times(atSurface, interface.transmission), toSurface(refracted, s)), p.interactions + 1,
-            p.isBehindRough});
+    push({rayAbove(h, mirror, p.ray.isBehindRough), times(reflected, toSurface(mirror, s)), p.interactions + 1});
+    if (isClear && !refraction.isTotal)
+      push({rayBelow(h, refraction.direction, p),
+            times(times(atSurface, interface.transmission), toSurface(refraction.direction, s)), p.interactions + 1});
   }
 
-  void followFacets(const Path& p, const Hit& h, const Light& row, double n1, double n2) {
+  void followFacets(const Path& p, const Hit& h, const Light& row, const Refraction& refraction) {
     const double alpha = h.surface.material->roughness;
     for (std::size_t i = 0; i < gpu::kFacets; ++i) {
       const glm::dvec2 point = render::facetPoint(i);
-      const dvec3 normal = f64::facetNormal(-p.d, h.normal, alpha, point.x, point.y);
-      const double c = f64::clampUnit(-glm::dot(p.d, normal));
-      const dvec3 mirror = f64::mirrorDirection(p.d, normal, c);
-      const double weight = f64::facetWeight(-p.d, mirror, h.normal, alpha) / gpu::kFacets;
+      const dvec3 normal = f64::facetNormal(-h.d, h.normal, alpha, point.x, point.y);
+      const double c = f64::clampUnit(-glm::dot(h.d, normal));
+      const dvec3 mirror = f64::mirrorDirection(h.d, normal, c);
+      const double weight = f64::facetWeight(-h.d, mirror, h.normal, alpha) / gpu::kFacets;
       if (weight <= 0 || glm::dot(mirror, h.face) <= 0) continue;
-      const dvec3 s = f64::sDirection(p.d, normal);
-      const Light atFacet =
-          times(times(row, glm::transpose(toSurface(p.d, s))), evaluateInterface(h.surface, c, n1, n2).reflection);
-      push({h.position, tracer_.queryAbove(h), mirror, scaled(times(atFacet, toSurface(mirror, s)), dvec3(weight)),
-            p.interactions + 1, true});
+      const dvec3 s = f64::sDirection(h.d, normal);
+      const Light atFacet = times(times(row, transposed(toSurface(h.d, s))),
+                                  evaluateInterface(h.surface, c, refraction.n1, refraction.n2).reflection);
+      push(
+          {rayAbove(h, mirror, true), scaled(times(atFacet, toSurface(mirror, s)), dvec3(weight)), p.interactions + 1});
     }
   }
 
-  Tracer& tracer_;
+  const SceneAccess& access_;
+  std::vector<Arrival> arrivals_;
+  std::vector<ShadowRay> ways_;
+  std::vector<std::uint8_t> visible_;
   std::priority_queue<Path> waiting_;
   double endedLight_ = 0, endedImportance_ = 0;  // of the current pixel
 };

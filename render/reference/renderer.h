@@ -1,5 +1,5 @@
 // The reference renderer: double precision, full Stokes vectors and 4 x 4 Mueller matrices per colour, hit points
-// refined in double, plain recursion. Slow and simple, so that its formulas can be checked by hand.
+// refined in double, recursion over batches of rays. Simple, so that its formulas can be checked by hand.
 #pragma once
 
 #include <memory>

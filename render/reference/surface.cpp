@@ -43,37 +43,69 @@ Surface surfaceAt(const pack::Scene& scene, std::uint32_t index, const dvec3& p)
   return s;
 }
 
+namespace {
+
+InterfaceMatrix asMatrix(const f64::Reflectance& r) { return interfaceMatrix(r.rs, r.rp, r.xRe, r.xIm); }
+
+f64::Film evaluateFilm(const Surface& surface, double c, double n1, double n2, int colour) {
+  const pack::Coating& coating = surface.material->coating;
+  const bool metal = pack::isConductor(surface.material->kind);
+  return f64::thinFilm(c, n1, coating.eta[colour], render::roundTripPhase(coating)[colour],
+                       metal ? surface.eta[colour] : n2, metal ? surface.k[colour] : 0);
+}
+
+}  // namespace
+
 Interface evaluateInterface(const Surface& surface, double c, double n1, double n2) {
   const pack::Material& m = *surface.material;
   Interface result;
+  const bool hasFilm = m.coating.thicknessNm > 0, isMetal = pack::isConductor(m.kind),
+             isPane = m.kind == pack::MaterialKind::thinGlass;
+  if (!hasFilm && !isMetal && !isPane) {  // the same for all colours
+    const f64::RefractionTerms terms = f64::refractionTerms(c, n1, n2);
+    const f64::Reflectance r = f64::reflectanceFromTerms(c, terms);
+    result.reflection.fill(asMatrix(r));
+    result.transmission.fill(interfaceMatrix(1 - r.rs, 1 - r.rp, f64::transmittanceFromTerms(c, terms).x, 0));
+    return result;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const int colour = static_cast<int>(i);
-    const bool metal = pack::isConductor(m.kind);
-    const double n3 = metal ? surface.eta[colour] : n2, k3 = metal ? surface.k[colour] : 0;
-    if (m.coating.thicknessNm > 0) {
-      const f64::Film film =
-          f64::thinFilm(c, n1, m.coating.eta[colour], render::roundTripPhase(m.coating)[colour], n3, k3);
-      result.reflection[i] =
-          interfaceMatrix(film.reflected.rs, film.reflected.rp, film.reflected.xRe, film.reflected.xIm);
+    if (hasFilm) {
+      const f64::Film film = evaluateFilm(surface, c, n1, n2, colour);
+      result.reflection[i] = asMatrix(film.reflected);
       result.transmission[i] = interfaceMatrix(film.through.rs, film.through.rp, film.through.xRe, film.through.xIm);
-      result.meanTransmittance[colour] = 1 - (film.reflected.rs + film.reflected.rp) / 2;
-      continue;
-    }
-    if (m.kind == pack::MaterialKind::thinGlass) {
+    } else if (isPane) {
       const f64::ThinGlass pane = f64::thinGlass(c, n1, n2, m.transmittanceParallel[colour]);
-      const f64::Reflectance &back = pane.reflected, &through = pane.transmitted;
-      result.reflection[i] = interfaceMatrix(back.rs, back.rp, back.xRe, back.xIm);
-      result.transmission[i] = interfaceMatrix(through.rs, through.rp, through.xRe, through.xIm);
-      result.meanTransmittance[colour] = (through.rs + through.rp) / 2;
-      continue;
+      result.reflection[i] = asMatrix(pane.reflected);
+      result.transmission[i] = asMatrix(pane.transmitted);
+    } else {
+      const f64::Reflectance r = f64::conductorReflectance(c, n1, surface.eta[colour], surface.k[colour]);
+      result.reflection[i] = asMatrix(r);
+      result.transmission[i] = interfaceMatrix(1 - r.rs, 1 - r.rp, 0, 0);
     }
-    const f64::Reflectance r = metal ? f64::conductorReflectance(c, n1, n3, k3) : f64::dielectricReflectance(c, n1, n2);
-    const double cross = metal ? 0 : f64::dielectricTransmittance(c, n1, n2).x;
-    result.reflection[i] = interfaceMatrix(r.rs, r.rp, r.xRe, r.xIm);
-    result.transmission[i] = interfaceMatrix(1 - r.rs, 1 - r.rp, cross, 0);
-    result.meanTransmittance[colour] = 1 - (r.rs + r.rp) / 2;
   }
   return result;
+}
+
+dvec3 meanTransmittance(const Surface& surface, double c, double n1, double n2) {
+  const pack::Material& m = *surface.material;
+  const auto mean = [](const f64::Reflectance& r) { return 1 - (r.rs + r.rp) / 2; };
+  if (m.coating.thicknessNm > 0) {
+    const auto ofColour = [&](int colour) { return mean(evaluateFilm(surface, c, n1, n2, colour).reflected); };
+    return {ofColour(0), ofColour(1), ofColour(2)};
+  }
+  if (m.kind == pack::MaterialKind::thinGlass) {
+    const auto ofColour = [&](int colour) {
+      const f64::Reflectance t = f64::thinGlass(c, n1, n2, m.transmittanceParallel[colour]).transmitted;
+      return (t.rs + t.rp) / 2;
+    };
+    return {ofColour(0), ofColour(1), ofColour(2)};
+  }
+  if (!pack::isConductor(m.kind)) return dvec3(mean(f64::dielectricReflectance(c, n1, n2)));
+  const auto ofColour = [&](int colour) {
+    return mean(f64::conductorReflectance(c, n1, surface.eta[colour], surface.k[colour]));
+  };
+  return {ofColour(0), ofColour(1), ofColour(2)};
 }
 
 Mueller polarizingElementMatrix(const pack::Material& m) {
@@ -88,6 +120,9 @@ Mueller polarizingElementMatrix(const pack::Material& m) {
   return result;
 }
 
-dvec3 transmittanceOver(const dvec3& absorption, double distance) { return glm::exp(-absorption * distance); }
+dvec3 transmittanceOver(const dvec3& absorption, double distance) {
+  if (absorption == dvec3(0)) return dvec3(1);
+  return glm::exp(-absorption * distance);
+}
 
 }  // namespace malus::reference

@@ -10,18 +10,19 @@ namespace malus::reference {
 
 // A material at a position, with the values of its textures.
 struct Surface {
-  const pack::Material* material = nullptr;
-  dvec3 eta{1.0}, k{0.0}, albedo{0.0};
+  const pack::Material* material;
+  dvec3 eta, k, albedo;
 };
 Surface surfaceAt(const pack::Scene& scene, std::uint32_t material, const dvec3& position);
 
 struct Interface {
   Mueller reflection;
   Mueller transmission;  // T_s, T_p = 1 - R; of a metal only the weight of its diffuse light
-  dvec3 meanTransmittance;
 };
 // From index n1 to n2 at cosine of incidence c, with the thin film; a metal has its own index in place of n2.
 Interface evaluateInterface(const Surface& surface, double c, double n1, double n2);
+// Transmittance of unpolarized light, of the same interface.
+dvec3 meanTransmittance(const Surface& surface, double c, double n1, double n2);
 
 // A polarizer or wave plate in the frame whose x is its axis, seen along the ray: [[A, B], [B, A]] of the two
 // transmittances, and their geometric mean times [[cos, sin], [-sin, cos]] of the retardance on (S2, S3).

@@ -1,0 +1,97 @@
+#include "render/reference/hit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "shaders/gpu/constants.h"
+
+namespace malus::reference {
+
+std::vector<Face> computeFaces(const pack::Mesh& mesh) {
+  std::vector<Face> faces;
+  faces.reserve(mesh.triangles.size());
+  for (const glm::uvec3& t : mesh.triangles) {
+    const dvec3& p0 = mesh.positions[t.x];
+    const dvec3 across = glm::cross(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0);
+    const double area2 = glm::length(across);
+    faces.push_back({area2 > 0 ? across / area2 : dvec3(0), area2});
+  }
+  return faces;
+}
+
+void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersection& found, Hit& hit) {
+  const std::uint32_t source = access.sourceMeshes[found.mesh];
+  const pack::Mesh& mesh = access.scene.meshes[source];
+  const Face& face = access.faces[source][found.triangle];
+  const glm::uvec3 t = mesh.triangles[found.triangle];
+  const dvec3 &p0 = mesh.positions[t.x], &p1 = mesh.positions[t.y], &p2 = mesh.positions[t.z], &d = ray.d;
+  const dvec3 e1 = p1 - p0, e2 = p2 - p0;
+  const double area2 = face.area2;
+  hit.d = d;
+  hit.materialIndex = mesh.material;
+  hit.face = area2 > 0 ? face.normal : -d;
+
+  // Intersect the ray with the plane of the triangle; barycentric coordinates from signed areas.
+  double b1 = found.b1, b2 = found.b2;
+  const double slope = glm::dot(d, hit.face);
+  if (area2 > 0 && slope != 0) {
+    const dvec3 q = ray.origin + d * (glm::dot(p0 - ray.origin, hit.face) / slope);
+    const double u = glm::dot(glm::cross(p0 - p2, q - p2), hit.face) / area2;
+    const double v = glm::dot(glm::cross(e1, q - p0), hit.face) / area2;
+    // At grazing incidence the single-precision hit is more accurate.
+    if (std::abs(u - b1) < 1e-2 && std::abs(v - b2) < 1e-2) b1 = u, b2 = v;
+  }
+  const double b0 = 1 - b1 - b2;
+  hit.position = f64::trianglePoint(p0, e1, e2, b1, b2);
+  hit.surface = surfaceAt(access.scene, mesh.material, hit.position);
+  // The next query is in single precision.
+  const dvec3& o = mesh.origin;
+  hit.error = f64::hitPointError(p0 - o, e1, e2, b1, b2, 0x1p-24) + f64::originError(o, 0x1p-24) +
+              f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
+  const double margin = 4 * f64::largestPart(hit.error);
+  const double longest = 1.75 * std::max({f64::largestPart(e1), f64::largestPart(e2), f64::largestPart(p2 - p1)});
+  // The nearest edge is at least the least coordinate times area2 over the longest edge away; 1.75 > sqrt(3).
+  hit.start = std::min({b0, b1, b2}) * area2 > margin * longest
+                  ? hit.position
+                  : f64::insideTriangle(hit.position, p0, p1, p2, b0, b1, b2, glm::cross(e1, e2), margin);
+  hit.outside = slope < 0;
+  dvec3 interpolated = hit.face;
+  if (!mesh.normals.empty()) {
+    const dvec3 n = dvec3(mesh.normals[t.x]) * b0 + dvec3(mesh.normals[t.y]) * b1 + dvec3(mesh.normals[t.z]) * b2;
+    if (glm::length(n) > 0) interpolated = n;
+  }
+  hit.normal = f64::shadingNormal(d, hit.face, interpolated);
+  if (!hit.outside) hit.face = -hit.face;
+  hit.c = f64::clampUnit(-glm::dot(d, hit.normal));
+}
+
+Hit environmentHit(const dvec3& d) {
+  Hit h{};
+  h.d = d;
+  h.materialIndex = gpu::kEnvironment;
+  return h;
+}
+
+Refraction refractionAt(Hit& h) {
+  const pack::Material& m = *h.surface.material;
+  const bool isBody = pack::hasInside(m.kind), entersOutside = isBody && !h.outside;
+  const double inside = h.surface.eta.y;
+  Refraction r{entersOutside ? inside : m.outsideEta, entersOutside ? m.outsideEta : inside, h.d, false};
+  const auto refract = [&] {
+    const f64::RefractionTerms terms = f64::refractionTerms(h.c, r.n1, r.n2);
+    r.direction = f64::refractedDirectionFromTerms(h.d, h.normal, h.c, terms);
+    r.isTotal = terms.total;
+  };
+  if (!isBody) return r;
+  refract();
+  if (!r.isTotal && glm::dot(r.direction, h.face) >= 0) {
+    h.normal = h.face;
+    h.c = f64::clampUnit(-glm::dot(h.d, h.face));
+    refract();
+  }
+  return r;
+}
+
+}  // namespace malus::reference

@@ -1,0 +1,114 @@
+#include "render/reference/lights.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+namespace malus::reference {
+
+namespace {
+
+dvec3 environmentRadiance(const pack::Environment& e, const dvec3& d) {
+  if (e.size == 0) return e.radiance;
+  double u, v;
+  f64::octahedralFromDirection(d, u, v);
+  const double x = u * e.size + 0.5, y = v * e.size + 0.5;
+  const auto ix = std::min(static_cast<std::size_t>(x), std::size_t{e.size}),
+             iy = std::min(static_cast<std::size_t>(y), std::size_t{e.size});
+  const double fx = x - static_cast<double>(ix), fy = y - static_cast<double>(iy);
+  const std::size_t row = e.size + 2, at = iy * row + ix;
+  const auto texel = [&](std::size_t i) { return dvec3(e.texels[i]); };
+  return (texel(at) * (1 - fx) + texel(at + 1) * fx) * (1 - fy) +
+         (texel(at + row) * (1 - fx) + texel(at + row + 1) * fx) * fy;
+}
+
+dvec3 environmentIrradiance(const pack::Environment& e, const dvec3& n) {
+  dvec3 result;
+  const auto& c = e.irradiance;
+  for (int i = 0; i < 3; ++i)
+    result[i] =
+        f64::irradiancePolynomial(n, c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i], c[6][i], c[7][i], c[8][i]);
+  return result;
+}
+
+bool isDiffuse(const Hit& h) {
+  const dvec3& albedo = h.surface.albedo;
+  return albedo.x > 0 || albedo.y > 0 || albedo.z > 0;
+}
+
+// The way to a light from outside the hit's error box. Closer to the face than twice the box it is parallel to the way
+// from the hit to the light, so that it cannot meet the face.
+ShadowRay wayTo(const Hit& h, const dvec3& origin, const dvec3& toLight) {
+  const dvec3 offset = origin - h.position, straight = toLight - offset;
+  const dvec3 way = glm::dot(h.face, straight) <= glm::dot(h.face, offset) ? toLight : straight;
+  const double length = glm::length(way);
+  return {glm::vec3(origin), glm::vec3(way / length), static_cast<float>(length)};
+}
+
+}  // namespace
+
+Light environmentLight(const pack::Environment& e, const dvec3& d) {
+  if (!e.hasSun()) return unpolarized(environmentRadiance(e, d));
+  const double cosine = glm::dot(d, e.sun);
+  const dvec3 radiance = environmentRadiance(e, d) * (e.size == 0 ? f64::rayleighPhase(cosine) : 1.0);
+  return rotated(transposed(toSurface(d, f64::sDirection(d, e.sun))),
+                 polarized(radiance, f64::rayleighDegree(cosine, e.skyDegree)));
+}
+
+Light emittedLight(const Hit& h) {
+  const pack::Material& m = *h.surface.material;
+  const dvec3 radiance = h.outside || m.twoSided ? m.radiance / (m.outsideEta * m.outsideEta) : dvec3(0);
+  if (m.polarization == 0) return unpolarized(radiance);
+  const dvec3 s = f64::sDirection(h.d, glm::cross(h.face, m.axis));
+  return rotated(transposed(toSurface(h.d, s)), polarized(radiance, m.polarization));
+}
+
+void findArrivals(const pack::Scene& scene, const Hit& h, bool hasHighlight, const dvec3& mirror,
+                  std::vector<Arrival>& arrivals, std::vector<ShadowRay>& ways) {
+  const pack::Material& m = *h.surface.material;
+  const bool diffuse = isDiffuse(h), glossy = m.highlightStrength > 0 && hasHighlight;
+  if (scene.lights.empty() || (!diffuse && !glossy)) return;
+  const dvec3 origin = queryAbove(h);
+  for (const pack::PointLight& light : scene.lights) {
+    const dvec3 toLight = light.position - h.position;
+    const double distance = glm::length(toLight);
+    if (!(distance > 0)) continue;  // a light in the hit has no direction
+    const dvec3 l = toLight / distance;
+    const double cosine = glm::dot(h.normal, l);
+    if (cosine <= 0 || glm::dot(h.face, l) <= 0) continue;
+    const double lobe = glossy ? m.highlightStrength * f64::phongLobe(mirror, l, m.highlightExponent) : 0;
+    if (!diffuse && lobe <= 0) continue;
+    arrivals.push_back({cosine, distance, lobe, &light});
+    ways.push_back(wayTo(h, origin, toLight));
+  }
+}
+
+DirectLight directLight(const SceneAccess& access, const Hit& h, std::span<const Arrival> arrivals,
+                        std::span<const std::uint8_t> visible) {
+  const pack::Material& m = *h.surface.material;
+  const pack::Environment& environment = access.scene.environment;
+  const dvec3& albedo = h.surface.albedo;
+  const bool diffuse = isDiffuse(h);
+  DirectLight sum{dvec3(0), dvec3(0)};
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    if (visible[i] == 0) continue;
+    const Arrival& a = arrivals[i];
+    const dvec3 arriving =
+        a.light->intensity / (a.distance * a.distance) * transmittanceOver(absorptionAt(h), a.distance);
+    if (diffuse) {
+      const dvec3 entering = pack::hasIndex(m.kind)
+                                 ? meanTransmittance(h.surface, std::min(a.cosine, 1.0), m.outsideEta, h.surface.eta.y)
+                                 : dvec3(1);
+      sum.diffuse += f64::lambertRadiance(albedo, arriving * a.cosine, entering);
+    }
+    sum.highlight += arriving * a.lobe;
+  }
+  if (diffuse && environment.ambientIrradiance > 0)
+    sum.diffuse +=
+        f64::lambertRadiance(albedo, environmentIrradiance(environment, h.normal) * environment.ambientIrradiance,
+                             access.hemisphereTransmittance[h.materialIndex]);
+  const double basic = 1 / (m.outsideEta * m.outsideEta);
+  return {sum.diffuse * basic, sum.highlight * basic};
+}
+
+}  // namespace malus::reference

@@ -1,5 +1,6 @@
 // Shades a ray that meets no surface.
 #include "shaders/stages/bindings.glsl"
+#include "shaders/stages/launch_pixel.glsl"
 #include "shaders/surfaces/recursive.h"
 #include "shaders/stages/faults.glsl"
 

@@ -2,7 +2,7 @@
 // that pixel alone gives the fault, because its values occur in order.
 void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack) {
 #ifdef MALUS_CHECK_NUMERICS
-  uvec2 pixel = gl_LaunchIDEXT.xy + uvec2(camera.regionX, camera.regionY);
+  uvec2 pixel = launchPixel() + uvec2(camera.regionX, camera.regionY);
   atomicAdd(faults.count, 1u);
   atomicMin(faults.firstPixel, pixel.y * camera.width + pixel.x);
   if (camera.regionWidth * camera.regionHeight > 1u || faults.fault.kind != kNoFault) return;

@@ -1,5 +1,6 @@
 // Common to the closest-hit stages: the hit, and the payload that the stage returns.
 #include "shaders/stages/bindings.glsl"
+#include "shaders/stages/launch_pixel.glsl"
 #include "shaders/surfaces/recursive.h"
 #include "shaders/stages/trace.glsl"
 #include "shaders/stages/faults.glsl"

@@ -54,7 +54,7 @@ void renderRows(embree::Renderer& embree, Renderer* vulkan, const RenderParamete
   for (std::size_t i = 0; i < bench.rows.size(); ++i) {
     BenchRow& row = bench.rows[(i + round) % bench.rows.size()];
     console::progress(fmt::format("round {} of {}: {}", round + 1, bench.rounds, row.method));
-    Renderer& renderer = row.backend == Backend::vulkan ? *vulkan : embree;
+    Renderer& renderer = vulkan && row.backend == Backend::vulkan ? *vulkan : embree;
     row.samples.push_back(renderer.render(row.method, withPath(parameters, row.path)).cost.traceMs);
   }
 }

@@ -213,6 +213,7 @@ Acceleration::Built Acceleration::buildAll(const Device& device, std::vector<Bui
                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, kDeviceMemory);
   const VkDeviceAddress address = (scratch.address() + alignment - 1) / alignment * alignment;
   std::vector<VkAccelerationStructureKHR> handles;
+  handles.reserve(builds.size());
   for (const Build& build : builds) handles.push_back(build.level.structure.get());
   device.submit(fmt::format("build of the {}", levelName(type)), [&](VkCommandBuffer commands) {
     if (compacts) vkCmdResetQueryPool(commands, result.sizes.get(), 0, count);

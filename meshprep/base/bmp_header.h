@@ -1,5 +1,5 @@
-// Check of the header of a BMP file. OpenImageIO allocates and decodes run-length encoded pixels when it opens the file,
-// before its caller knows the size. Source: Microsoft, "Bitmap Storage".
+// Check of the header of a BMP file. OpenImageIO allocates and decodes run-length encoded pixels when it opens the
+// file, before its caller knows the size. Source: Microsoft, "Bitmap Storage".
 #pragma once
 
 #include <cstdint>

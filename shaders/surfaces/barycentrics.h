@@ -10,8 +10,8 @@ struct Barycentrics {
 FN real edgeVolume(real3 d, real3 p, real3 q) { return dot3(cross3(q - p, q + p), d); }
 
 // from: origin of the ray; p0, p1, p2: corners, in the same frame. A ray in the plane of the triangle, or a triangle
-// without area, gives p0. The corners of a triangle that is smaller than its distance are taken relative to the point of
-// the ray that is nearest to p0: relative to the origin they would lose 1.5 times as much to rounding.
+// without area, gives p0. The corners of a triangle that is smaller than its distance are taken relative to the point
+// of the ray that is nearest to p0: relative to the origin they would lose 1.5 times as much to rounding.
 FN Barycentrics barycentricCoordinates(real3 from, real3 d, real3 p0, real3 p1, real3 p2) {
   real distance = dot3(p0 - from, d);
   mask isSmall = lessR(maxR(largestPart(p1 - p0), largestPart(p2 - p0)), absR(distance));

@@ -15,7 +15,7 @@ namespace malus::embree {
 struct RayClass {
   int bounce = 0;
   bool shadow = false;
-  auto operator<=>(const RayClass&) const = default;
+  auto operator<=>(const RayClass&) const = default;  // NOLINT(modernize-use-nullptr): as in vulkan/variant.h
 };
 
 // Rays as structure of arrays, in the order in which they were traced. A shadow ray ends at direction times 1.

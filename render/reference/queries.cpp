@@ -68,7 +68,8 @@ void Queries::findNearest(std::span<const Ray> rays, std::vector<embree::Interse
       setRay(query.ray, lane, ray.queryOrigin, glm::vec3(ray.d), 1e30f);
       query.hit.geomID[lane] = query.hit.primID[lane] = query.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
-    bvh_.nearest(valid, query, true);
+    // By an incoherent call: where two surfaces nearly coincide, coherent ones find another triangle than single rays.
+    bvh_.nearest(valid, query, false);
     for (std::size_t lane = 0; lane < packet.size(); ++lane) {
       embree::Intersection& hit = found[packet[lane]];
       hit = {query.hit.geomID[lane], query.hit.primID[lane], query.hit.u[lane], query.hit.v[lane]};
@@ -96,7 +97,7 @@ void Queries::findVisible(std::span<const ShadowRay> rays, std::vector<std::uint
       const ShadowRay& ray = rays[packet[lane]];
       setRay(query, lane, ray.origin, ray.direction, ray.length);
     }
-    bvh_.occluded(valid, query, true);
+    bvh_.occluded(valid, query, false);
     for (std::size_t lane = 0; lane < packet.size(); ++lane) visible[packet[lane]] = query.tfar[lane] >= 0 ? 1 : 0;
   });
 }

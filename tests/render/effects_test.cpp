@@ -1,34 +1,20 @@
-// Effects that few scenes have (absorption, films, polarizing elements, displays, a clear sky, textures, rough
-// surfaces): closed forms on every renderer, and the scenes of scenes/effects.
-#include <gtest/gtest.h>
-
-#include <algorithm>
+// Closed forms of the effects that few scenes have, on every renderer: absorption, films, polarizing elements,
+// displays, a clear sky, textures, rough surfaces.
 #include <array>
-#include <filesystem>
-#include <functional>
-#include <map>
 #include <numbers>
-#include <set>
 
-#include "bake/bake.h"
-#include "bake/effects/effects.h"
-#include "bake/scene_file/scene_file.h"
 #include "render/compare/image_error.h"
-#include "render/embree/renderer.h"
-#include "render/reference/renderer.h"
-#include "render/scene/effects_choice.h"
-#include "render/scene/methods.h"
-#include "render/vulkan/renderer.h"
+#include "tests/render/render_everywhere.h"
 #include "tests/render/test_scene.h"
 
 namespace malus {
 namespace {
 
-namespace fs = std::filesystem;
 using pack::Material;
 using pack::MaterialKind;
 using render::RenderParameters;
 using render::RenderResult;
+using test::renderEverywhere;
 
 // S0..S3 of one colour of a pixel.
 using Stokes = std::array<double, 4>;
@@ -38,26 +24,9 @@ Stokes stokesAt(const RenderResult& p, std::size_t pixel, std::size_t colour) {
   return s;
 }
 
-// The image by every renderer with Stokes vectors; the reference is the first.
-std::map<std::string, RenderResult> everywhere(const pack::Scene& scene) {
-  RenderParameters parameters = render::defaultParameters(scene);
-  parameters.stokes = true;
-  embree::Renderer embree(scene, 0);
-  vulkan::Renderer vulkan(scene, {});
-  std::map<std::string, RenderResult> results;
-  for (const char* method : {"stokes", "importance"})
-    results[std::string("vulkan ") + method] = vulkan.render(method, parameters);
-  parameters.checkNumerics = true;
-  results["reference"] = reference::render(scene, parameters, 0);
-  for (const char* method : {"stokes", "importance"})
-    results[std::string("embree ") + method] = embree.render(method, parameters);
-  for (const auto& [name, result] : results) EXPECT_EQ(result.faults.count, 0u) << name;
-  return results;
-}
-
 // The middle pixel's Stokes vector on all of them.
 void expectEverywhere(const pack::Scene& scene, std::size_t colour, const Stokes& truth, double tolerance) {
-  for (const auto& [name, result] : everywhere(scene)) {
+  for (const auto& [name, result] : renderEverywhere(scene)) {
     const Stokes s = stokesAt(result, result.pixels.size() / result.channels / 2, colour);
     for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(s[k], truth[k], tolerance) << name << ", S" << k;
   }
@@ -230,7 +199,7 @@ TEST(EffectClosedForms, AbsorptionOfLargeThinPanes) {
       for (const double lift : {0.0, 500.0}) {
         SCOPED_TRACE(testing::Message() << size << " m, " << degrees << " degrees, lifted by " << lift << " m");
         const pack::Scene scene = largePane(size, degrees, lift, {0, 0, 1});
-        std::map<std::string, RenderResult> results = everywhere(scene);
+        std::map<std::string, RenderResult> results = renderEverywhere(scene);
         RenderParameters parameters = render::defaultParameters(scene);
         parameters.stokes = true;
         parameters.embreePath = render::EmbreePath::packet;
@@ -278,7 +247,8 @@ TEST(EffectClosedForms, ThinGlassSumsInternalReflections) {
 }
 
 TEST(EffectClosedForms, ThinGlassEqualsARenderedSlab) {
-  const auto thin = everywhere(obliquePane(true, 0.9, true)), slab = everywhere(obliquePane(false, 0.9, true));
+  const auto thin = renderEverywhere(obliquePane(true, 0.9, true)),
+             slab = renderEverywhere(obliquePane(false, 0.9, true));
   for (const auto& [name, result] : thin) {
     const std::size_t middle = result.pixels.size() / result.channels / 2;
     for (std::size_t colour = 0; colour < 3; ++colour) {
@@ -365,139 +335,6 @@ TEST(EffectClosedForms, RoughMirrorsKeepWhatTheyReflect) {
   const Stokes dull = stokesAt(reference::render(scene, render::defaultParameters(scene), 0), 0, 0);
   EXPECT_LT(dull[1] / dull[0], 0.95 * smooth[1] / smooth[0]);
   expectEverywhere(scene, 0, dull, 3e-6);
-}
-
-// The scenes, and the effect that each is there for.
-struct EffectScene {
-  const char* effect;
-  double leastChange;  // relative RMS error of the image without the effect
-};
-const std::map<std::string, EffectScene>& scenes() {
-  static const std::map<std::string, EffectScene> kScenes = {
-      {"textures", {"textures", 0.1}},
-      {"absorption", {"absorption", 0.1}},
-      {"polarized-sky", {"sky", 0.02}},
-      {"display", {"polarized-emitters", 0.02}},
-      {"polarizing-sheets", {"polarizing-elements", 0.1}},
-      {"coating", {"coatings", 0.1}},
-      {"rough-reflection", {"roughness", 0.05}},
-      {"thin-glass", {"thin-glass", 0.02}},
-  };
-  return kScenes;
-}
-
-const pack::Scene& sceneNamed(const std::string& name) {
-  static std::map<std::string, pack::Scene> baked;
-  if (const auto found = baked.find(name); found != baked.end()) return found->second;
-  const fs::path file = fs::path(MALUS_SCENES) / "effects" / name / "scene.json";
-  pack::Scene scene = bake::bake(bake::readSceneFile(file), {}, [](std::string_view) {}).scene;
-  scene.height = scene.height * 160 / scene.width;
-  scene.width = 160;
-  return baked.emplace(name, std::move(scene)).first->second;
-}
-
-class EffectScenes : public testing::TestWithParam<std::string> {};
-
-TEST_P(EffectScenes, RenderersAgreeWithTheReference) {
-  const auto results = everywhere(sceneNamed(GetParam()));
-  const RenderResult& truth = results.at("reference");
-  for (const auto& [name, result] : results) {
-    ASSERT_EQ(result.pixels.size(), truth.pixels.size());
-    std::size_t off = 0;
-    for (std::size_t i = 0; i < truth.pixels.size(); i += truth.channels) {
-      double largest = 0;
-      for (std::size_t k = 0; k < truth.channels; ++k)
-        largest = std::max(largest, static_cast<double>(std::abs(result.pixels[i + k] - truth.pixels[i + k])));
-      if (largest > 1e-3) ++off;
-    }
-    EXPECT_LE(off, 3u) << name;  // at edges
-  }
-}
-
-TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
-  const pack::Scene& scene = sceneNamed(GetParam());
-  const EffectScene& expected = scenes().at(GetParam());
-  for (const auto& [name, other] : scenes())
-    EXPECT_EQ(bake::isOn(scene.effects, std::string_view(other.effect)), name == GetParam()) << other.effect;
-  // Without it the image differs.
-  const RenderParameters parameters = render::defaultParameters(scene);
-  const RenderResult truth = reference::render(scene, parameters, 0),
-                     without = reference::render(bake::withoutEffects(scene, {expected.effect}), parameters, 0);
-  EXPECT_GT(render::imageError(without, truth, 0).relRms, expected.leastChange);
-  // An effect that is forced off causes a warning.
-  std::vector<std::string> kept;
-  for (const pack::Effect& e : scene.effects)
-    if (e.name != expected.effect) kept.push_back(e.name);
-  const bake::ImageRequest request{parameters.depth, parameters.analyser, false, false};
-  const auto choice = render::chooseEffects(kept, "stokes", scene, request);
-  ASSERT_EQ(choice.off, std::vector<std::string>{expected.effect});
-  ASSERT_EQ(choice.warnings.size(), 1u);
-  EXPECT_EQ(shaders::effectName(choice.warnings[0].effect), expected.effect);
-  EXPECT_NE(choice.warnings[0].text.find(expected.effect), std::string::npos);
-}
-
-// On Vulkan, whose variants differ; Embree draws these scenes by the build that has everything anyway, and every other
-// scene by each build in tests/hard_cases. `sp` distinguishes light without a polarization direction from polarized
-// light of degree 0.
-TEST_P(EffectScenes, AutoEqualsAll) {
-  const pack::Scene& scene = sceneNamed(GetParam());
-  vulkan::Renderer vulkan(scene, {});
-  RenderParameters parameters = render::defaultParameters(scene);
-  for (const char* method : {"stokes", "importance", "sp"}) {
-    parameters.everyEffect = false;
-    const RenderResult some = vulkan.render(method, parameters);
-    parameters.everyEffect = true;
-    const RenderResult all = vulkan.render(method, parameters);
-    double largest = 0;
-    for (std::size_t i = 0; i < all.pixels.size(); ++i)
-      largest = std::max(largest, static_cast<double>(std::abs(all.pixels[i] - some.pixels[i])));
-    EXPECT_LT(largest, 2e-5) << method;  // radiances of up to 4
-  }
-}
-
-// A path that loses no more than the tolerance changes a pixel by no more than that of the brightest source; at 0
-// nothing is lost.
-TEST_P(EffectScenes, ToleranceBoundsTheError) {
-  const pack::Scene& scene = sceneNamed(GetParam());
-  embree::Renderer embree(scene, 0);
-  RenderParameters parameters = render::defaultParameters(scene);
-  const RenderResult exact = embree.render("importance", parameters);
-  // The brightest source, which an image may show only in mirrors; a Rayleigh sky is up to 1.5 times its mean.
-  double most = *std::max_element(exact.pixels.begin(), exact.pixels.end());
-  for (int c = 0; c < 3; ++c) {
-    most = std::max(most, 1.5 * scene.environment.radiance[c]);
-    for (const Material& m : scene.materials) most = std::max(most, m.radiance[c]);
-  }
-  std::uint64_t rays = exact.cost.rays;
-  for (const double tolerance : {1e-6, 1e-4, 1e-3}) {
-    parameters.tolerance = tolerance;
-    const RenderResult result = embree.render("importance", parameters);
-    EXPECT_LE(result.cost.rays, rays);
-    rays = result.cost.rays;
-    double largest = 0;
-    for (std::size_t i = 0; i < exact.pixels.size(); ++i)
-      largest = std::max(largest, static_cast<double>(std::abs(result.pixels[i] - exact.pixels[i])));
-    EXPECT_LE(largest, (parameters.depth + 16) * tolerance * most) << tolerance;
-  }
-}
-
-std::vector<std::string> names() {
-  std::vector<std::string> list;
-  for (const auto& [name, expected] : scenes()) list.push_back(name);
-  return list;
-}
-INSTANTIATE_TEST_SUITE_P(All, EffectScenes, testing::ValuesIn(names()), [](const auto& given) {
-  std::string name = given.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
-
-TEST(EffectScene, EveryFolderIsListed) {
-  std::set<std::string> folders;
-  for (const auto& entry : fs::directory_iterator(fs::path(MALUS_SCENES) / "effects"))
-    folders.insert(entry.path().filename());
-  const std::vector<std::string> listed = names();
-  EXPECT_EQ(folders, (std::set<std::string>(listed.begin(), listed.end())));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@ Run by tools/mitsuba/compare, which finds the interpreter. Exit codes: 0 within 
 import argparse
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
@@ -16,6 +15,7 @@ import export  # noqa: E402  (chooses Mitsuba's variant)
 import mitsuba as mi  # noqa: E402
 import numpy as np  # noqa: E402
 
+import command  # noqa: E402
 import difference  # noqa: E402
 import integrator  # noqa: E402
 import malus_rules  # noqa: E402
@@ -24,7 +24,6 @@ import tables  # noqa: E402
 from simplify import write_simplified  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCENES = HERE.parents[1] / "scenes"
 RENDERERS = {"reference": ["--backend", "reference"],
              "embree": ["--backend", "embree", "--method", "stokes", "--effects", "all"]}
 STOCK_WIDTH, STOCK_COLOUR = 64, 1
@@ -32,24 +31,9 @@ STOCK_WIDTH, STOCK_COLOUR = 64, 1
 
 def options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/mitsuba/compare", description=__doc__.splitlines()[0])
-    parser.add_argument("--malus", type=pathlib.Path, default=HERE.parents[1] / "build/release/bin/malus")
-    parser.add_argument("--scenes", help="folders in scenes/, separated by commas (default: those with tolerances)")
-    parser.add_argument("--width", type=int, default=256, help="largest width of the images [pixels]")
+    command.add_options(parser, width=256, scenes="those with tolerances")
     parser.add_argument("--samples", type=int, default=1024, help="samples per pixel of Mitsuba's integrators")
-    parser.add_argument("--json", type=pathlib.Path, help="file for the results")
-    given = parser.parse_args()
-    if given.width < 1 or given.samples < 1:
-        parser.error("--width and --samples: expected 1 or more")
-    if not given.malus.is_file():
-        raise RuntimeError(f"{given.malus} does not exist: build malus with tools/build, or give its path with --malus")
-    return given
-
-
-def malus(program: pathlib.Path, *arguments) -> None:
-    """Runs the command. Raises RuntimeError with its last line on stderr if it fails."""
-    done = subprocess.run([program, "-q", *arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"malus {arguments[0]} failed: {(done.stderr.strip() or 'no message').splitlines()[-1]}")
+    return command.parse(parser, "samples")
 
 
 def read_stokes(path: pathlib.Path) -> np.ndarray:
@@ -61,9 +45,9 @@ def read_stokes(path: pathlib.Path) -> np.ndarray:
 
 def compare_scene(name: str, given: argparse.Namespace, folder: pathlib.Path) -> dict:
     # One pack for both renderers.
-    replaced = write_simplified(SCENES / name / "scene.json", folder / "scene.json")
-    malus(given.malus, "bake", folder / "scene.json", "-o", folder / "scene.pack")
-    malus(given.malus, "unpack", folder / "scene.pack", "-o", folder / "unpacked")
+    replaced = write_simplified(command.SCENES / name / "scene.json", folder / "scene.json")
+    command.malus(given.malus, "bake", folder / "scene.json", "-o", folder / "scene.pack")
+    command.malus(given.malus, "unpack", folder / "scene.pack", "-o", folder / "unpacked")
     unpacked = export.Unpacked(folder / "unpacked")
     width, height = unpacked.json["resolution"]
     if width > given.width:
@@ -79,7 +63,7 @@ def compare_scene(name: str, given: argparse.Namespace, folder: pathlib.Path) ->
               "depth": unpacked.depth, "meanS0": difference.mean_light(other).tolist()}
     for renderer, arguments in RENDERERS.items():
         file = folder / f"{renderer}.exr"
-        malus(given.malus, "render", folder / "scene.pack", *arguments, "--width", str(width), "--height", str(height),
+        command.malus(given.malus, "render", folder / "scene.pack", *arguments, "--width", str(width), "--height", str(height),
               "-o", file)
         image = read_stokes(file)
         result[renderer] = difference.statistics(image, other)

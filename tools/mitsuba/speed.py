@@ -10,7 +10,6 @@ import argparse
 import json
 import pathlib
 import statistics
-import subprocess
 import sys
 import tempfile
 import time
@@ -24,11 +23,11 @@ mi.set_variant(VARIANT)
 
 import drjit as dr  # noqa: E402
 
+import command  # noqa: E402
 import export  # noqa: E402  (needs the variant)
 from simplify import write_simplified  # noqa: E402
 
-HERE = pathlib.Path(__file__).resolve().parent
-SCENES = HERE.parents[1] / "scenes"
+DEFAULT_SCENES = "cornell-box,engine,glass-wall"
 COLOUR = 1  # materials at 532 nm, at every wavelength
 
 
@@ -106,31 +105,15 @@ class Mitsuba:
 
 def options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/mitsuba/compare --speed", description=__doc__.splitlines()[0])
-    parser.add_argument("--malus", type=pathlib.Path, default=HERE.parents[1] / "build/release/bin/malus")
-    parser.add_argument("--scenes", default="cornell-box,engine,glass-wall", help="folders in scenes/")
-    parser.add_argument("--width", type=int, default=768, help="largest width of the images [pixels]")
+    command.add_options(parser, width=768, scenes=DEFAULT_SCENES)
     parser.add_argument("--rounds", type=int, default=7, help="timed renders of each")
-    parser.add_argument("--json", type=pathlib.Path, help="file for the results")
-    given = parser.parse_args()
-    if given.width < 1 or given.rounds < 1:
-        parser.error("--width and --rounds: expected 1 or more")
-    if not given.malus.is_file():
-        raise RuntimeError(f"{given.malus} does not exist: build malus with tools/build, or give its path with --malus")
-    return given
-
-
-def malus(program: pathlib.Path, *arguments) -> str:
-    """Runs the command and returns what it prints. Raises RuntimeError with its last line on stderr if it fails."""
-    done = subprocess.run([program, "-q", *arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"malus {arguments[0]} failed: {(done.stderr.strip() or 'no message').splitlines()[-1]}")
-    return done.stdout
+    return command.parse(parser, "rounds")
 
 
 def measure(name: str, given: argparse.Namespace, folder: pathlib.Path) -> dict:
-    write_simplified(SCENES / name / "scene.json", folder / "scene.json")
-    malus(given.malus, "bake", folder / "scene.json", "-o", folder / "scene.pack")
-    malus(given.malus, "unpack", folder / "scene.pack", "-o", folder / "unpacked")
+    write_simplified(command.SCENES / name / "scene.json", folder / "scene.json")
+    command.malus(given.malus, "bake", folder / "scene.json", "-o", folder / "scene.pack")
+    command.malus(given.malus, "unpack", folder / "scene.pack", "-o", folder / "unpacked")
     unpacked = export.Unpacked(folder / "unpacked")
     width, height = unpacked.json["resolution"]
     if width > given.width:
@@ -138,7 +121,7 @@ def measure(name: str, given: argparse.Namespace, folder: pathlib.Path) -> dict:
     other = Mitsuba(unpacked, width, height)
     ours, theirs, rays = [], [], 0
     for _ in range(given.rounds):
-        result = json.loads(malus(given.malus, "render", folder / "scene.pack", "--method", "stokes", "--effects", "auto",
+        result = json.loads(command.malus(given.malus, "render", folder / "scene.pack", "--method", "stokes", "--effects", "auto",
                                   "--width", str(width), "--height", str(height), "-o", folder / "a.exr", "--json"))
         rays = result["rays"]
         ours.append(result["traceMs"])
@@ -160,7 +143,7 @@ def table(results: dict) -> str:
 def main() -> int:
     given = options()
     results = {}
-    for name in given.scenes.split(","):
+    for name in (given.scenes or DEFAULT_SCENES).split(","):
         with tempfile.TemporaryDirectory(prefix="malus-mitsuba-") as folder:
             results[name] = measure(name, given, pathlib.Path(folder))
     print(table(results))

@@ -407,6 +407,9 @@ class Plots(unittest.TestCase):
         zero, least, low = (axes.transData.transform((1, y))[1] for y in (0, 1e-3, axes.get_ylim()[0]))
         self.assertGreaterEqual(zero, low)
         self.assertGreater(least - zero, 10)  # pixels
+        places = sorted(axes.transData.transform((1, y))[1] for y in axes.get_yticks() if y <= axes.get_ylim()[1])
+        self.assertIn(zero, places)
+        self.assertGreater(min(numpy.diff(places)), 10)  # labels are beside each other
         pyplot.close(figure)
 
     def test_labels_have_the_order_of_the_points_and_leaders_do_not_cross(self):

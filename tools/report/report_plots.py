@@ -87,6 +87,9 @@ def _error_axis(axes, errors: list) -> None:
     axes.set_ylim(bottom=-0.15 * threshold)
     if not positive:
         axes.set_ylim(top=10 * threshold)
+    # Decades within the linear part would be written over the 0. Ticks beyond the axis are not drawn.
+    decades = [10.0**k for k in range(round(math.log10(threshold)), 4)]
+    axes.yaxis.set_major_locator(ticker.FixedLocator([0.0] + decades))
     axes.axhline(threshold, color="#808080", linewidth=0.6, linestyle=(0, (2, 3)), zorder=0)
 
 

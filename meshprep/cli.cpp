@@ -216,7 +216,7 @@ void addNormalOptions(CLI::App& prep, Options& options) {
           "--normals", [&options](const std::string& name) { options.normals = kNormals.at(name); },
           "Source of normals: crease (smooth except at sharp edges), smoothing (groups of the file) or authored "
           "(normals of the file)")
-      ->check(CLI::IsMember({"crease", "smoothing", "authored"}))
+      ->check(CLI::IsMember(&kNormals))
       ->default_str("crease");
   prep.add_option("--crease", options.creaseDegrees, "Smallest angle of a sharp edge [degrees]")
       ->transform(numberBetween(0, 180))

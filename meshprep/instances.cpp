@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -131,8 +130,8 @@ class InstancePreparation {
       groups[sets.find(static_cast<std::uint32_t>(i))].instances.push_back(i);
       firstVertex_.push_back(vertices_);
       firstFace_.push_back(faces_);
-      vertices_ += static_cast<std::uint32_t>(polygons(i).positions.size());
-      faces_ += static_cast<std::uint32_t>(polygons(i).faceCount());
+      vertices_ += countVertices(i);
+      faces_ += countFaces(i);
     }
     for (auto& [first, group] : groups) {
       std::uint32_t vertices = 0, faces = 0;

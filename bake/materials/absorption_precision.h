@@ -13,8 +13,9 @@ namespace malus::bake {
 inline constexpr double kAbsorptionPrecision = 1e-3;
 
 struct AbsorptionPrecision {
-  double distance;   // bound on the error of a way along the normal of a face, mean of the mesh [m]
-  double error;      // relative error of the transmittance by it
+  double distance;   // bound on the error of a way along the normal of a face, mean of the mesh [m]; with a thickness:
+                     // distance at which rays start
+  double error;      // relative error of the transmittance by the distance; with a thickness: without the body
   double thickness;  // mean thickness of a body that rays may start beyond [m]; 0: they do not
 };
 

@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::size_t kMostRegions = 16;  // with more overlapping bodies, all faces of a body are compared
 
-bool overlap(const prep::Box& a, const prep::Box& b) {
-  return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
-}
-
 prep::Box triangleBox(const glm::uvec3& t, const std::vector<glm::dvec3>& positions) {
   const glm::dvec3 &a = positions[t.x], &b = positions[t.y], &c = positions[t.z];
   return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};

@@ -71,10 +71,6 @@ bool coincide(const Triangle& a, const Triangle& b) {
                      [&](const glm::dvec3& p) { return std::abs(glm::dot(p - a[0], n)) <= tolerance; });
 }
 
-bool overlap(const prep::Box& a, const prep::Box& b) {
-  return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
-}
-
 prep::Box widened(prep::Box box) {
   const glm::dvec3 most = glm::max(glm::abs(box.low), glm::abs(box.high));
   const double margin = kRounding * std::max({most.x, most.y, most.z});

@@ -6,12 +6,18 @@
 #include <span>
 
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace malus::prep {
 
 struct Box {
   glm::dvec3 low, high;  // corners, low <= high
 };
+
+// Whether the boxes overlap or touch.
+inline bool overlap(const Box& a, const Box& b) {
+  return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+}
 
 // Calls visit(i, j) for every a[i] and b[j] that overlap or touch, from several threads and in any order. visit returns
 // the cost of the pair. Returns false if the costs exceed `most`; the visited pairs then depend on the timing of the

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,7 +14,6 @@ namespace malus::render {
 
 namespace {
 constexpr double kBytesPerRay = 2 * 6 * sizeof(float);  // in two orders
-constexpr double kNever = std::numeric_limits<double>::infinity();
 }  // namespace
 
 RaySets::RaySets(embree::Renderer& renderer, const RenderParameters& parameters)
@@ -36,7 +34,7 @@ std::size_t RaySets::add(const std::string& method) {
   embree::RayLog log = renderer_.logRays(method, parameters_);
   for (std::size_t i = 0; i < sets_.size(); ++i)
     if (std::ranges::equal(sets_[i].classes, log, [](const Class& stored, const auto& logged) {
-          return stored.kind == logged.first && stored.traced == logged.second;
+          return stored.floor.kind == logged.first && stored.traced == logged.second;
         })) {
       sets_[i].methods.push_back(method);
       return i;
@@ -46,10 +44,11 @@ std::size_t RaySets::add(const std::string& method) {
   set.methods = {method};
   for (auto& [kind, rays] : log) {
     Class& c = set.classes.emplace_back();
-    c.kind = kind;
+    c.floor.kind = kind;
+    c.floor.rays = rays.size();
+    for (const embree::RayCall& call : calls_) c.floor.calls.emplace_back(call.name(), kNotTimed);
     c.sorted = embree::sortRays(rays);
     c.traced = std::move(rays);
-    c.leastMs.assign(calls_.size(), kNever);
   }
   return sets_.size() - 1;
 }
@@ -60,9 +59,8 @@ void RaySets::replayRound() {
       for (std::size_t i = 0; i < calls_.size(); ++i) {
         const embree::RayArrays& rays = calls_[i].sorted ? c.sorted : c.traced;
         const embree::ReplayResult result =
-            embree::replay(renderer_.bvh(), rays, c.kind.shadow, calls_[i], renderer_.threads());
-        c.leastMs[i] = std::min(c.leastMs[i], result.ms);
-        if (i == 0) c.hits = result.hits;
+            embree::replay(renderer_.bvh(), rays, c.floor.kind.shadow, calls_[i], renderer_.threads());
+        c.floor.add(i, result.ms, result.hits);
       }
 }
 
@@ -71,14 +69,7 @@ std::vector<RayFloor> RaySets::floors() const {
   for (const Set& set : sets_) {
     RayFloor& floor = floors.emplace_back();
     floor.methods = set.methods;
-    for (const Class& c : set.classes) {
-      const auto best = std::ranges::min_element(c.leastMs);
-      const embree::RayCall& call = calls_[static_cast<std::size_t>(best - c.leastMs.begin())];
-      std::vector<std::pair<std::string, double>> calls;
-      for (std::size_t i = 0; i < calls_.size(); ++i) calls.emplace_back(calls_[i].name(), c.leastMs[i]);
-      floor.classes.push_back(
-          {c.kind, c.traced.size(), c.hits, call.name(), *best, c.leastMs.front(), std::move(calls)});
-    }
+    for (const Class& c : set.classes) floor.classes.push_back(c.floor);
   }
   return floors;
 }

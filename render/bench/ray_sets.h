@@ -14,10 +14,8 @@ namespace malus::render {
 class RaySets {
  public:
   struct Class {
-    embree::RayClass kind;
+    ClassFloor floor;
     embree::RayArrays traced, sorted;
-    std::vector<double> leastMs;  // by call
-    std::uint64_t hits = 0;
   };
   struct Set {
     std::vector<std::string> methods;

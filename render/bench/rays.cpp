@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/console.h"
+#include "render/bench/ray_file.h"
 #include "render/bench/ray_sets.h"
 #include "render/bench/vulkan_ray_sets.h"
 #include "render/embree/packets/packets.h"
@@ -22,9 +23,9 @@ bool has(const RaysBenchSettings& settings, Backend backend) {
 }
 
 template <class Value>
-auto sum(const RayFloor& floor, Value ClassFloor::*member) {
-  Value total = 0;
-  for (const ClassFloor& c : floor.classes) total += c.*member;
+auto sum(const RayFloor& floor, Value value) {
+  decltype(value(ClassFloor())) total = 0;
+  for (const ClassFloor& c : floor.classes) total += value(c);
   return total;
 }
 
@@ -32,21 +33,14 @@ auto sum(const RayFloor& floor, Value ClassFloor::*member) {
 void addRows(RaysBench& bench, const RaysBenchSettings& settings, const std::string& method, std::size_t floor,
              const std::vector<VulkanPath>& vulkanPaths) {
   if (has(settings, Backend::embree)) {
-    if (embree::hasPacketInstructions())
-      bench.rows.push_back({Backend::embree, method, embreePathName(EmbreePath::packet), floor, {}});
-    bench.rows.push_back({Backend::embree, method, embreePathName(EmbreePath::scalar), floor, {}});
+    if (embree::hasPacketInstructions()) bench.rows.push_back({method, EmbreePath::packet, floor});
+    bench.rows.push_back({method, EmbreePath::scalar, floor});
   }
-  for (const VulkanPath path : vulkanPaths)
-    bench.rows.push_back({Backend::vulkan, method, vulkanPathName(path), floor, {}});
+  for (const VulkanPath path : vulkanPaths) bench.rows.push_back({method, path, floor});
 }
 
-RenderParameters withPath(RenderParameters parameters, const std::string& path) {
-  for (const EmbreePath p : {EmbreePath::packet, EmbreePath::scalar})
-    if (path == embreePathName(p)) parameters.embreePath = p;
-  for (const VulkanPath p : {VulkanPath::pipeline, VulkanPath::query})
-    if (path == vulkanPathName(p)) parameters.vulkanPath = p;
-  return parameters;
-}
+void setPath(RenderParameters& parameters, EmbreePath path) { parameters.embreePath = path; }
+void setPath(RenderParameters& parameters, VulkanPath path) { parameters.vulkanPath = path; }
 
 // Each round starts with another row, so that a drift of the machine's speed meets every row alike.
 void renderRows(embree::Renderer& embree, Renderer* vulkan, const RenderParameters& parameters, RaysBench& bench,
@@ -54,17 +48,40 @@ void renderRows(embree::Renderer& embree, Renderer* vulkan, const RenderParamete
   for (std::size_t i = 0; i < bench.rows.size(); ++i) {
     BenchRow& row = bench.rows[(i + round) % bench.rows.size()];
     console::progress(fmt::format("round {} of {}: {}", round + 1, bench.rounds, row.method));
-    Renderer& renderer = vulkan && row.backend == Backend::vulkan ? *vulkan : embree;
-    row.samples.push_back(renderer.render(row.method, withPath(parameters, row.path)).cost.traceMs);
+    Renderer& renderer = vulkan && row.backend() == Backend::vulkan ? *vulkan : embree;
+    RenderParameters own = parameters;
+    std::visit([&](auto path) { setPath(own, path); }, row.path);
+    row.samples.push_back(renderer.render(row.method, own).cost.traceMs);
   }
 }
 
 }  // namespace
 
-double RayFloor::ms() const { return sum(*this, &ClassFloor::ms); }
-double RayFloor::singleMs() const { return sum(*this, &ClassFloor::singleMs); }
-std::uint64_t RayFloor::rays() const { return sum(*this, &ClassFloor::rays); }
+const std::string& ClassFloor::bestCall() const {
+  return std::ranges::min_element(calls, {}, &std::pair<std::string, double>::second)->first;
+}
+double ClassFloor::ms() const {
+  return std::ranges::min_element(calls, {}, &std::pair<std::string, double>::second)->second;
+}
+void ClassFloor::add(std::size_t i, double ms, std::uint64_t hitsOfCall) {
+  calls[i].second = std::min(calls[i].second, ms);
+  if (i == 0) hits = hitsOfCall;
+}
 
+double RayFloor::ms() const {
+  return sum(*this, [](const ClassFloor& c) { return c.ms(); });
+}
+double RayFloor::singleMs() const {
+  return sum(*this, [](const ClassFloor& c) { return c.singleMs(); });
+}
+std::uint64_t RayFloor::rays() const {
+  return sum(*this, [](const ClassFloor& c) { return c.rays; });
+}
+
+const char* BenchRow::pathName() const {
+  if (const auto* vulkan = std::get_if<VulkanPath>(&path)) return vulkanPathName(*vulkan);
+  return embreePathName(std::get<EmbreePath>(path));
+}
 double BenchRow::totalMs() const { return std::ranges::min(samples); }
 
 RaysBench benchRays(const pack::Scene& scene, const RenderParameters& parameters, const RaysBenchSettings& settings) {
@@ -87,6 +104,7 @@ RaysBench benchRays(const pack::Scene& scene, const RenderParameters& parameters
     bench.vulkanDevice = vulkanRenderer->device();
     vulkanSets.emplace(sets, scene, vulkan::Options{settings.device, settings.threads});
   }
+  if (!settings.rayFile.empty()) writeRays(settings.rayFile, sets.sets().front());
   for (unsigned round = 0; round < settings.rounds; ++round) {
     console::progress(fmt::format("round {} of {}: rays alone", round + 1, settings.rounds));
     if (has(settings, Backend::embree)) sets.replayRound();

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -11,7 +13,9 @@
 #include "bake/pack/scene.h"
 #include "render/backend.h"
 #include "render/embree/ray_log.h"
+#include "render/scene/embree_path.h"
 #include "render/scene/render_parameters.h"
+#include "render/scene/vulkan_path.h"
 
 namespace malus::render {
 
@@ -20,11 +24,17 @@ struct ClassFloor {
   embree::RayClass kind;
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;  // by the first call
-  std::string bestCall;
-  double ms = 0;                                      // of bestCall
-  double singleMs = 0;                                // by the first call: of Embree, single rays as they were traced
-  std::vector<std::pair<std::string, double>> calls;  // every call [ms]
+  // Every call and its least time [ms]. The first one of Embree is that of single rays, in the order of the render.
+  std::vector<std::pair<std::string, double>> calls;
+
+  const std::string& bestCall() const;
+  double ms() const;  // of bestCall()
+  double singleMs() const { return calls.front().second; }
+  // Keeps the time of call i if it is the least.
+  void add(std::size_t i, double ms, std::uint64_t hitsOfCall);
 };
+// Time of a call that was not made yet.
+inline constexpr double kNotTimed = std::numeric_limits<double>::infinity();
 
 // The rays of one or several methods.
 struct RayFloor {
@@ -37,12 +47,14 @@ struct RayFloor {
 };
 
 struct BenchRow {
-  Backend backend = Backend::embree;
-  std::string method, path;     // path: as on the command line
-  std::size_t floor = 0;        // index of its rays in the floors of the backend
-  std::vector<double> samples;  // time of tracing and shading in each round [ms]
+  std::string method;
+  std::variant<EmbreePath, VulkanPath> path;
+  std::size_t floor = 0;          // index of its rays in the floors of the backend
+  std::vector<double> samples{};  // time of tracing and shading in each round [ms]
 
-  double totalMs() const;  // minimum, as the floor's
+  Backend backend() const { return std::holds_alternative<VulkanPath>(path) ? Backend::vulkan : Backend::embree; }
+  const char* pathName() const;  // as on the command line
+  double totalMs() const;        // minimum, as the floor's
 };
 
 struct RaysBench {
@@ -55,7 +67,7 @@ struct RaysBench {
   std::vector<BenchRow> rows;
 
   const RayFloor& floor(const BenchRow& row) const {
-    return (row.backend == Backend::vulkan ? vulkanFloors : floors)[row.floor];
+    return (row.backend() == Backend::vulkan ? vulkanFloors : floors)[row.floor];
   }
 };
 
@@ -65,6 +77,7 @@ struct RaysBenchSettings {
   std::string device;    // Vulkan, as for makeRenderer()
   unsigned threads = 0;  // 0: all
   unsigned rounds = 5;
+  std::string rayFile{};  // takes the rays of the first method (cli.h); empty: none
 };
 
 // Logs the rays of each method once, by Embree. Then, in each round and by each backend, replays every class of rays by

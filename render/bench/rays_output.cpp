@@ -1,6 +1,4 @@
 // The results of `malus bench rays` as JSON and as text.
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,10 +20,10 @@ nlohmann::json classesJson(const RayFloor& floor, bool isEmbree) {
                     {"shadow", c.kind.shadow},
                     {"rays", c.rays},
                     {"hits", c.hits},
-                    {"bestCall", c.bestCall},
-                    {"ms", c.ms},
+                    {"bestCall", c.bestCall()},
+                    {"ms", c.ms()},
                     {"calls", calls}});
-    if (isEmbree) list.back()["singleMs"] = c.singleMs;
+    if (isEmbree) list.back()["singleMs"] = c.singleMs();
   }
   return list;
 }
@@ -51,8 +49,8 @@ std::string floorTable(const RayFloor& floor, bool isEmbree) {
   for (const ClassFloor& c : floor.classes)
     text += fmt::format("  {:<14} {:>10} {:>5.0f} % {:<22} {:>8.2f}{}\n",
                         fmt::format("{}{}", c.kind.bounce, c.kind.shadow ? ", shadow" : ""), c.rays,
-                        100.0 * static_cast<double>(c.hits) / static_cast<double>(c.rays), c.bestCall, c.ms,
-                        single(c.singleMs));
+                        100.0 * static_cast<double>(c.hits) / static_cast<double>(c.rays), c.bestCall(), c.ms(),
+                        single(c.singleMs()));
   return text + fmt::format("  {:<14} {:>10} {:>7} {:<22} {:>8.2f}{}\n", "floor", floor.rays(), "", "", floor.ms(),
                             single(floor.singleMs()));
 }
@@ -63,9 +61,9 @@ nlohmann::json toJson(const RaysBench& bench) {
   nlohmann::json rows = nlohmann::json::array();
   for (const BenchRow& row : bench.rows) {
     const RayFloor& floor = bench.floor(row);
-    rows.push_back({{"backend", backendInfo(row.backend).name},
+    rows.push_back({{"backend", backendInfo(row.backend()).name},
                     {"method", row.method},
-                    {"path", row.path},
+                    {"path", row.pathName()},
                     {"rays", floor.rays()},
                     {"floorMs", floor.ms()},
                     {"totalMs", row.totalMs()},
@@ -97,8 +95,8 @@ std::string toTable(const RaysBench& bench) {
                       "median", "ratio");
   for (const BenchRow& row : bench.rows) {
     const double floor = bench.floor(row).ms();
-    text += fmt::format("{:<8} {:<18} {:<8} {:>8.1f} {:>8.1f} {:>8.1f} {:>7.2f}\n", backendInfo(row.backend).name,
-                        row.method, row.path, floor, row.totalMs(), computeSpread(row.samples).median,
+    text += fmt::format("{:<8} {:<18} {:<8} {:>8.1f} {:>8.1f} {:>8.1f} {:>7.2f}\n", backendInfo(row.backend()).name,
+                        row.method, row.pathName(), floor, row.totalMs(), computeSpread(row.samples).median,
                         row.totalMs() / floor);
   }
   return text;

@@ -1,13 +1,10 @@
 #include "render/bench/vulkan_ray_sets.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace malus::render {
 
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Traces the rays in parts, so that only one part is stored in the layout of the shader.
 vulkan::ReplayTime replayAll(vulkan::RayReplay& replay, VulkanPath path, const embree::RayArrays& rays, bool shadow) {
@@ -33,9 +30,9 @@ VulkanRaySets::VulkanRaySets(const RaySets& sets, const pack::Scene& scene, cons
     std::vector<ClassFloor>& classes = classes_.emplace_back();
     for (const RaySets::Class& c : set.classes) {
       ClassFloor& floor = classes.emplace_back();
-      floor.kind = c.kind;
-      floor.rays = c.traced.size();
-      for (const VulkanPath path : replay_.paths()) floor.calls.emplace_back(vulkanPathName(path), kNever);
+      floor.kind = c.floor.kind;
+      floor.rays = c.floor.rays;
+      for (const VulkanPath path : replay_.paths()) floor.calls.emplace_back(vulkanPathName(path), kNotTimed);
     }
   }
 }
@@ -47,23 +44,14 @@ void VulkanRaySets::replayRound() {
       for (std::size_t p = 0; p < paths.size(); ++p) {
         ClassFloor& floor = classes_[i][j];
         const RaySets::Class& c = sets_.sets()[i].classes[j];
-        const vulkan::ReplayTime time = replayAll(replay_, paths[p], c.traced, c.kind.shadow);
-        floor.calls[p].second = std::min(floor.calls[p].second, time.ms);
-        if (p == 0) floor.hits = time.hits;
+        const vulkan::ReplayTime time = replayAll(replay_, paths[p], c.traced, floor.kind.shadow);
+        floor.add(p, time.ms, time.hits);
       }
 }
 
 std::vector<RayFloor> VulkanRaySets::floors() const {
   std::vector<RayFloor> floors;
-  for (std::size_t i = 0; i < classes_.size(); ++i) {
-    RayFloor& floor = floors.emplace_back(RayFloor{sets_.sets()[i].methods, classes_[i]});
-    for (ClassFloor& c : floor.classes) {
-      const auto best = std::ranges::min_element(c.calls, {}, &std::pair<std::string, double>::second);
-      c.bestCall = best->first;
-      c.ms = best->second;
-      c.singleMs = c.calls.front().second;
-    }
-  }
+  for (std::size_t i = 0; i < classes_.size(); ++i) floors.push_back({sets_.sets()[i].methods, classes_[i]});
   return floors;
 }
 

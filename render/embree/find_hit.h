@@ -1,4 +1,5 @@
-// Hooks of shaders/surfaces/hooks.h that need the surfaces: members of both kinds of tracer, included inside them.
+// Hooks of shaders/surfaces/hooks.h that trace rays and note faults: members of both kinds of tracer, included inside
+// them.
 
 #include "shaders/surfaces/barycentrics.h"
 

@@ -4,13 +4,11 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_sort.h>
 #include <oneapi/tbb/task_arena.h>
-#include <glm/common.hpp>
 
 namespace malus::embree {
 

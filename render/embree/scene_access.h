@@ -1,4 +1,4 @@
-// Base of every tracer: the scene, shadow rays and counters, as shaders/surfaces/hooks.h names them. The shared
+// Base of every tracer: the scene, its tables and counters, as shaders/surfaces/hooks.h names them. The shared
 // surfaces are members of the tracers and find these by name.
 #pragma once
 

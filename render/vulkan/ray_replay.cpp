@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include <fmt/format.h>
 
 #include "render/scene/render_scene.h"
 #include "render/vulkan/acceleration.h"
@@ -181,10 +180,6 @@ RayReplay::RayReplay(const pack::Scene& scene, const Options& options)
 RayReplay::~RayReplay() = default;
 
 std::vector<render::VulkanPath> RayReplay::paths() const { return availablePaths(impl_->device); }
-
-std::string RayReplay::device() const {
-  return fmt::format("{}, {}", impl_->device.physical().name, impl_->device.physical().driver);
-}
 
 ReplayTime RayReplay::replay(render::VulkanPath path, bool shadow, std::span<const RecordedRay> rays) {
   const ReplayProgram& program = impl_->program(path, shadow);

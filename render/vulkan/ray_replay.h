@@ -36,7 +36,6 @@ class RayReplay {
 
   // As Renderer::vulkanPaths().
   std::vector<render::VulkanPath> paths() const;
-  std::string device() const;
 
   // Traces the rays in their order, in launches of at most kReplayRays. The first call for a path and kind of rays
   // compiles its shaders and traces one ray before the timed launches. path: one of paths(). Throws Error.

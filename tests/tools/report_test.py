@@ -407,9 +407,17 @@ class Plots(unittest.TestCase):
         zero, least, low = (axes.transData.transform((1, y))[1] for y in (0, 1e-3, axes.get_ylim()[0]))
         self.assertGreaterEqual(zero, low)
         self.assertGreater(least - zero, 10)  # pixels
-        places = sorted(axes.transData.transform((1, y))[1] for y in axes.get_yticks() if y <= axes.get_ylim()[1])
-        self.assertIn(zero, places)
-        self.assertGreater(min(numpy.diff(places)), 10)  # labels are beside each other
+        pyplot.close(figure)
+
+    def test_labels_of_the_error_axis_are_beside_each_other(self):
+        from matplotlib import pyplot
+        figure, axes = report_plots._axes()
+        report_plots._error_axis(axes, [0, 7e-10, 2e-2])
+        axes.plot([1, 2, 3], [0, 7e-10, 2e-2])
+        ticks = [y for y in axes.get_yticks() if 0 <= y <= axes.get_ylim()[1]]
+        self.assertIn(0, ticks)
+        places = sorted(axes.transData.transform((1, y))[1] for y in ticks)
+        self.assertGreater(min(numpy.diff(places)), 10)  # pixels
         pyplot.close(figure)
 
     def test_labels_have_the_order_of_the_points_and_leaders_do_not_cross(self):

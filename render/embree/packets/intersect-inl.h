@@ -67,7 +67,8 @@ void intersect(const Rays& batch, Intersections& found) {
       hn::ScatterIndex(loadW(query.hit.geomID).v, Words(), found.mesh, hn::BitCast(Ints(), to.v));
       hn::ScatterIndex(loadW(query.hit.primID).v, Words(), found.triangle, hn::BitCast(Ints(), to.v));
     } else {
-      tracePacket(batch, query, needed, true, [&](const float* values) HWY_ATTR { return loadR(values + at); });
+      const bool coherent = sameInAll(selectW(needed, loadW(octants + at), octants[at]));
+      tracePacket(batch, query, needed, coherent, [&](const float* values) HWY_ATTR { return loadR(values + at); });
       hn::StoreU(loadW(query.hit.geomID).v, Words(), found.mesh + at);
       hn::StoreU(loadW(query.hit.primID).v, Words(), found.triangle + at);
     }

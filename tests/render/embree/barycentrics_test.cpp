@@ -40,11 +40,12 @@ TEST(Barycentrics, FindThePointThatTheRayIsAimedAt) {
     const dvec3 d = glm::normalize(way), across = glm::cross(p1 - p0, p2 - p0);
     const double cosine = std::abs(glm::dot(d, glm::normalize(across)));
     if (cosine < 0.1) continue;
-    ++checked;
     const double longest = std::max({glm::length(p1 - p0), glm::length(p2 - p0), glm::length(p2 - p1)});
     const double height = glm::length(across) / longest;
     const double reach = glm::length(way) + longest;
-    const double bound = 16 * 0x1p-24 * reach * reach / (height * std::min(longest, reach) * cosine);
+    const double bound = 16 * 0x1p-24 * reach / (height * cosine);
+    if (bound > 0.1) continue;  // slivers far away
+    ++checked;
     const auto found = f32::barycentricCoordinates(vec3(start), vec3(d), vec3(p0), vec3(p1), vec3(p2));
     ASSERT_NEAR(found.b1, b1, bound) << draw;
     ASSERT_NEAR(found.b2, b2, bound) << draw;

@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-
 #include "render/scene/render_scene.h"
 #include "render/vulkan/acceleration.h"
 #include "render/vulkan/pipeline.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bake/imports/join_instances.h"
 #include "bake/imports/join_parts.h"
@@ -16,6 +17,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/nearest_name.h"
 #include "meshprep/prepare.h"
+#include "meshprep/read/counted_note.h"
 #include "meshprep/read/source_scene.h"
 
 namespace malus::bake {
@@ -119,8 +121,20 @@ std::string UniqueNames::take(std::string name) {
   }
 }
 
-std::string leftOutNote(const std::filesystem::path& file, const std::string& note) {
-  return fmt::format("{}: {}{}", file.string(), note.starts_with(prep::kAcceptedNote) ? "" : "left out: ", note);
+std::vector<std::string> fileNotes(const std::filesystem::path& file, const std::vector<std::string>& notes) {
+  std::vector<std::string> content, others;
+  for (const std::string& note : notes) {
+    const bool isAccepted = note.starts_with(prep::kAcceptedNote);
+    // An invalid part has the text of its error, which states what was expected.
+    const bool isContent = !isAccepted && note.find("; expected ") == std::string::npos;
+    if (isContent)
+      content.push_back(note);
+    else
+      others.push_back(fmt::format("{}: {}{}", file.string(), isAccepted ? "" : "left out: ", note));
+  }
+  if (!content.empty())
+    others.insert(others.begin(), fmt::format("{}: left out: {}", file.string(), fmt::join(content, "; ")));
+  return others;
 }
 
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
@@ -198,7 +212,8 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     result.meshes.push_back(std::move(mesh));
   }
   if (result.meshes.empty() && firstError) throw Error(*firstError);
-  for (const std::string& note : notes) result.notes.push_back(leftOutNote(description.file, note));
+  for (std::string& note : prep::viewNotes(source.cameras, source.lights)) prep::addNote(notes, std::move(note));
+  result.notes = fileNotes(description.file, notes);
   for (const std::string& note : joined) result.notes.push_back(fmt::format("{}: {}", description.file.string(), note));
   return result;
 }

@@ -45,7 +45,7 @@ struct ImportedMesh {
 struct Imported {
   std::vector<ImportedPart> parts;
   std::vector<ImportedMesh> meshes;
-  std::vector<std::string> notes;  // "model.glb: textures are left out"
+  std::vector<std::string> notes;  // "model.glb: left out: textures (2); animations (1: 'run')"
 };
 
 // Adds converted materials to materials. A part that the readers or prepare() refuse is left out with a note, or an
@@ -54,7 +54,8 @@ struct Imported {
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
                      UniqueNames& materialNames, UniqueNames& meshNames, bool strict = false);
 
-// A note of the readers about content that is left out or accepted, as a sentence.
-std::string leftOutNote(const std::filesystem::path& file, const std::string& note);
+// Notes of the readers about content that is left out or accepted, as sentences: one for all content that is left out,
+// one for each other note and for each invalid part of the file.
+std::vector<std::string> fileNotes(const std::filesystem::path& file, const std::vector<std::string>& notes);
 
 }  // namespace malus::bake

@@ -85,7 +85,7 @@ class Placer {
   // Prepares a file, and adds the notes of the reader, also if that is refused.
   prep::Mesh prepare(const std::filesystem::path& file, const prep::Options& options, prep::Report& report) {
     const auto addNotes = [&] {
-      for (const std::string& note : report.notes) result_.notes.push_back(leftOutNote(file, note));
+      for (std::string& note : fileNotes(file, report.notes)) result_.notes.push_back(std::move(note));
     };
     try {
       prep::Mesh mesh = prep::prepare(file, options, report);

@@ -123,6 +123,8 @@ Node toNode(const json& object) {
   Node node;
   get(object, "name", node.name);
   get(object, "mesh", node.mesh);
+  get(object, "camera", node.camera);
+  get(child(child(object, "extensions"), "KHR_lights_punctual"), "light", node.light);
   get(object, "children", node.children);
   get(object, "matrix", node.matrix);
   get(object, "translation", node.translation);
@@ -152,6 +154,28 @@ Material toMaterial(const json& object) {
   return material;
 }
 
+Camera toCamera(const json& object) {
+  Camera camera;
+  get(object, "name", camera.name);
+  get(object, "type", camera.type);
+  get(child(object, "perspective"), "yfov", camera.yfov);
+  get(child(object, "perspective"), "aspectRatio", camera.aspectRatio);
+  get(child(object, "orthographic"), "xmag", camera.xmag);
+  get(child(object, "orthographic"), "ymag", camera.ymag);
+  return camera;
+}
+
+Light toLight(const json& object) {
+  Light light;
+  get(object, "name", light.name);
+  get(object, "type", light.type);
+  get(object, "color", light.color);
+  get(object, "intensity", light.intensity);
+  get(child(object, "spot"), "innerConeAngle", light.innerConeAngle);
+  get(child(object, "spot"), "outerConeAngle", light.outerConeAngle);
+  return light;
+}
+
 // Takes the list at a key out of the document, so that it is freed before the next one is converted.
 json takeList(json& document, const char* key) {
   const auto found = document.find(key);
@@ -179,6 +203,10 @@ Document toDocument(json document, const std::string& where) {
     result.buffers.push_back({std::move(uri), buffer.at("byteLength").get<std::size_t>()});
   }
   for (const json& material : takeList(document, "materials")) result.materials.push_back(toMaterial(material));
+  for (const json& camera : takeList(document, "cameras")) result.cameras.push_back(toCamera(camera));
+  const json& punctual = child(child(document, "extensions"), "KHR_lights_punctual");
+  if (const auto lights = punctual.find("lights"); lights != punctual.end())
+    for (const json& light : *lights) result.lights.push_back(toLight(light));
   return result;
 }
 

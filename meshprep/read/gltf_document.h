@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,7 +75,7 @@ struct Mesh {
 
 struct Node {
   std::string name;
-  std::optional<std::size_t> mesh;
+  std::optional<std::size_t> mesh, camera, light;
   std::vector<std::size_t> children;
   std::optional<std::array<double, 16>> matrix;  // column-major; replaces the other three
   std::optional<std::array<double, 3>> translation, scale;
@@ -97,6 +98,22 @@ struct Material {
   double attenuationDistance = std::numeric_limits<double>::infinity();  // metres
 };
 
+struct Camera {
+  std::string name, type;  // "perspective" or "orthographic"; other types are left out
+  double yfov = 0;         // radians
+  std::optional<double> aspectRatio;
+  double xmag = 0, ymag = 0;  // half width and half height, metres
+};
+
+// KHR_lights_punctual
+struct Light {
+  std::string name, type;  // "point", "spot" or "directional"; other types are left out
+  std::array<double, 3> color{1, 1, 1};
+  double intensity = 1;       // candela; lux of a directional light
+  double innerConeAngle = 0;  // radians from the axis
+  double outerConeAngle = std::numbers::pi / 4;
+};
+
 struct Document {
   bool quantized = false;  // KHR_mesh_quantization is used
   std::optional<std::size_t> defaultScene;
@@ -107,6 +124,8 @@ struct Document {
   std::vector<BufferView> bufferViews;
   std::vector<Buffer> buffers;
   std::vector<Material> materials;
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
 };
 
 // `document` must come from parseGltfJson(), which checks types and required keys; its strings are moved out. `where`

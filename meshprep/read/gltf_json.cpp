@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/read/gltf_noted.h"
 #include "meshprep/read/gltf_rules.h"
 #include "meshprep/read/source_scene.h"
 
@@ -27,21 +28,21 @@ constexpr std::int64_t kMaxIndex = 0x7fffffff;
 constexpr std::int64_t kMaxSize = std::int64_t{1} << 53;  // exact in every JSON reader
 
 // Extensions that are read, and those that affect ignored textures only.
-constexpr std::array<std::string_view, 10> kKnownExtensions = {
-    "KHR_draco_mesh_compression", "KHR_mesh_quantization",
-    "KHR_materials_ior",          "KHR_materials_transmission",
-    "KHR_materials_volume",       "KHR_materials_emissive_strength",
-    "KHR_texture_transform",      "KHR_texture_basisu",
-    "EXT_texture_webp",           "EXT_texture_avif"};
+constexpr std::array<std::string_view, 11> kKnownExtensions = {
+    "KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_materials_ior",
+    "KHR_materials_transmission", "KHR_materials_volume",  "KHR_materials_emissive_strength",
+    "KHR_texture_transform",      "KHR_texture_basisu",    "EXT_texture_webp",
+    "EXT_texture_avif",           "KHR_lights_punctual"};
 
 // Builds the document of kept keys from the parser's events. nlohmann's filter by callback needs quadratic time,
 // because it searches the whole list at the end of each object.
 class Builder : public json::json_sax_t {
  public:
-  Builder(std::size_t textBytes, const std::string& where, std::vector<std::string>& notes)
-      : where_(where), notes_(notes), objectsLeft_(std::max(kMinObjects, textBytes / kBytesPerObject)) {}
+  Builder(std::size_t textBytes, const std::string& where)
+      : where_(where), objectsLeft_(std::max(kMinObjects, textBytes / kBytesPerObject)) {}
 
   json take() { return std::move(root_); }
+  std::vector<std::string> describeNoted() const { return noted_.describe(); }
 
   bool null() override { return put(nullptr); }
   bool boolean(bool value) override { return put(value); }
@@ -50,6 +51,7 @@ class Builder : public json::json_sax_t {
   bool number_float(double value, const std::string&) override { return put(value); }
   bool string(std::string& value) override {
     if (isKept()) count();
+    noted_.string(droppedLevels_, value);
     return put(std::move(value));
   }
   bool binary(json::binary_t&) override { return false; }  // not in JSON
@@ -62,14 +64,17 @@ class Builder : public json::json_sax_t {
   bool end_array() override { return close(); }
 
   bool key(std::string& key) override {
-    if (droppedLevels_ > 0) return true;
+    if (droppedLevels_ > 0) {
+      noted_.key(droppedLevels_, key);
+      return true;
+    }
     Open& object = open_.back();
     path_.resize(object.pathSize);
     if (!path_.empty()) path_ += '/';
     path_ += key;
     const Rule* rule = findRule(path_);
-    if (rule != nullptr && rule->type == Type::noted) addNote(notes_, std::string(rule->note));
     isDropped_ = rule == nullptr || rule->type == Type::noted;
+    noted_.begin(isDropped_ ? rule : nullptr);
     if (isDropped_) return true;
     if (object.value->contains(key))
       throw Error(where_, fmt::format("duplicate key '{}'", path_), "each key once per object");
@@ -110,6 +115,7 @@ class Builder : public json::json_sax_t {
 
   bool put(json value) {
     if (isKept()) insert(std::move(value));
+    noted_.value(droppedLevels_, false);
     if (droppedLevels_ == 0) isDropped_ = false;
     return true;
   }
@@ -118,6 +124,7 @@ class Builder : public json::json_sax_t {
     if (++levels_ > kMaxNesting)
       throw Error(where_, "JSON is nested too deeply", fmt::format("at most {} levels", kMaxNesting));
     if (!isKept()) {
+      noted_.value(droppedLevels_, value.is_array());
       ++droppedLevels_;
       isDropped_ = false;
       return true;
@@ -144,7 +151,7 @@ class Builder : public json::json_sax_t {
   }
 
   const std::string& where_;
-  std::vector<std::string>& notes_;
+  GltfNotedContent noted_;
   std::size_t objectsLeft_;
   json root_;
   std::vector<Open> open_;
@@ -155,7 +162,8 @@ class Builder : public json::json_sax_t {
   bool isDropped_ = false;  // the value of the last key is dropped
 };
 
-// Checks the types of kept values by their rules. Invalid keys of materials are removed with a note, unless `strict`.
+// Checks the types of kept values by their rules. Invalid keys of materials, cameras and lights are removed with a
+// note, unless `strict`.
 class TypeCheck {
  public:
   TypeCheck(const std::string& where, std::vector<std::string>& notes, bool strict)
@@ -171,7 +179,7 @@ class TypeCheck {
         check(item.value(), path.empty() ? item.key() : path + "/" + item.key(), joined(location, item.key()));
         ++item;
       } catch (const Error& error) {
-        if (strict_ || !isOfMaterial(path)) throw;
+        if (strict_ || !isOptional(path)) throw;
         note(error);
         item = value.erase(item);
       }
@@ -179,7 +187,14 @@ class TypeCheck {
   }
 
  private:
-  static bool isOfMaterial(std::string_view path) { return path == "materials" || path.starts_with("materials/"); }
+  // Whether a scene can be read without the object at this path: materials, cameras and lights.
+  static bool isOptional(std::string_view path) {
+    constexpr std::array<std::string_view, 4> kOptional = {"materials", "cameras", "nodes/extensions",
+                                                           "extensions/KHR_lights_punctual"};
+    return std::any_of(kOptional.begin(), kOptional.end(), [&](std::string_view start) {
+      return path.starts_with(start) && (path.size() == start.size() || path[start.size()] == '/');
+    });
+  }
 
   void note(const Error& error) const {
     std::string_view text = error.what();
@@ -217,9 +232,9 @@ class TypeCheck {
             if (!value[i].is_object()) fail(item, "an object", value[i]);
             object(value[i], path, item);
           } catch (const Error& error) {
-            if (strict_ || !isOfMaterial(path)) throw;
+            if (strict_ || !isOptional(path)) throw;
             note(error);
-            value[i] = json::object();  // the default material keeps the indices of the others
+            value[i] = json::object();  // keeps the indices of the others
           }
         }
         break;
@@ -289,8 +304,9 @@ GltfJson parseGltfJson(std::string_view text, const std::string& where, bool str
   GltfJson result;
 
   // Parse the keys of the whitelist.
-  Builder builder(text.size(), where, result.notes);
+  Builder builder(text.size(), where);
   json::sax_parse(text, &builder);
+  for (std::string& note : builder.describeNoted()) addNote(result.notes, std::move(note));
   result.document = builder.take();
 
   // Check types, version and extensions.

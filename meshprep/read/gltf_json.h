@@ -14,13 +14,13 @@ namespace malus::prep {
 
 struct GltfJson {
   nlohmann::json document;         // keys of the whitelist only
-  std::vector<std::string> notes;  // ignored content: "textures"
+  std::vector<std::string> notes;  // ignored content: "textures (2)"
 };
 
 // `where` is the file for messages; errors add the location: "FILE: nodes[3].matrix", or a byte of the JSON. Throws
 // Error: not JSON, more than 64 levels, a duplicate key, a value of the wrong type, a missing required key, a version
 // other than 2, an unknown required extension, more than max(200000, bytes / 50) objects. Without `strict`, a key of a
-// material with a value of the wrong type is removed with a note.
+// material, camera or light with a value of the wrong type is removed with a note.
 GltfJson parseGltfJson(std::string_view text, const std::string& where, bool strict);
 
 }  // namespace malus::prep

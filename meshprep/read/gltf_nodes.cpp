@@ -123,16 +123,15 @@ void requireNoCycle(const gltf::Document& document, const std::vector<bool>& has
 
 }  // namespace
 
-std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
-                                          std::vector<std::string>& notes,
-                                          const std::function<void(const Error&)>& leaveOut) {
+GltfPlacements gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
+                              std::vector<std::string>& notes, const std::function<void(const Error&)>& leaveOut) {
   // Check that the graph is a forest.
   const std::vector<bool> hasParent = findParents(document, where);
   requireNoCycle(document, hasParent, where);
   const std::vector<std::size_t> roots = findRoots(document, hasParent, where, notes);
 
   // Traverse it depth-first with a stack; children in their order.
-  std::vector<GltfPlacement> placements;
+  GltfPlacements placements;
   std::vector<std::pair<std::size_t, glm::dmat4>> stack;
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.emplace_back(*root, glm::dmat4(1.0));
   while (!stack.empty()) {
@@ -148,6 +147,9 @@ std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::s
     }
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       stack.emplace_back(*child, worldFromObject);
+    const std::string name = node.name.empty() ? fmt::format("node {}", index) : node.name;
+    if (node.camera) placements.cameras.push_back({*node.camera, name, worldFromObject});
+    if (node.light) placements.lights.push_back({*node.light, name, worldFromObject});
     if (!node.mesh) continue;
     try {
       if (*node.mesh >= document.meshes.size())
@@ -158,8 +160,9 @@ std::vector<GltfPlacement> gltfPlacements(const gltf::Document& document, std::s
       leaveOut(error);
       continue;
     }
-    if (placements.size() == most) throw Error(where, "too many nodes with meshes", fmt::format("at most {}", most));
-    placements.push_back({*node.mesh, node.name.empty() ? fmt::format("node {}", index) : node.name, worldFromObject});
+    if (placements.meshes.size() == most)
+      throw Error(where, "too many nodes with meshes", fmt::format("at most {}", most));
+    placements.meshes.push_back({*node.mesh, name, worldFromObject});
   }
   return placements;
 }

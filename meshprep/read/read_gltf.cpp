@@ -18,6 +18,7 @@
 #include "meshprep/read/gltf_json.h"
 #include "meshprep/read/gltf_material.h"
 #include "meshprep/read/gltf_nodes.h"
+#include "meshprep/read/gltf_views.h"
 
 namespace malus::prep {
 
@@ -316,13 +317,22 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
         document.materials[i], fmt::format("{}materials[{}]", strict ? where + ": " : "", i), scene.notes, strict));
 
   // Place the meshes. Meshes without a placement are not read.
-  const std::vector<GltfPlacement> placements =
-      gltfPlacements(document, kMaxInstances, where, scene.notes, [&](const Error& error) { leftOut.add(error); });
+  const auto leaveOut = [&](const Error& error) { leftOut.add(error); };
+  const GltfPlacements all = gltfPlacements(document, kMaxInstances, where, scene.notes, leaveOut);
+  const std::vector<GltfPlacement>& placements = all.meshes;
   if (placements.empty()) leftOut.rethrowFirst();
   if (placements.empty()) throw Error(where, "no mesh in the scene", "a node with a mesh");
   std::vector<bool> placed(document.meshes.size(), false);
-  for (const GltfPlacement& placement : placements) placed[placement.mesh] = true;
+  for (const GltfPlacement& placement : placements) placed[placement.object] = true;
   if (std::find(placed.begin(), placed.end(), false) != placed.end()) addNote(scene.notes, "meshes without a node");
+
+  // Convert the cameras and the lights.
+  scene.cameras = gltfCameras(document, all.cameras, where, leaveOut);
+  scene.lights = gltfLights(document, all.lights, where, leaveOut);
+  if (all.cameras.empty() && !document.cameras.empty())
+    addNote(scene.notes, fmt::format("cameras without a node ({})", document.cameras.size()));
+  if (all.lights.empty() && !document.lights.empty())
+    addNote(scene.notes, fmt::format("lights without a node ({})", document.lights.size()));
 
   // Read the parts.
   PartReader reader(document, buffers, container.size(), where, strict);
@@ -335,7 +345,7 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
   const std::size_t mostVertices = std::max(3 * most, reader.vertexCount());
   std::size_t triangles = 0, vertices = 0;
   for (const GltfPlacement& placement : placements) {
-    const std::vector<std::size_t>& parts = partsOfMesh[placement.mesh];
+    const std::vector<std::size_t>& parts = partsOfMesh[placement.object];
     for (std::size_t i = 0; i < parts.size(); ++i) {
       triangles += scene.parts[parts[i]].polygons.faceCount();
       vertices += scene.parts[parts[i]].polygons.positions.size();

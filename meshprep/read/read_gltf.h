@@ -1,13 +1,14 @@
-// glTF 2.0, as JSON (.gltf) or binary (.glb), with KHR_draco_mesh_compression, KHR_mesh_quantization and
-// KHR_materials_ior, _transmission, _volume and _emissive_strength.
+// glTF 2.0, as JSON (.gltf) or binary (.glb), with KHR_draco_mesh_compression, KHR_mesh_quantization,
+// KHR_lights_punctual and KHR_materials_ior, _transmission, _volume and _emissive_strength.
 //
 // The JSON is parsed through a whitelist of keys and types (gltf_json.h) into structures (gltf_document.h). Buffers are
 // data URIs, files in the folder of the glTF file or below it, or the chunk of a GLB; no other file is opened. Every
 // accessor is checked against its bytes before memory is allocated for it.
 //
-// Each primitive is a part; each node with a mesh makes one instance of every primitive of the mesh. The default scene
-// is read, or the first scene; without scenes, all nodes without a parent. Skins, morph targets and animations are left
-// out: the pose of the file is used. Whatever is left out is listed in the notes.
+// Each primitive is a part; each node with a mesh makes one instance of every primitive of the mesh, and each node with
+// a camera or a light makes one of these (gltf_views.h). The default scene is read, or the first scene; without scenes,
+// all nodes without a parent. Skins, morph targets and animations are left out: the pose of the file is used. Whatever
+// is left out is listed in the notes.
 //
 // Limits, so that a small file cannot claim gigabytes; B is the size of the file and its buffers in bytes.
 //   triangles of all primitives   max(2 million, B / 2), plus twice the bytes of a primitive's Draco data
@@ -25,9 +26,9 @@
 
 namespace malus::prep {
 
-// A primitive that cannot be read, or an instance that cannot be placed, is left out with a note, or an Error if
-// `strict`. It is an Error too if nothing is left. The last one or two corners of a list of triangles, which are no
-// triangle, are left out with a note.
+// A primitive that cannot be read, or an instance, camera or light that cannot be placed, is left out with a note, or
+// an Error if `strict`. It is an Error too if nothing is left. The last one or two corners of a list of triangles,
+// which are no triangle, are left out with a note.
 //
 // Throws Error that names the file and the location in it ("meshes[0].primitives[1]", or a byte): not glTF 2.0, an
 // unknown required extension, a value of the wrong type, an index out of range, missing bytes, a number that is not

@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "meshprep/base/atomic_file.h"
+#include "meshprep/read/counted_note.h"
 #include "meshprep/read/read_gltf.h"
 #include "meshprep/read/read_mesh.h"
 #include "meshprep/read/read_mtl.h"
@@ -132,6 +133,7 @@ Polygons mergeInstances(const SourceScene& scene) {
 Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> instances) {
   Polygons result;
   result.notes = scene.notes;
+  for (std::string& note : viewNotes(scene.cameras, scene.lights)) addNote(result.notes, std::move(note));
   // If any part has normals, set those of the others to zero.
   const bool normals = std::any_of(scene.parts.begin(), scene.parts.end(),
                                    [](const SourcePart& part) { return !part.polygons.normals.empty(); });

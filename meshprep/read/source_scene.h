@@ -1,5 +1,5 @@
-// Content of a model file: materials, parts with one material each, and instances of the parts. glTF has all of these;
-// OBJ has materials, and faces are grouped by them; PLY, STL and OFF are one part and one instance.
+// Content of a model file: materials, parts with one material each, instances of the parts, cameras and lights. glTF
+// has all of these; OBJ has materials, and faces are grouped by them; PLY, STL and OFF are one part and one instance.
 //
 // Nothing is processed here: transforms, optical constants and cleaning are applied later (bake/imports). Lengths are
 // metres, coordinates double; the axes are those of the file (glTF: right-handed, +y up).
@@ -18,6 +18,7 @@
 #include <glm/vec3.hpp>
 
 #include "meshprep/read/polygons.h"
+#include "meshprep/read/source_view.h"
 
 namespace malus::prep {
 
@@ -65,8 +66,10 @@ struct SourceScene {
   std::vector<SourceMaterial> materials;
   std::vector<SourcePart> parts;
   std::vector<SourceInstance> instances;
+  std::vector<SourceCamera> cameras;  // of glTF, in the order of the nodes, depth-first
+  std::vector<SourceLight> lights;
 
-  // Ignored content, each kind once: "textures"; or after kAcceptedNote (polygons.h), accepted content.
+  // Ignored content, each kind once: "textures (2)"; or after kAcceptedNote (polygons.h), accepted content.
   std::vector<std::string> notes;
 };
 

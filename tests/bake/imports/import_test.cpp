@@ -295,13 +295,14 @@ TEST_F(Import, LeavesOutPartsThatCannotBePrepared) {
 }
 
 TEST_F(Import, UnsupportedFeaturesAreReported) {
-  gltf_.document["cameras"] = json::array();
-  gltf_.document["animations"] = {{{"channels", json::array()}, {"samplers", json::array()}}};
+  gltf_.document["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
+  gltf_.addNode({{"name", "lens"}, {"camera", 0}});
+  gltf_.document["animations"] = {{{"name", "run"}, {"channels", json::array()}, {"samplers", json::array()}}};
   folder_.write("model.glb", gltf_.glb());
   const std::vector<std::string> notes = baked().notes;
   ASSERT_FALSE(notes.empty());
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& n) {
-    return contains(n, "left out: anim");
+    return contains(n, "left out: anim", "(1: 'run'", "cameras (1: 'lens')");
   })) << notes[0];
 }
 

@@ -289,11 +289,11 @@ TEST(ReadGltf, NotesIgnoredContent) {
   gltf.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}});
   gltf.document["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
   const SourceScene scene = readGlb(gltf);
-  for (const char* note : {"skins", "animations", "textures", "extension EXT_mesh_gpu_instancing",
+  for (const char* note : {"skins", "animations", "textures", "images", "extension EXT_mesh_gpu_instancing",
                            "texture coordinates", "extension KHR_materials_clearcoat", "colours of vertices",
                            "morph targets", "points and lines", "meshes without a node"})
     EXPECT_TRUE(hasNote(scene, note)) << note;
-  EXPECT_EQ(scene.notes.size(), 10u);  // each once
+  EXPECT_EQ(scene.notes.size(), 11u);  // each once
   gltf.document["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
   EXPECT_CONTAINS(errorIn(gltf), "extensionsRequired", "unknown");
   EXPECT_CONTAINS(errorIn(gltf), "found 'EXT_mesh_gpu_instancing'");

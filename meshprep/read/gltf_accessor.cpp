@@ -70,6 +70,8 @@ bool isUnsigned(ComponentType type) {
   return type == ComponentType::uint8 || type == ComponentType::uint16 || type == ComponentType::uint32;
 }
 
+bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
 // Requires `count` elements from `offset` on, at distances of `stride`, to be inside the view.
 std::span<const std::byte> findElements(std::span<const std::byte> view, std::size_t offset, std::size_t count,
                                         std::size_t stride, std::size_t elementBytes, const std::string& location) {
@@ -89,6 +91,7 @@ std::span<const std::byte> gltfViewBytes(const gltf::Document& document, GltfBuf
   if (index >= document.bufferViews.size())
     throw Error(location, "does not exist", fmt::format("one of {} buffer views", document.bufferViews.size()));
   const gltf::BufferView& view = document.bufferViews[index];
+  if (view.isInvalid) throw Error(location, "is invalid", "a valid buffer view");
   const std::span<const std::byte> buffer = buffers.bytes(view.buffer);
   if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
     throw Error(location, "buffer view exceeds its buffer", fmt::format("at most {} bytes", buffer.size()),
@@ -102,6 +105,7 @@ GltfAccessor::GltfAccessor(const gltf::Document& document, GltfBuffers& buffers,
   if (index >= document.accessors.size())
     throw Error(location_, "does not exist", fmt::format("one of {} accessors", document.accessors.size()));
   const gltf::Accessor& accessor = document.accessors[index];
+  if (accessor.isInvalid) throw Error(location_, "is invalid", "a valid accessor");
 
   // Compute the size of an element.
   if (accessor.count == 0) throw Error(location_, "no elements", "1 or more", "0");
@@ -156,13 +160,19 @@ void GltfAccessor::requireVectors(bool quantized) const {
   if (components_ != 3 || (!isFloat && !(quantized && componentSize(componentType_) <= 2)))
     throw Error(location_, "wrong type", quantized ? "VEC3 of floats, shorts or bytes" : "VEC3 of floats (5126)",
                 fmt::format("{} components of type {}", components_, static_cast<std::uint32_t>(componentType_)));
-  if (!isFloat) return;
-  for (std::size_t i = 0; i < count_; ++i) {
-    const glm::dvec3 v = vector(i);
-    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-      throw Error(location_, fmt::format("element {} is not finite", i), "finite numbers",
-                  fmt::format("({}, {}, {})", v.x, v.y, v.z));
-  }
+}
+
+std::optional<std::size_t> GltfAccessor::findNotFinite() const {
+  if (componentType_ != ComponentType::float32) return std::nullopt;
+  for (std::size_t i = 0; i < count_; ++i)
+    if (!isFinite(vector(i))) return i;
+  return std::nullopt;
+}
+
+Error GltfAccessor::notFinite(std::size_t i) const {
+  const glm::dvec3 v = vector(i);
+  return {location_, fmt::format("element {} is not finite", i), "finite numbers",
+          fmt::format("({}, {}, {})", v.x, v.y, v.z)};
 }
 
 void GltfAccessor::requireIndices() const {

@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "meshprep/base/error.h"
 #include "meshprep/read/gltf_buffers.h"
 #include "meshprep/read/gltf_document.h"
 
@@ -18,15 +20,20 @@ namespace malus::prep {
 class GltfAccessor {
  public:
   // Checks that all elements are inside the buffer views. `where` is the file for messages. Throws Error: an accessor,
-  // view or buffer that does not exist, overlapping elements, missing bytes, sparse indices out of order or range.
+  // view or buffer that does not exist or is invalid, overlapping elements, missing bytes, sparse indices out of order
+  // or range.
   GltfAccessor(const gltf::Document& document, GltfBuffers& buffers, std::size_t index, const std::string& where);
 
   std::size_t count() const { return count_; }
   const std::string& location() const { return location_; }  // for messages
   bool hasBytes() const { return !data_.empty(); }
 
-  // Throws Error unless the elements are vectors of three finite floats or, if quantized, of three bytes or shorts.
+  // Throws Error unless the elements are vectors of three floats or, if quantized, of three bytes or shorts.
   void requireVectors(bool quantized) const;
+  // Returns the first vector that is not finite.
+  std::optional<std::size_t> findNotFinite() const;
+  // Returns the error of such a vector.
+  Error notFinite(std::size_t i) const;
   // Throws Error unless the elements are unsigned integers of 8, 16 or 32 bits.
   void requireIndices() const;
 
@@ -49,7 +56,7 @@ class GltfAccessor {
   std::span<const std::byte> sparseData_;
 };
 
-// Returns the bytes of a buffer view. Throws Error: a view or buffer that does not exist, missing bytes.
+// Returns the bytes of a buffer view. Throws Error: a view or buffer that does not exist or is invalid, missing bytes.
 std::span<const std::byte> gltfViewBytes(const gltf::Document& document, GltfBuffers& buffers, std::size_t view,
                                          const std::string& where);
 

@@ -132,6 +132,7 @@ std::span<const std::byte> GltfBuffers::bytes(std::size_t index) {
   if (index >= buffers_.size())
     throw Error(location, "does not exist", fmt::format("one of {} buffers", buffers_.size()));
   const gltf::Buffer& buffer = buffers_[index];
+  if (buffer.isInvalid) throw Error(location, "is invalid", "a valid buffer");
 
   std::span<const std::byte> data;
   if (!buffer.uri.empty()) {

@@ -42,8 +42,8 @@ class GltfBuffers {
 
   std::size_t count() const { return buffers_.size(); }
 
-  // The first `byteLength` bytes of the buffer. Throws Error: no such buffer, a URI that is not allowed, invalid
-  // base64, fewer bytes.
+  // The first `byteLength` bytes of the buffer. Throws Error: no such buffer or an invalid one, a URI that is not
+  // allowed, invalid base64, fewer bytes.
   std::span<const std::byte> bytes(std::size_t buffer);
 
   std::size_t bytesRead() const { return bytesRead_; }  // of buffers outside the container

@@ -14,15 +14,20 @@ namespace {
 
 constexpr std::size_t kMaxStride = 252;
 
-// Fills `value` if the object has the key.
+// Fills `value` if the object has the key with a valid value.
 template <class Value>
 void get(const json& object, const char* key, Value& value) {
-  if (const auto found = object.find(key); found != object.end()) found->get_to(value);
+  if (const auto found = object.find(key); found != object.end() && !found->is_null()) found->get_to(value);
 }
 
 template <class Value>
 void get(const json& object, const char* key, std::optional<Value>& value) {
-  if (const auto found = object.find(key); found != object.end()) value = found->get<Value>();
+  if (const auto found = object.find(key); found != object.end() && !found->is_null()) value = found->get<Value>();
+}
+
+bool isInvalid(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_null();
 }
 
 // The object at a key; an empty object if there is none.
@@ -115,7 +120,10 @@ Mesh toMesh(const json& object) {
   get(object, "name", mesh.name);
   const json& primitives = object.at("primitives");
   mesh.primitives.reserve(primitives.size());
-  for (const json& primitive : primitives) mesh.primitives.push_back(toPrimitive(primitive));
+  for (const json& primitive : primitives) {
+    mesh.primitives.push_back(primitive.is_null() ? Primitive{} : toPrimitive(primitive));
+    mesh.primitives.back().isInvalid = primitive.is_null();
+  }
   return mesh;
 }
 
@@ -130,6 +138,9 @@ Node toNode(const json& object) {
   get(object, "translation", node.translation);
   get(object, "rotation", node.rotation);
   get(object, "scale", node.scale);
+  node.hasInvalidChildren = isInvalid(object, "children");
+  for (const char* key : {"matrix", "translation", "rotation", "scale"})
+    node.hasInvalidTransform = node.hasInvalidTransform || isInvalid(object, key);
   return node;
 }
 
@@ -176,34 +187,65 @@ Light toLight(const json& object) {
   return light;
 }
 
-// Takes the list at a key out of the document, so that it is freed before the next one is converted.
-json takeList(json& document, const char* key) {
-  const auto found = document.find(key);
-  return found == document.end() ? json::array() : std::move(*found);
+Buffer toBuffer(json& object) {
+  Buffer buffer;
+  if (const auto found = object.find("uri"); found != object.end())
+    buffer.uri = std::move(found->get_ref<std::string&>());
+  buffer.byteLength = object.at("byteLength").get<std::size_t>();
+  return buffer;
 }
+
+// Converts lists of the document.
+class Lists {
+ public:
+  Lists(json& document, const std::string& where, GltfLeftOut& leftOut)
+      : document_(document), where_(where), leftOut_(leftOut) {}
+
+  // Takes the list at a key out of the document, so that it is freed before the next one is converted.
+  json take(const char* key) {
+    const auto found = document_.find(key);
+    return found == document_.end() ? json::array() : std::move(*found);
+  }
+
+  // Appends convert(item, location) for each item, and an invalid one for an item that is null or throws Error.
+  template <class Item, class Convert>
+  void convert(const char* key, std::vector<Item>& result, Convert convertItem) {
+    json list = take(key);
+    result.reserve(list.size());
+    for (json& item : list) {
+      result.emplace_back();
+      result.back().isInvalid = true;
+      if (item.is_null()) continue;
+      try {
+        result.back() = convertItem(item, fmt::format("{}: {}[{}]", where_, key, result.size() - 1));
+      } catch (const Error& error) {
+        leftOut_.addPart(error);
+      }
+    }
+  }
+
+ private:
+  json& document_;
+  const std::string& where_;
+  GltfLeftOut& leftOut_;
+};
 
 }  // namespace
 
-Document toDocument(json document, const std::string& where) {
+Document toDocument(json document, const std::string& where, GltfLeftOut& leftOut) {
   Document result;
-  const auto location = [&](const char* list, std::size_t i) { return fmt::format("{}: {}[{}]", where, list, i); };
+  Lists lists(document, where, leftOut);
   get(document, "scene", result.defaultScene);
-  for (const json& name : takeList(document, "extensionsUsed"))
+  for (const json& name : lists.take("extensionsUsed"))
     result.quantized = result.quantized || name == "KHR_mesh_quantization";
-  for (const json& scene : takeList(document, "scenes")) get(scene, "nodes", result.sceneNodes.emplace_back());
-  for (const json& node : takeList(document, "nodes")) result.nodes.push_back(toNode(node));
-  for (const json& mesh : takeList(document, "meshes")) result.meshes.push_back(toMesh(mesh));
-  for (const json& accessor : takeList(document, "accessors"))
-    result.accessors.push_back(toAccessor(accessor, location("accessors", result.accessors.size())));
-  for (const json& view : takeList(document, "bufferViews"))
-    result.bufferViews.push_back(toBufferView(view, location("bufferViews", result.bufferViews.size())));
-  for (json& buffer : takeList(document, "buffers")) {
-    std::string uri;
-    if (const auto found = buffer.find("uri"); found != buffer.end()) uri = std::move(found->get_ref<std::string&>());
-    result.buffers.push_back({std::move(uri), buffer.at("byteLength").get<std::size_t>()});
-  }
-  for (const json& material : takeList(document, "materials")) result.materials.push_back(toMaterial(material));
-  for (const json& camera : takeList(document, "cameras")) result.cameras.push_back(toCamera(camera));
+  for (const json& scene : lists.take("scenes")) get(scene, "nodes", result.sceneNodes.emplace_back());
+  for (const json& node : lists.take("nodes")) result.nodes.push_back(toNode(node));
+  lists.convert("meshes", result.meshes, [](const json& mesh, const std::string&) { return toMesh(mesh); });
+  lists.convert("accessors", result.accessors, toAccessor);
+  lists.convert("bufferViews", result.bufferViews, toBufferView);
+  lists.convert("buffers", result.buffers, [](json& buffer, const std::string&) { return toBuffer(buffer); });
+  for (const json& material : lists.take("materials")) result.materials.push_back(toMaterial(material));
+  for (const json& camera : lists.take("cameras")) result.cameras.push_back(toCamera(camera));
   const json& punctual = child(child(document, "extensions"), "KHR_lights_punctual");
   if (const auto lights = punctual.find("lights"); lights != punctual.end())
     for (const json& light : *lights) result.lights.push_back(toLight(light));

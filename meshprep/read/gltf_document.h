@@ -13,6 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meshprep/read/gltf_left_out.h"
+
 namespace malus::prep::gltf {
 
 enum class ComponentType : std::uint32_t {
@@ -26,9 +28,11 @@ enum class ComponentType : std::uint32_t {
 
 enum class PrimitiveMode : std::uint32_t { triangles = 4, triangleStrip = 5, triangleFan = 6 };  // below 4: no faces
 
+// Items of lists have isInvalid set if they are left out because of an error.
 struct Buffer {
   std::string uri;  // empty: the binary chunk of a GLB
   std::size_t byteLength = 0;
+  bool isInvalid = false;
 };
 
 struct BufferView {
@@ -36,6 +40,7 @@ struct BufferView {
   std::size_t byteOffset = 0;
   std::size_t byteLength = 0;
   std::size_t byteStride = 0;  // 0: tightly packed; else a multiple of 4 up to 252
+  bool isInvalid = false;
 };
 
 struct SparseElements {
@@ -53,6 +58,7 @@ struct Accessor {
   std::size_t count = 0;
   std::size_t components = 0;  // of an element: 1 (SCALAR) to 16 (MAT4)
   std::optional<SparseElements> sparse;
+  bool isInvalid = false;
 };
 
 // KHR_draco_mesh_compression. Attributes are ids in the Draco data.
@@ -66,11 +72,13 @@ struct Primitive {
   std::uint32_t mode = static_cast<std::uint32_t>(PrimitiveMode::triangles);
   std::optional<std::size_t> position, normal, indices, material;
   std::optional<DracoExtension> draco;
+  bool isInvalid = false;
 };
 
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
+  bool isInvalid = false;
 };
 
 struct Node {
@@ -80,6 +88,7 @@ struct Node {
   std::optional<std::array<double, 16>> matrix;  // column-major; replaces the other three
   std::optional<std::array<double, 3>> translation, scale;
   std::optional<std::array<double, 4>> rotation;  // quaternion (x, y, z, w)
+  bool hasInvalidTransform = false, hasInvalidChildren = false;
 };
 
 struct Material {
@@ -129,8 +138,8 @@ struct Document {
 };
 
 // `document` must come from parseGltfJson(), which checks types and required keys; its strings are moved out. `where`
-// is the file for messages. Throws Error: an unknown component type or element type, a stride that glTF forbids.
-// Indices into other lists are checked where they are used.
-Document toDocument(nlohmann::json document, const std::string& where);
+// is the file for messages. Leaves out an accessor with an unknown component type or element type, and a buffer view
+// with a stride that glTF forbids. Indices into other lists are checked where they are used.
+Document toDocument(nlohmann::json document, const std::string& where, GltfLeftOut& leftOut);
 
 }  // namespace malus::prep::gltf

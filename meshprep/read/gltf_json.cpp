@@ -14,6 +14,7 @@
 
 namespace malus::prep {
 using gltf::findRule;
+using gltf::Invalid;
 using gltf::requiredKeys;
 using gltf::Rule;
 using gltf::Type;
@@ -162,12 +163,10 @@ class Builder : public json::json_sax_t {
   bool isDropped_ = false;  // the value of the last key is dropped
 };
 
-// Checks the types of kept values by their rules. Invalid keys of materials, cameras and lights are removed with a
-// note, unless `strict`.
+// Checks the types of kept values by their rules. Leaves out what is invalid.
 class TypeCheck {
  public:
-  TypeCheck(const std::string& where, std::vector<std::string>& notes, bool strict)
-      : where_(where), notes_(notes), strict_(strict) {}
+  TypeCheck(const std::string& where, GltfLeftOut& leftOut) : where_(where), leftOut_(leftOut) {}
 
   // path: of the rules, without indices. location: for messages.
   void object(json& value, const std::string& path, const std::string& location) const {
@@ -175,33 +174,25 @@ class TypeCheck {
       if (!value.contains(key))
         throw Error(fmt::format("{}: {}", where_, joined(location, key)), "missing key", fmt::format("'{}'", key));
     for (auto item = value.begin(); item != value.end();) {
+      const std::string itemPath = path.empty() ? item.key() : path + "/" + item.key();
+      const Rule& rule = *findRule(itemPath);  // exists for every kept value
       try {
-        check(item.value(), path.empty() ? item.key() : path + "/" + item.key(), joined(location, item.key()));
+        check(item.value(), rule, itemPath, joined(location, item.key()));
         ++item;
       } catch (const Error& error) {
-        if (strict_ || !isOptional(path)) throw;
-        note(error);
-        item = value.erase(item);
+        if (rule.invalid == Invalid::object) throw;
+        if (rule.invalid == Invalid::value) {
+          leftOut_.addValue(error);
+          item = value.erase(item);
+        } else {
+          leftOut_.addPart(error);
+          *item++ = nullptr;
+        }
       }
     }
   }
 
  private:
-  // Whether a scene can be read without the object at this path: materials, cameras and lights.
-  static bool isOptional(std::string_view path) {
-    constexpr std::array<std::string_view, 4> kOptional = {"materials", "cameras", "nodes/extensions",
-                                                           "extensions/KHR_lights_punctual"};
-    return std::any_of(kOptional.begin(), kOptional.end(), [&](std::string_view start) {
-      return path.starts_with(start) && (path.size() == start.size() || path[start.size()] == '/');
-    });
-  }
-
-  void note(const Error& error) const {
-    std::string_view text = error.what();
-    if (text.starts_with(where_ + ": ")) text.remove_prefix(where_.size() + 2);
-    addNote(notes_, std::string(text));
-  }
-
   static std::string joined(const std::string& location, std::string_view key) {
     return location.empty() ? std::string(key) : fmt::format("{}.{}", location, key);
   }
@@ -212,31 +203,80 @@ class TypeCheck {
     throw Error(fmt::format("{}: {}", where_, location), "wrong type", expected, text);
   }
 
-  void wholeNumber(const json& value, const std::string& location, std::int64_t most) const {
+  // Accepts a fraction of zero, which glTF does not permit.
+  void wholeNumber(json& value, const std::string& location, std::int64_t most) const {
+    if (value.is_number_float()) {
+      const double number = value.get<double>();
+      if (number >= 0 && number <= static_cast<double>(most) && number == std::floor(number)) {
+        value = static_cast<std::uint64_t>(number);
+        addNote(leftOut_.notes(), std::string(kAcceptedNote) + "integers with a decimal point");
+      }
+    }
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most))
       fail(location, fmt::format("an integer from 0 to {}", most), value);
   }
 
-  void check(json& value, const std::string& path, const std::string& location) const {
-    const Rule& rule = *findRule(path);  // exists for every kept value
+  // Materials, cameras and lights become empty objects, which have defaults or are checked where they are used.
+  void objects(json& value, const Rule& rule, const std::string& path, const std::string& location) const {
+    if (!value.is_array()) fail(location, "a list of objects", value);
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const std::string item = fmt::format("{}[{}]", location, i);
+      try {
+        if (!value[i].is_object()) fail(item, "an object", value[i]);
+        object(value[i], path, item);
+      } catch (const Error& error) {
+        if (path == "materials" || rule.invalid == Invalid::value) {
+          leftOut_.addValue(error);
+          value[i] = json::object();
+        } else {
+          leftOut_.addPart(error);
+          value[i] = nullptr;
+        }
+      }
+    }
+  }
+
+  // Leaves out the invalid items.
+  void indices(json& value, const std::string& location) const {
+    if (!value.is_array()) fail(location, "a list of integers", value);
+    json::array_t kept;
+    kept.reserve(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      try {
+        wholeNumber(value[i], fmt::format("{}[{}]", location, i), kMaxIndex);
+        kept.push_back(std::move(value[i]));
+      } catch (const Error& error) {
+        leftOut_.addPart(error);
+      }
+    }
+    value = std::move(kept);
+  }
+
+  // Leaves out the invalid items of a list with a default.
+  void texts(json& value, const Rule& rule, const std::string& location) const {
+    if (!value.is_array()) fail(location, "a list of strings", value);
+    json::array_t kept;
+    kept.reserve(value.size());
+    for (json& item : value) {
+      try {
+        if (!item.is_string()) fail(location, "a list of strings", item);
+        kept.push_back(std::move(item));
+      } catch (const Error& error) {
+        if (rule.invalid != Invalid::value) throw;
+        leftOut_.addValue(error);
+      }
+    }
+    value = std::move(kept);
+  }
+
+  void check(json& value, const Rule& rule, const std::string& path, const std::string& location) const {
     switch (rule.type) {
       case Type::object:
         if (!value.is_object()) fail(location, "an object", value);
         object(value, path, location);
         break;
       case Type::objects:
-        if (!value.is_array()) fail(location, "a list of objects", value);
-        for (std::size_t i = 0; i < value.size(); ++i) {
-          const std::string item = fmt::format("{}[{}]", location, i);
-          try {
-            if (!value[i].is_object()) fail(item, "an object", value[i]);
-            object(value[i], path, item);
-          } catch (const Error& error) {
-            if (strict_ || !isOptional(path)) throw;
-            note(error);
-            value[i] = json::object();  // keeps the indices of the others
-          }
-        }
+        objects(value, rule, path, location);
         break;
       case Type::index:
         wholeNumber(value, location, kMaxIndex);
@@ -245,8 +285,7 @@ class TypeCheck {
         wholeNumber(value, location, kMaxSize);
         break;
       case Type::indices:
-        if (!value.is_array()) fail(location, "a list of integers", value);
-        for (const json& item : value) wholeNumber(item, location, kMaxIndex);
+        indices(value, location);
         break;
       case Type::number:
         if (!value.is_number()) fail(location, "a number", value);
@@ -260,9 +299,7 @@ class TypeCheck {
         if (!value.is_string()) fail(location, "a string", value);
         break;
       case Type::texts:
-        if (!value.is_array()) fail(location, "a list of strings", value);
-        for (const json& item : value)
-          if (!item.is_string()) fail(location, "a list of strings", item);
+        texts(value, rule, location);
         break;
       case Type::flag:
         if (!value.is_boolean()) fail(location, "true or false", value);
@@ -273,8 +310,7 @@ class TypeCheck {
   }
 
   const std::string& where_;
-  std::vector<std::string>& notes_;
-  bool strict_;
+  GltfLeftOut& leftOut_;
 };
 
 void checkVersion(const json& asset, const std::string& where) {
@@ -300,21 +336,19 @@ void checkExtensions(const json& document, const std::string& where, std::vector
 
 }  // namespace
 
-GltfJson parseGltfJson(std::string_view text, const std::string& where, bool strict) {
-  GltfJson result;
-
+json parseGltfJson(std::string_view text, const std::string& where, GltfLeftOut& leftOut) {
   // Parse the keys of the whitelist.
   Builder builder(text.size(), where);
   json::sax_parse(text, &builder);
-  for (std::string& note : builder.describeNoted()) addNote(result.notes, std::move(note));
-  result.document = builder.take();
+  for (std::string& note : builder.describeNoted()) addNote(leftOut.notes(), std::move(note));
+  json document = builder.take();
 
   // Check types, version and extensions.
-  if (!result.document.is_object()) throw Error(where, "is not glTF", "a JSON object", result.document.type_name());
-  TypeCheck(where, result.notes, strict).object(result.document, "", "");
-  checkVersion(result.document.at("asset"), where);
-  checkExtensions(result.document, where, result.notes);
-  return result;
+  if (!document.is_object()) throw Error(where, "is not glTF", "a JSON object", document.type_name());
+  TypeCheck(where, leftOut).object(document, "", "");
+  checkVersion(document.at("asset"), where);
+  checkExtensions(document, where, leftOut.notes());
+  return document;
 }
 
 }  // namespace malus::prep

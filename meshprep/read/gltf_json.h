@@ -3,24 +3,24 @@
 // gltf_document.h makes structures of it.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "meshprep/read/gltf_left_out.h"
+
 namespace malus::prep {
 
-struct GltfJson {
-  nlohmann::json document;         // keys of the whitelist only
-  std::vector<std::string> notes;  // ignored content: "textures (2)"
-};
-
-// `where` is the file for messages; errors add the location: "FILE: nodes[3].matrix", or a byte of the JSON. Throws
-// Error: not JSON, more than 64 levels, a duplicate key, a value of the wrong type, a missing required key, a version
-// other than 2, an unknown required extension, more than max(200000, bytes / 50) objects. Without `strict`, a key of a
-// material, camera or light with a value of the wrong type is removed with a note.
-GltfJson parseGltfJson(std::string_view text, const std::string& where, bool strict);
+// Returns the keys of the whitelist. `where` is the file for messages; errors add the location: "FILE:
+// nodes[3].matrix", or a byte of the JSON. Ignored content leaves a note in `leftOut`.
+//
+// An item of a list with a value of the wrong type, or without a required key, is left out: it becomes null, which
+// keeps the indices of the others, or for a material an empty object. A key with a default is removed, and a key that
+// places part of the scene (gltf::Invalid::part) becomes null.
+//
+// Throws Error: not JSON, more than 64 levels, a duplicate key, a list or an object outside of lists with the wrong
+// type, a version other than 2, an unknown required extension, more than max(200000, bytes / 50) objects.
+nlohmann::json parseGltfJson(std::string_view text, const std::string& where, GltfLeftOut& leftOut);
 
 }  // namespace malus::prep

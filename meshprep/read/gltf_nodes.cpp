@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -61,108 +62,145 @@ void requireInvertible(const glm::dmat4& m, const std::string& location) {
                 fmt::format("determinant {}", determinant));
 }
 
-// Returns which nodes have a parent. Throws Error if one has two.
-std::vector<bool> findParents(const gltf::Document& document, const std::string& where) {
-  std::vector<bool> hasParent(document.nodes.size(), false);
-  for (std::size_t i = 0; i < document.nodes.size(); ++i)
-    for (const std::size_t c : document.nodes[i].children) {
-      if (c >= document.nodes.size())
-        throw Error(nodeLocation(where, i) + ".children", "refers to a missing node",
-                    fmt::format("an index below {}", document.nodes.size()), fmt::to_string(c));
-      if (hasParent[c])
-        throw Error(nodeLocation(where, c), "node has two parents", "at most one", nodeLocation("another", i));
-      hasParent[c] = true;
+constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
+
+// Graph of the nodes: a forest, and cycles without a root.
+class NodeGraph {
+ public:
+  NodeGraph(const gltf::Document& document, const std::string& where, GltfLeftOut& leftOut)
+      : document_(document), where_(where), leftOut_(leftOut), parents_(document.nodes.size(), kNoParent) {
+    findParents();
+    reportCycles();
+    findRoots();
+  }
+
+  const std::vector<std::size_t>& roots() const { return roots_; }
+  bool isChild(std::size_t node, std::size_t parent) const {
+    return node < parents_.size() && parents_[node] == parent;
+  }
+
+ private:
+  std::size_t size() const { return document_.nodes.size(); }
+
+  Error missingNode(const std::string& location, std::size_t node) const {
+    return {location, "refers to a missing node", fmt::format("an index below {}", size()), fmt::to_string(node)};
+  }
+
+  // Sets the parents: the first one of each node.
+  void findParents() {
+    for (std::size_t i = 0; i < size(); ++i)
+      for (const std::size_t c : document_.nodes[i].children) {
+        if (c >= size())
+          leftOut_.addPart(missingNode(nodeLocation(where_, i) + ".children", c));
+        else if (parents_[c] != kNoParent)
+          leftOut_.addPart(Error(nodeLocation(where_, c), "node has two parents", "at most one",
+                                 fmt::format("nodes[{}] and nodes[{}]", parents_[c], i)));
+        else
+          parents_[c] = i;
+      }
+  }
+
+  // Reports a node of each cycle. Since nodes have at most one parent, the nodes of a cycle are not below a root.
+  void reportCycles() {
+    std::vector<std::size_t> visitedFrom(size(), kNoParent);
+    for (std::size_t i = 0; i < size(); ++i) {
+      std::size_t node = i;
+      for (; node != kNoParent && visitedFrom[node] == kNoParent; node = parents_[node]) visitedFrom[node] = i;
+      if (node != kNoParent && visitedFrom[node] == i)
+        leftOut_.addPart(Error(nodeLocation(where_, node), "node is its own ancestor", "a graph without cycles"));
     }
-  return hasParent;
-}
+  }
 
-// Returns the root nodes of the scene.
-std::vector<std::size_t> findRoots(const gltf::Document& document, const std::vector<bool>& hasParent,
-                                   const std::string& where, std::vector<std::string>& notes) {
-  std::vector<std::size_t> roots;
-  if (document.sceneNodes.empty()) {
-    for (std::size_t i = 0; i < document.nodes.size(); ++i)
-      if (!hasParent[i]) roots.push_back(i);
-    return roots;
+  void findRoots() {
+    if (document_.sceneNodes.empty()) {
+      for (std::size_t i = 0; i < size(); ++i) {
+        if (document_.nodes[i].hasInvalidChildren)
+          throw Error(nodeLocation(where_, i) + ".children", "the root nodes are unknown",
+                      "a list of integers, or a scene that names the root nodes");
+        if (parents_[i] == kNoParent) roots_.push_back(i);
+      }
+      return;
+    }
+    const std::size_t index = defaultScene();
+    std::vector<bool> named(size(), false);
+    for (const std::size_t n : document_.sceneNodes[index]) {
+      const std::string location = fmt::format("{}: scenes[{}].nodes", where_, index);
+      if (n >= size()) {
+        leftOut_.addPart(missingNode(location, n));
+      } else if (parents_[n] != kNoParent || named[n]) {
+        leftOut_.addPart(
+            Error(location, fmt::format("node {} has a parent or is a duplicate", n), "root nodes, once each"));
+      } else {
+        named[n] = true;
+        roots_.push_back(n);
+      }
+    }
   }
-  const std::size_t index = document.defaultScene.value_or(0);
-  if (index >= document.sceneNodes.size())
-    throw Error(where + ": scene", "refers to a missing scene",
-                fmt::format("an index below {}", document.sceneNodes.size()), fmt::to_string(index));
-  if (document.sceneNodes.size() > 1)
-    addNote(notes, fmt::format("scenes other than number {} of {}", index, document.sceneNodes.size()));
-  std::vector<bool> named(document.nodes.size(), false);
-  for (const std::size_t n : document.sceneNodes[index]) {
-    const std::string location = fmt::format("{}: scenes[{}].nodes", where, index);
-    if (n >= document.nodes.size())
-      throw Error(location, "refers to a missing node", fmt::format("an index below {}", document.nodes.size()),
-                  fmt::to_string(n));
-    if (hasParent[n] || named[n])
-      throw Error(location, fmt::format("node {} has a parent or is a duplicate", n), "root nodes, once each");
-    named[n] = true;
-    roots.push_back(n);
-  }
-  return roots;
-}
 
-// Throws Error for a cycle. Since nodes have at most one parent, only those of a cycle are not below a root.
-void requireNoCycle(const gltf::Document& document, const std::vector<bool>& hasParent, const std::string& where) {
-  std::vector<bool> reached(document.nodes.size(), false);
-  std::vector<std::size_t> stack;
-  for (std::size_t i = 0; i < document.nodes.size(); ++i)
-    if (!hasParent[i]) stack.push_back(i);
-  while (!stack.empty()) {
-    const std::size_t node = stack.back();
-    stack.pop_back();
-    reached[node] = true;
-    stack.insert(stack.end(), document.nodes[node].children.begin(), document.nodes[node].children.end());
+  std::size_t defaultScene() {
+    const std::size_t count = document_.sceneNodes.size();
+    std::size_t index = document_.defaultScene.value_or(0);
+    if (index >= count) {
+      leftOut_.addValue(Error(where_ + ": scene", "refers to a missing scene", fmt::format("an index below {}", count),
+                              fmt::to_string(index)));
+      index = 0;
+    }
+    if (count > 1) addNote(leftOut_.notes(), fmt::format("scenes other than number {} of {}", index, count));
+    return index;
   }
-  for (std::size_t i = 0; i < reached.size(); ++i)
-    if (!reached[i]) throw Error(nodeLocation(where, i), "node is its own ancestor", "a graph without cycles");
+
+  const gltf::Document& document_;
+  const std::string& where_;
+  GltfLeftOut& leftOut_;
+  std::vector<std::size_t> parents_;
+  std::vector<std::size_t> roots_;
+};
+
+// Throws Error unless the mesh of a node can be placed.
+void requirePlaceable(const gltf::Document& document, std::size_t mesh, const glm::dmat4& worldFromObject,
+                      const std::string& location) {
+  if (mesh >= document.meshes.size())
+    throw Error(location + ".mesh", "refers to a missing mesh",
+                fmt::format("an index below {}", document.meshes.size()), fmt::to_string(mesh));
+  if (document.meshes[mesh].isInvalid)
+    throw Error(location + ".mesh", "refers to an invalid mesh", "a valid mesh", fmt::to_string(mesh));
+  requireInvertible(worldFromObject, location);
 }
 
 }  // namespace
 
 GltfPlacements gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
-                              std::vector<std::string>& notes, const std::function<void(const Error&)>& leaveOut) {
-  // Check that the graph is a forest.
-  const std::vector<bool> hasParent = findParents(document, where);
-  requireNoCycle(document, hasParent, where);
-  const std::vector<std::size_t> roots = findRoots(document, hasParent, where, notes);
+                              GltfLeftOut& leftOut) {
+  const NodeGraph graph(document, where, leftOut);
 
-  // Traverse it depth-first with a stack; children in their order.
+  // Traverse the graph depth-first with a stack; children in their order.
   GltfPlacements placements;
+  std::vector<bool> visited(document.nodes.size(), false);
   std::vector<std::pair<std::size_t, glm::dmat4>> stack;
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.emplace_back(*root, glm::dmat4(1.0));
+  for (auto root = graph.roots().rbegin(); root != graph.roots().rend(); ++root)
+    stack.emplace_back(*root, glm::dmat4(1.0));
   while (!stack.empty()) {
     const auto [index, worldFromParent] = stack.back();
     stack.pop_back();
     const gltf::Node& node = document.nodes[index];
-    glm::dmat4 worldFromObject(1.0);
+    if (visited[index] || node.hasInvalidTransform) continue;
+    visited[index] = true;
+    const std::string location = nodeLocation(where, index);
     try {
-      worldFromObject = worldFromParent * localTransform(node, nodeLocation(where, index));
+      const glm::dmat4 worldFromObject = worldFromParent * localTransform(node, location);
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+        if (graph.isChild(*child, index)) stack.emplace_back(*child, worldFromObject);
+      const std::string name = node.name.empty() ? fmt::format("node {}", index) : node.name;
+      if (node.camera) placements.cameras.push_back({*node.camera, name, worldFromObject});
+      if (node.light) placements.lights.push_back({*node.light, name, worldFromObject});
+      if (!node.mesh) continue;
+      requirePlaceable(document, *node.mesh, worldFromObject, location);
+      placements.meshes.push_back({*node.mesh, name, worldFromObject});
     } catch (const Error& error) {
-      leaveOut(error);
-      continue;
+      leftOut.addPart(error);
     }
-    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-      stack.emplace_back(*child, worldFromObject);
-    const std::string name = node.name.empty() ? fmt::format("node {}", index) : node.name;
-    if (node.camera) placements.cameras.push_back({*node.camera, name, worldFromObject});
-    if (node.light) placements.lights.push_back({*node.light, name, worldFromObject});
-    if (!node.mesh) continue;
-    try {
-      if (*node.mesh >= document.meshes.size())
-        throw Error(nodeLocation(where, index) + ".mesh", "refers to a missing mesh",
-                    fmt::format("an index below {}", document.meshes.size()), fmt::to_string(*node.mesh));
-      requireInvertible(worldFromObject, nodeLocation(where, index));
-    } catch (const Error& error) {
-      leaveOut(error);
-      continue;
-    }
-    if (placements.meshes.size() == most)
+    if (placements.meshes.size() > most)
       throw Error(where, "too many nodes with meshes", fmt::format("at most {}", most));
-    placements.meshes.push_back({*node.mesh, name, worldFromObject});
   }
   return placements;
 }

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
 
-#include "meshprep/base/error.h"
 #include "meshprep/read/gltf_document.h"
+#include "meshprep/read/gltf_left_out.h"
 
 namespace malus::prep {
 
@@ -23,12 +22,16 @@ struct GltfPlacements {
   std::vector<GltfPlacement> meshes, cameras, lights;
 };
 
-// Returns the placements in depth-first order. Adds notes about ignored content. Calls leaveOut(error) for a node whose
-// mesh does not exist or whose transform is singular or out of range (cameras and lights: gltf_views.h), and for a node
-// and its descendants if its matrix has a last row other than (0, 0, 0, 1) or its rotation has length 0. Throws Error:
-// a node or scene that does not exist, a node with two parents, a cycle, a scene with a duplicate node or one that has
-// a parent, more than `most` placements of meshes.
+// Returns the placements in depth-first order. Leaves out:
+//   a mesh that does not exist or is invalid, or whose transform is singular or out of range (cameras and lights:
+//   gltf_views.h)
+//   a node and its descendants if its matrix has a last row other than (0, 0, 0, 1), its rotation has length 0, or one
+//   of them has the wrong type
+//   a child or root that does not exist, has another parent or is named before; the nodes of a cycle
+// A default scene that does not exist is replaced by the first one. Adds notes about ignored content. Throws Error:
+// more than `most` placements of meshes, or invalid children in a file without scenes, where the root nodes are
+// unknown.
 GltfPlacements gltfPlacements(const gltf::Document& document, std::size_t most, const std::string& where,
-                              std::vector<std::string>& notes, const std::function<void(const Error&)>& leaveOut);
+                              GltfLeftOut& leftOut);
 
 }  // namespace malus::prep

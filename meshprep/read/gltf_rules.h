@@ -10,6 +10,13 @@ namespace malus::prep::gltf {
 
 enum class Type { object, objects, index, indices, size, number, numbers, text, texts, flag, noted };
 
+// Extent of the damage by a value of the wrong type.
+enum class Invalid {
+  object,  // the object that has the key, up to the next item of a list; outside of lists, the file
+  value,   // the value, for which the default is used
+  part     // the value, which becomes null: a part of the scene is missing
+};
+
 // size: length of an array of numbers. required: the parent object must have the key. note: for a key that is dropped.
 struct Rule {
   std::string_view path;
@@ -17,6 +24,7 @@ struct Rule {
   std::size_t size = 0;
   bool required = false;
   std::string_view note = {};
+  Invalid invalid = Invalid::object;
 };
 
 // Returns the rule of a path without indices ("meshes/primitives/indices"), or nullptr if it is not on the whitelist.

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "meshprep/base/error.h"
+
 namespace malus::prep {
 
 namespace {
@@ -108,24 +110,24 @@ SourceLight toLight(const gltf::Light& source, const GltfPlacement& placement, c
 }  // namespace
 
 std::vector<SourceCamera> gltfCameras(const gltf::Document& document, const std::vector<GltfPlacement>& placements,
-                                      const std::string& where, const std::function<void(const Error&)>& leaveOut) {
+                                      const std::string& where, GltfLeftOut& leftOut) {
   std::vector<SourceCamera> cameras;
   for (const GltfPlacement& placement : placements) try {
       cameras.push_back(toCamera(find(document.cameras, "cameras", placement, where), placement, where));
     } catch (const Error& error) {
-      leaveOut(error);
+      leftOut.addValue(error);
     }
   return cameras;
 }
 
 std::vector<SourceLight> gltfLights(const gltf::Document& document, const std::vector<GltfPlacement>& placements,
-                                    const std::string& where, const std::function<void(const Error&)>& leaveOut) {
+                                    const std::string& where, GltfLeftOut& leftOut) {
   std::vector<SourceLight> lights;
   for (const GltfPlacement& placement : placements) try {
       lights.push_back(
           toLight(find(document.lights, "KHR_lights_punctual.lights", placement, where), placement, where));
     } catch (const Error& error) {
-      leaveOut(error);
+      leftOut.addValue(error);
     }
   return lights;
 }

@@ -26,17 +26,17 @@
 
 namespace malus::prep {
 
-// A primitive that cannot be read, or an instance, camera or light that cannot be placed, is left out with a note, or
-// an Error if `strict`. It is an Error too if nothing is left. The last one or two corners of a list of triangles,
-// which are no triangle, are left out with a note.
+// Invalid content is left out with a note, or an Error if `strict`: a node, mesh, primitive, accessor, buffer view,
+// buffer or scene with a value of the wrong type or without a required key, whatever refers to one that is missing or
+// invalid, triangles with an index out of range or a position that is not finite, a transform that is singular, a node
+// that is its own ancestor, a second parent, a camera or light. Keys with a default, such as names and the values of
+// materials, are left out alone. It is an Error too if nothing is left, with the first reason.
 //
 // Throws Error that names the file and the location in it ("meshes[0].primitives[1]", or a byte): not glTF 2.0, an
-// unknown required extension, a value of the wrong type, an index out of range, missing bytes, a number that is not
-// finite, a primitive without positions, a node that is its own ancestor or has two parents, a singular transform, a
-// limit exceeded.
+// unknown required extension, a list of the wrong type, a limit exceeded, root nodes that are unknown (gltf_nodes.h).
 SourceScene readGltf(const std::filesystem::path& path, bool strict = false);
 
-// Files that contain the buffers.
+// Files that contain the buffers, without those that must not be opened.
 std::vector<std::filesystem::path> gltfBufferFiles(const std::filesystem::path& path);
 
 }  // namespace malus::prep

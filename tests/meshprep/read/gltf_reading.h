@@ -21,15 +21,25 @@ inline SourceScene readGlb(const GltfFile& gltf) {
 inline std::string errorIn(const GltfFile& gltf) {
   return errorMessage([&] { readGlb(gltf); });
 }
-// Returns the error of a file with one triangle after the value at a JSON pointer is set, or removed if null.
-inline std::string errorWith(const char* pointer, const nlohmann::json& value) {
-  GltfFile gltf = triangleFile();
+inline std::string strictErrorIn(const GltfFile& gltf) {
+  const TemporaryFile file(".glb", gltf.glb());
+  return errorMessage([&] { readGltf(file.path(), true); });
+}
+// Returns the file after the value at a JSON pointer is set, or removed if null.
+inline GltfFile changed(GltfFile gltf, const char* pointer, const nlohmann::json& value) {
   const nlohmann::json::json_pointer at(pointer);
   if (value.is_null())
     gltf.document[at.parent_pointer()].erase(at.back());
   else
     gltf.document[at] = value;
-  return errorIn(gltf);
+  return gltf;
+}
+// Return the error of a file with one triangle that is changed so.
+inline std::string errorWith(const char* pointer, const nlohmann::json& value) {
+  return errorIn(changed(triangleFile(), pointer, value));
+}
+inline std::string strictErrorWith(const char* pointer, const nlohmann::json& value) {
+  return strictErrorIn(changed(triangleFile(), pointer, value));
 }
 inline bool hasNote(const SourceScene& scene, std::string_view part) {
   for (const std::string& note : scene.notes)

@@ -15,6 +15,7 @@ using test::errorIn;
 using test::GltfFile;
 using test::hasNote;
 using test::readGlb;
+using test::strictErrorIn;
 using test::TemporaryFile;
 using test::triangleFile;
 
@@ -38,7 +39,7 @@ TEST(ReadGltf, TraversesTheNodeGraph) {
   const auto error = [&](const char* nodes, const char* roots = "[0]") {
     gltf.document["nodes"] = json::parse(nodes);
     gltf.document["scenes"][0]["nodes"] = json::parse(roots);
-    return errorIn(gltf);
+    return strictErrorIn(gltf);
   };
   EXPECT_CONTAINS(error(R"([{"mesh": 0}, {"children": [2]}, {"children": [1]}])"), "nodes[1]", "ancestor");
   EXPECT_CONTAINS(error(R"([{"mesh": 0, "children": [0]}])"), "nodes[0]", "ancestor");

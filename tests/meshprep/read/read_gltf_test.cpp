@@ -22,6 +22,7 @@ using test::GltfFile;
 using test::hasNote;
 using test::readGlb;
 using test::readText;
+using test::strictErrorWith;
 using test::TemporaryFile;
 using test::triangleFile;
 
@@ -214,8 +215,8 @@ TEST(ReadGltf, ChecksTheDocument) {
   EXPECT_CONTAINS(errorWith("/nodes/0/mesh", 1), "nodes[0].mesh", "missing");
   EXPECT_CONTAINS(errorWith("/nodes/0/mesh", "0"), "nodes[0].mesh", "type", "integer");
   EXPECT_CONTAINS(errorWith("/nodes/0/mesh", nullptr), "no mesh");
-  EXPECT_CONTAINS(errorWith("/scene", 1), "scene", "missing");
-  EXPECT_CONTAINS(errorWith("/scenes/0/nodes", {0, 0}), "scenes[0].nodes", "node 0", "duplicate");
+  EXPECT_CONTAINS(strictErrorWith("/scene", 1), "scene", "missing");
+  EXPECT_CONTAINS(strictErrorWith("/scenes/0/nodes", {0, 0}), "scenes[0].nodes", "node 0", "duplicate");
   EXPECT_CONTAINS(errorWith("/scenes/0/nodes", {1}), "scenes[0].nodes", "missing");
 }
 

@@ -29,7 +29,7 @@
 
 #include "meshprep/base/exr_header.h"
 #include "meshprep/base/exr_zip.h"
-#include "meshprep/base/image_module.h"
+#include "meshprep/base/image_size.h"
 
 namespace malus::image {
 
@@ -94,22 +94,15 @@ void readAttributes(const Imf::Header& header, Image& image) {
   }
 }
 
-struct Size {
-  std::int64_t width, height;
-  bool isSupported(std::size_t channels, std::uint64_t fileBytes) const {
-    return std::max(width, height) <= kMaxSide &&
-           static_cast<std::uint64_t>(width * height) * channels <= mostValues(fileBytes);
-  }
-};
-Size windowSize(const Imath::Box2i& window) {
+ImageSize windowSize(const Imath::Box2i& window, std::size_t channels) {
   const auto side = [](int low, int high) { return std::max<std::int64_t>(std::int64_t{high} - low + 1, 0); };
-  return {side(window.min.x, window.max.x), side(window.min.y, window.max.y)};
+  return {side(window.min.x, window.max.x), side(window.min.y, window.max.y), static_cast<std::int64_t>(channels)};
 }
 
 // Reads the pixels of the data window as floats. Integers keep their value: they are counts or numbers of objects.
 std::vector<float> readPixels(Imf::InputFile& file, const std::vector<std::string>& channels) {
   const Imath::Box2i window = file.header().dataWindow();
-  const Size size = windowSize(window);
+  const ImageSize size = windowSize(window, channels.size());
   std::vector<float> pixels(static_cast<std::size_t>(size.width * size.height) * channels.size());
   const std::size_t pixelBytes = channels.size() * sizeof(float),
                     rowBytes = pixelBytes * static_cast<std::size_t>(size.width);
@@ -124,7 +117,7 @@ std::vector<float> readPixels(Imf::InputFile& file, const std::vector<std::strin
 // Places the pixels of the data window in the display window, which is the image.
 std::vector<float> placeInDisplay(const std::vector<float>& pixels, const Imath::Box2i& data,
                                   const Imath::Box2i& display, std::size_t channels) {
-  const Size from = windowSize(data), to = windowSize(display);
+  const ImageSize from = windowSize(data, channels), to = windowSize(display, channels);
   std::vector<float> placed(static_cast<std::size_t>(to.width * to.height) * channels);
   const std::int64_t left = std::max(data.min.x, display.min.x),
                      right = std::min<std::int64_t>(data.max.x, display.max.x) + 1;
@@ -179,11 +172,9 @@ std::string decodeExr(const std::vector<unsigned char>& bytes, Image& image) {
     Imf::InputFile file(stream);
     const Imath::Box2i data = file.header().dataWindow(), display = file.header().displayWindow();
     const std::vector<std::string> channels = listChannels(file.header());
-    const Size stored = windowSize(data), shown = windowSize(display);
-    for (const Size& size : {stored, shown})
-      if (size.width < 1 || size.height < 1 || !size.isSupported(channels.size(), bytes.size()) || channels.empty() ||
-          channels.size() > kMaxChannels)
-        return fmt::format("unsupported size {} x {} with {} channels", size.width, size.height, channels.size());
+    const ImageSize shown = windowSize(display, channels.size());
+    for (const ImageSize& size : {windowSize(data, channels.size()), shown})
+      if (problem = checkSize(size, bytes.size()); !problem.empty()) return problem;
     image.width = static_cast<int>(shown.width);
     image.height = static_cast<int>(shown.height);
     image.channels = channels;

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "meshprep/base/image_module.h"
+#include "meshprep/base/image_size.h"
 
 namespace malus::image {
 
@@ -129,23 +129,14 @@ void readAttribute(const std::string& name, const std::string& type, std::span<c
   }
 }
 
-bool isSupported(const Window& window, std::uint64_t channels, std::uint64_t fileBytes) {
-  return window.width >= 1 && window.height >= 1 && std::max(window.width, window.height) <= kMaxSide &&
-         static_cast<std::uint64_t>(window.width * window.height) <=
-             mostValues(fileBytes) / std::max<std::uint64_t>(channels, 1);
-}
-
 // Throws std::runtime_error if a part exceeds the limits.
 void checkPart(const Part& part, std::uint64_t fileBytes) {
-  if (part.channels > kMaxChannels)
-    throw std::runtime_error(
-        fmt::format("unsupported number of channels {}; expected {} at most", part.channels, kMaxChannels));
+  const auto channels = static_cast<std::int64_t>(part.channels);
   const Window rows{part.data.width, part.compression == kDwab ? kDwabRows : kMaxRows};
   const bool isTiled = part.tile.width != 0 || part.tile.height != 0;
   for (const Window& window : {part.data, isTiled ? part.tile : rows})
-    if (!isSupported(window, part.channels, fileBytes))
-      throw std::runtime_error(
-          fmt::format("unsupported size {} x {} with {} channels", window.width, window.height, part.channels));
+    if (const std::string problem = checkSize({window.width, window.height, channels}, fileBytes); !problem.empty())
+      throw std::runtime_error(problem);
   if (!isTiled) return;
   const auto count = [](std::int64_t side, std::int64_t tile) {
     return static_cast<std::uint64_t>((side + tile - 1) / tile);

@@ -12,9 +12,10 @@
 
 #include <fmt/format.h>
 
-#include "meshprep/base/bmp_header.h"
+#include "meshprep/base/declared_size.h"
 #include "meshprep/base/icc_profile.h"
 #include "meshprep/base/image_module.h"
+#include "meshprep/base/image_size.h"
 #include "meshprep/base/orientation.h"
 #include "meshprep/base/radiance_header.h"
 
@@ -105,10 +106,14 @@ std::string readByOpenImageIo(const std::string& path, std::string_view start, I
   const auto input = ImageInput::open(path, &config);
   if (!input) return messageOr(OIIO::geterror(), "unknown format");
   const ImageSpec spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.depth > 1 ||
-      spec.nchannels < 1 || spec.nchannels > kMaxChannels ||
-      spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > mostValues(std::filesystem::file_size(path)))
-    return fmt::format("unsupported size {} x {} with {} channels", spec.width, spec.height, spec.nchannels);
+  if (spec.depth > 1) return fmt::format("unsupported volume of {} slices; expected an image", spec.depth);
+  const std::uint64_t fileBytes = std::filesystem::file_size(path);
+  if (std::string problem = checkSize({spec.width, spec.height, spec.nchannels}, fileBytes); !problem.empty())
+    return problem;
+  if (spec.tile_width > 0 || spec.tile_height > 0)
+    if (std::string problem = checkSize({spec.tile_width, spec.tile_height, spec.nchannels}, fileBytes);
+        !problem.empty())
+      return "tiles of " + problem;
   const std::string_view format = input->format_name();
   if (format == "hdr") {
     if (!header || header->rows != spec.height || header->columns != spec.width || spec.nchannels != 3)
@@ -138,7 +143,8 @@ std::string readImage(const std::string& path, Image& image) {
     std::string start(65536, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
-    if (!isSupportedBmp(start, std::filesystem::file_size(path))) return "unsupported size of a BMP file";
+    if (const std::optional<ImageSize> size = declaredSize(file))
+      if (std::string problem = checkSize(*size, std::filesystem::file_size(path)); !problem.empty()) return problem;
     return readByOpenImageIo(path, start, image);
   } catch (const std::exception& error) {
     return messageOr(error.what(), "damaged file");

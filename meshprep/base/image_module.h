@@ -5,7 +5,6 @@
 // the other formats of OpenImageIO and writes TIFF; the bundle does not have it.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,15 +13,6 @@
 #include "meshprep/base/image.h"
 
 namespace malus::image {
-
-// Limits that image.h documents: a header of a few bytes can declare any size. No codec stores more values per byte of
-// a file: Zstandard stores 131072 equal bytes in 4, deflate 1032 in 1, each with up to 8 pixels of 1 bit.
-inline constexpr int kMaxSide = 65536;
-inline constexpr int kMaxChannels = 64;
-inline constexpr std::uint64_t kMaxValues = std::uint64_t{1} << 30;  // 4 GiB
-inline constexpr std::uint64_t kMaxValuesPerByte = 32768;
-
-inline std::uint64_t mostValues(std::uint64_t fileBytes) { return std::min(kMaxValues, fileBytes * kMaxValuesPerByte); }
 
 // A grey image of writeGrey: width * height values.
 struct GreyPixels {

@@ -12,7 +12,7 @@
 #include <png.h>
 
 #include "meshprep/base/icc_profile.h"
-#include "meshprep/base/image_module.h"
+#include "meshprep/base/image_size.h"
 
 namespace malus::image {
 
@@ -145,16 +145,12 @@ void convert(Decoded& decoded, Image& image) {
                  [](Sample s) { return static_cast<float>(s) * kScale; });
 }
 
-std::string unsupportedSize(const Decoded& d) {
-  return fmt::format("unsupported size {} x {} with {} channels", d.width, d.height, d.channels);
-}
-
 std::string decode(png_structp png, png_infop info, std::size_t fileBytes, const std::string& error, Image& image) {
   Decoded decoded;
   if (!readHeader(png, info, decoded)) return error;
+  if (std::string problem = checkSize({decoded.width, decoded.height, decoded.channels}, fileBytes); !problem.empty())
+    return problem;
   const std::size_t rowBytes = png_get_rowbytes(png, info), height = static_cast<std::size_t>(decoded.height);
-  if (rowBytes * height / static_cast<std::size_t>(decoded.bits / 8) > mostValues(fileBytes))
-    return unsupportedSize(decoded);
   decoded.samples.resize(rowBytes * height);
   for (std::size_t y = 0; y < height; ++y) decoded.rows.push_back(decoded.samples.data() + y * rowBytes);
   if (!readRows(png, decoded)) return error;

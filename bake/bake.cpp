@@ -90,6 +90,7 @@ std::vector<SourceFile> sourceFiles(const SceneDescription& d) {
   }
   if (!d.environmentImage.empty()) files.push_back({d.environmentImage});
   for (const TextureDescription& texture : d.textures) files.push_back({texture.file});
+  for (const std::filesystem::path& file : d.opticalFiles) files.push_back({file});
   return files;
 }
 
@@ -134,9 +135,9 @@ std::string withWarnings(const std::string& provenance, std::vector<std::string>
 }
 
 // Reports thin films that the single-precision renderers do not reproduce.
-void addFilmNotes(const std::vector<pack::Material>& materials, std::vector<std::string>& notes) {
-  for (const pack::Material& m : materials)
-    if (const auto film = insufficientFilmPrecision(m))
+void addFilmNotes(const pack::Scene& scene, std::vector<std::string>& notes) {
+  for (const pack::Material& m : scene.materials)
+    if (const auto film = insufficientFilmPrecision(m, scene.wavelengthsNm))
       notes.push_back(fmt::format(
           "material '{}': the thin film has an optical thickness of {:.3g} wavelengths: the single-precision renderers "
           "(embree, vulkan) differ from double precision by up to {:.1e} in reflectance; expected at most {:g}, up to "
@@ -199,6 +200,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   scene.height = d.height;
   scene.depth = d.depth;
   scene.exposureEv = d.exposureEv;
+  scene.wavelengthsNm = d.wavelengthsNm;
   scene.materials = d.materials;
 
   // Meshes in world space.
@@ -206,7 +208,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
       placeMeshes(d, {options.allowOpenGlass, settings.keepMap, options.strict}, scene.materials, progress);
   baked.reports = std::move(placed.reports);
   baked.notes = std::move(placed.notes);
-  addFilmNotes(scene.materials, baked.notes);
+  addFilmNotes(scene, baked.notes);
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const PlacedMesh& mesh : placed.meshes)
     for (const glm::dvec3& p : mesh.world.positions) low = glm::min(low, p), high = glm::max(high, p);

@@ -12,7 +12,7 @@
 #include "bake/bake_report.h"
 #include "bake/diff.h"
 #include "bake/info.h"
-#include "bake/materials/library.h"
+#include "bake/materials/presets.h"
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
 #include "bake/previous_pack.h"
@@ -218,9 +218,11 @@ void addUnpackCommand(CLI::App& app) {
 }
 
 void listMaterials() {
-  for (const OpticalConstants& m : materialLibrary())
-    console::printLine("{:<14} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}  {}", m.name, m.eta.x, m.eta.y, m.eta.z,
-                       m.k.x, m.k.y, m.k.z, m.source);
+  for (const Preset& preset : presets()) {
+    const auto [eta, k] = preset.at(pack::kDefaultWavelengthsNm);
+    console::printLine("{:<14} eta {:.4f} {:.4f} {:.4f}  k {:.4f} {:.4f} {:.4f}  {}", preset.name, eta.x, eta.y, eta.z,
+                       k.x, k.y, k.z, preset.source);
+  }
 }
 
 void listEffects() {

@@ -122,6 +122,7 @@ json sceneJson(const pack::Pack& pack) {
   const pack::Scene& scene = pack.scene;
   json document, materials = json::array(), lights = json::array(), textures = json::array();
   pack::visitMeta(JsonWriter(document), scene);
+  pack::visitWavelengths(JsonWriter(document), scene);
   document.erase("width");
   document.erase("height");
   document["resolution"] = {scene.width, scene.height};

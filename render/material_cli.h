@@ -1,8 +1,9 @@
 // The response of a surface to polarized light:
-//   malus material NAME | --eta N [--k K]  [--outside N] [--wavelength 630|532|465] [--angle DEG | FROM:TO:STEP]
-//                  [--precision double|float] [--csv | --json] [--plot FILE]
+//   malus material NAME | FILE.yml | FILE.csv | --eta N [--k K]  [--outside N] [--wavelength NM | FROM:TO:STEP]
+//                  [--angle DEG | FROM:TO:STEP] [--precision double|float] [--csv | --json] [--plot FILE]
 //
-// --json: one object for one angle, a list of objects for several. Keys: material (null for --eta),
+// Files: bake/materials/optical_file.h. --json: one object for one angle and wavelength, a list of objects for several,
+// by wavelength, then by angle. Keys: material (null for --eta),
 // wavelengthNm (null for --eta), eta, k, outside, precision, angleDegrees, rs, rp, ts, tp, diattenuation,
 // phaseDegrees, reflection[16], transmission[16] (render/material/surface_response.h; ts, tp, transmission are null
 // for metals).

@@ -17,14 +17,13 @@ struct Side {
   double n1, n3;
 };
 
-double largestDifference(const pack::Material& m, int colour, const Side& side, double thicknessNm) {
-  const double nf = m.coating.eta[colour], k3 = pack::isConductor(m.kind) ? m.k[colour] : 0,
-               phase = 2 * thicknessNm / pack::kWavelengthsNm[colour];
-  const f64::FilmLayers exact{side.n1, nf, side.n3, k3, nf - side.n1, side.n3 - side.n1, nf - side.n3, phase};
+double largestDifference(const pack::Material& m, int colour, const Side& side, double roundTripPhase) {
+  const double nf = m.coating.eta[colour], k3 = pack::isConductor(m.kind) ? m.k[colour] : 0;
+  const f64::FilmLayers exact{side.n1, nf, side.n3, k3, nf - side.n1, side.n3 - side.n1, nf - side.n3, roundTripPhase};
   const auto rounded = [](double value) { return static_cast<float>(value); };
   const f32::FilmLayers single{rounded(exact.n1),           rounded(exact.nf),       rounded(exact.n3),
                                rounded(exact.k3),           rounded(exact.filmStep), rounded(exact.baseStep),
-                               rounded(exact.filmOverBase), rounded(phase)};
+                               rounded(exact.filmOverBase), rounded(roundTripPhase)};
   double largest = 0;
   for (int i = 0; i <= kCosines; ++i) {
     const float root = static_cast<float>(i) / kCosines, c = root * root;
@@ -36,33 +35,36 @@ double largestDifference(const pack::Material& m, int colour, const Side& side, 
   return largest;
 }
 
-double largestDifference(const pack::Material& m, double thicknessNm) {
+double largestDifference(const pack::Material& m, double thicknessNm, const glm::dvec3& wavelengthsNm) {
   double largest = 0;
   for (int colour = 0; colour < 3; ++colour) {
+    const double phase = 2 * thicknessNm / wavelengthsNm[colour];
     const double base = pack::isConductor(m.kind) ? m.eta[colour] : m.eta.y;
-    largest = std::max(largest, largestDifference(m, colour, {m.outsideEta, base}, thicknessNm));
-    if (pack::hasInside(m.kind))
-      largest = std::max(largest, largestDifference(m, colour, {base, m.outsideEta}, thicknessNm));
+    largest = std::max(largest, largestDifference(m, colour, {m.outsideEta, base}, phase));
+    if (pack::hasInside(m.kind)) largest = std::max(largest, largestDifference(m, colour, {base, m.outsideEta}, phase));
   }
   return largest;
 }
 
-double opticalThickness(const pack::Material& m, double thicknessNm) {
-  const glm::dvec3 waves = m.coating.eta * thicknessNm / pack::kWavelengthsNm;
+double opticalThickness(const pack::Material& m, double thicknessNm, const glm::dvec3& wavelengthsNm) {
+  const glm::dvec3 waves = m.coating.eta * thicknessNm / wavelengthsNm;
   return std::max({waves.x, waves.y, waves.z});
 }
 
 }  // namespace
 
-std::optional<FilmPrecision> insufficientFilmPrecision(const pack::Material& m) {
+std::optional<FilmPrecision> insufficientFilmPrecision(const pack::Material& m, const glm::dvec3& wavelengthsNm) {
   const double thickness = m.coating.thicknessNm;
   if (thickness <= 0) return std::nullopt;
-  const double difference = largestDifference(m, thickness);
+  const double difference = largestDifference(m, thickness, wavelengthsNm);
   if (difference <= kFilmPrecision) return std::nullopt;
   // The difference grows with the thickness, but not evenly: halve until a film and all thinner ones agree.
   double limit = thickness;
-  while (opticalThickness(m, limit) > 0.25 && largestDifference(m, limit) > kFilmPrecision / 2) limit /= 2;
-  return FilmPrecision{difference, opticalThickness(m, thickness), opticalThickness(m, limit)};
+  while (opticalThickness(m, limit, wavelengthsNm) > 0.25 &&
+         largestDifference(m, limit, wavelengthsNm) > kFilmPrecision / 2)
+    limit /= 2;
+  return FilmPrecision{difference, opticalThickness(m, thickness, wavelengthsNm),
+                       opticalThickness(m, limit, wavelengthsNm)};
 }
 
 }  // namespace malus::bake

@@ -18,6 +18,7 @@ struct FilmPrecision {
 };
 
 // The precision of a material's film if it is worse than kFilmPrecision; none for other materials.
-std::optional<FilmPrecision> insufficientFilmPrecision(const pack::Material& material);
+std::optional<FilmPrecision> insufficientFilmPrecision(const pack::Material& material,
+                                                       const glm::dvec3& wavelengthsNm = pack::kDefaultWavelengthsNm);
 
 }  // namespace malus::bake

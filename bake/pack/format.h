@@ -64,6 +64,7 @@ inline constexpr const char* kMaterials = "MATL";
 inline constexpr const char* kSurfaces = "SRFX";
 inline constexpr const char* kTextures = "TEXR";
 inline constexpr const char* kSky = "SKYP";
+inline constexpr const char* kWavelengths = "WAVE";
 inline constexpr const char* kMeshes = "MESH";
 inline constexpr const char* kGeometry = "GEOM";
 inline constexpr const char* kEncodings = "ENCD";
@@ -89,6 +90,7 @@ inline constexpr auto kKnownSections = std::to_array<SectionInfo>({
     {kSurfaces, false, 0, "properties that few materials have; written if a material has one"},
     {kTextures, false, 0, "textures; written if a material has one"},
     {kSky, false, 0, "polarization of the sky; written if it is polarized"},
+    {kWavelengths, false, 0, "wavelengths of the colours; written unless they are 630, 532 and 465 nm"},
     {kMeshes, true, 0, "table of meshes"},
     {kGeometry, true, 0, "geometry of the meshes"},
     {kEncodings, false, kOptional, "bits and errors of the encoded meshes"},

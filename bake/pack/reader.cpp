@@ -68,6 +68,11 @@ void readSky(ByteReader r, Environment& environment) {
   r.end();
 }
 
+void readWavelengths(ByteReader r, Scene& scene) {
+  visitWavelengths(FieldReader(r), scene);
+  r.end();
+}
+
 void readLights(ByteReader r, std::vector<PointLight>& lights) {
   FieldSizes sizes;
   const PointLight any{};
@@ -156,6 +161,7 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
     if (isPolarizingElement(m.kind) && m.axis == glm::dvec3(0.0))
       throw Error(where, fmt::format("section {} is missing", kSurfaces), fmt::format("the axis of '{}'", m.name));
   if (const Section* at = find(kSky)) readSky(reader(*at), scene.environment);
+  if (const Section* at = find(kWavelengths)) readWavelengths(reader(*at), scene);
   const Section& geometry = *find(kGeometry);
   const Section& meshes = *find(kMeshes);
   readMeshes(reader(meshes), meshes.version, body(geometry), geometry.offset, where, pack);

@@ -105,6 +105,17 @@ void visitSky(Visitor&& visit, Environments&... e) {
         e.skyDegree...);
 }
 
+// WAVE
+template <class Visitor, class... Scenes>
+void visitWavelengths(Visitor&& visit, Scenes&... s) {
+  visit(Field{.name = "wavelengthsNm",
+              .low = kMinWavelengthNm,
+              .high = kMaxWavelengthNm,
+              .unit = "nm",
+              .text = "wavelengths in vacuum of red, green and blue"},
+        s.wavelengthsNm...);
+}
+
 // LGHT, per light
 template <class Visitor, class... Lights>
 void visitLight(Visitor&& visit, Lights&... l) {

@@ -1,5 +1,5 @@
 // The scene of a pack, as the renderers read it. Lengths in metres, right-handed axes, positions
-// relative to `origin`; colours linear RGB at 630, 532 and 465 nm; radiance in W/(m^2 sr).
+// relative to `origin`; colours linear RGB at `wavelengthsNm`; radiance in W/(m^2 sr).
 #pragma once
 
 #include <array>
@@ -14,8 +14,9 @@
 
 namespace malus::pack {
 
-// Wavelengths of red, green and blue.
-inline constexpr glm::dvec3 kWavelengthsNm{630, 532, 465};
+// Default wavelengths of red, green and blue, and their bounds: from extreme ultraviolet to far infrared.
+inline constexpr glm::dvec3 kDefaultWavelengthsNm{630, 532, 465};
+inline constexpr double kMinWavelengthNm = 1, kMaxWavelengthNm = 1e6;
 
 // Bounds of optical constants in a pack: within them the optics neither overflow nor lose their signs.
 inline constexpr double kMinEta = 1e-3;
@@ -128,8 +129,9 @@ struct Scene {
   glm::dvec3 origin{0.0};  // world position that all other positions are relative to
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint32_t depth = 0;  // most specular interactions along a path
-  double exposureEv = 0.0;  // display exposure of PNG files
+  std::uint32_t depth = 0;                           // most specular interactions along a path
+  double exposureEv = 0.0;                           // display exposure of PNG files
+  glm::dvec3 wavelengthsNm = kDefaultWavelengthsNm;  // in vacuum, of red, green and blue
   Camera camera;
   Environment environment;
   std::vector<PointLight> lights;

@@ -62,6 +62,12 @@ std::vector<std::byte> skyBytes(const Environment& environment) {
   return w.take();
 }
 
+std::vector<std::byte> wavelengthBytes(const Scene& scene) {
+  ByteWriter w;
+  visitWavelengths(FieldWriter(w), scene);
+  return w.take();
+}
+
 std::vector<std::byte> lightBytes(const std::vector<PointLight>& lights) {
   ByteWriter w;
   w.u32(static_cast<std::uint32_t>(lights.size()));
@@ -162,6 +168,7 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
     bodies.push_back({kSurfaces, materialBytes(scene.materials, {kSurfaces, version}), version});
   if (!scene.textures.empty()) bodies.push_back({kTextures, textureBytes(scene.textures)});
   if (scene.environment.hasSun()) bodies.push_back({kSky, skyBytes(scene.environment)});
+  if (scene.wavelengthsNm != kDefaultWavelengthsNm) bodies.push_back({kWavelengths, wavelengthBytes(scene)});
   bodies.push_back({kMeshes, std::move(encoded.table), kNewestMeshes});
   bodies.push_back({kGeometry, std::move(encoded.geometry)});
   bodies.push_back({kEncodings, encodingBytes(encoded.encodings), kNewestEncodings});

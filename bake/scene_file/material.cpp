@@ -1,13 +1,16 @@
 #include <algorithm>
+#include <numbers>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "bake/materials/library.h"
+#include "bake/materials/optical_file.h"
+#include "bake/materials/presets.h"
 #include "bake/pack/material_fields.h"
 #include "bake/scene_file/key_reader.h"
 #include "bake/scene_file/parts.h"
 #include "bake/scene_file/scene_keys.h"
+#include "meshprep/base/error.h"
 #include "meshprep/base/nearest_name.h"
 
 namespace malus::bake {
@@ -23,26 +26,47 @@ pack::MaterialKind readKind(StrictObject& object) {
               fmt::format("{}", fmt::join(names, ", ")), fmt::format("'{}'", type));
 }
 
-const OpticalConstants& findPreset(StrictObject& object) {
+// Largest k of a dielectric from a file; the reflectance, which is computed without it, changes by less than k^2/(n +
+// 1)^2.
+constexpr double kMostDielectricK = 0.01;
+
+// The constants of a preset, or of a file, which is added to those of the scene.
+OpticalConstants readPreset(StrictObject& object, SceneDescription& scene) {
   const std::string name = object.text("preset");
-  if (const OpticalConstants* found = findMaterial(name)) return *found;
-  const std::string near = nearestName(name, materialNames());
-  object.fail("preset", fmt::format("unknown material '{}'", name),
-              near.empty() ? "a name from 'malus --list-materials'"
-                           : fmt::format("'{}' or another from 'malus --list-materials'", near));
+  try {
+    if (!isOpticalFile(name)) return requirePreset(name).at(scene.wavelengthsNm);
+    const std::filesystem::path file = scene.file.parent_path() / name;
+    scene.opticalFiles.push_back(file);
+    return readOpticalFile(file).at(scene.wavelengthsNm);
+  } catch (const Error& error) {
+    object.fail("preset", error.what(), "");
+  }
 }
 
-// The index eta - i k: of a preset, or eta and k.
-void readIndex(StrictObject& object, pack::Material& m) {
+// A dielectric has no k: in the medium of a body it is absorption, 4 pi k / wavelength per metre (M. Born, E. Wolf,
+// Principles of Optics); of other surfaces a small one is left out.
+void convertDielectricK(StrictObject& object, const glm::dvec3& wavelengthsNm, pack::Material& m) {
+  for (int c = 0; c < 3; ++c)
+    if (m.k[c] > kMostDielectricK)
+      object.fail("preset", "k is too large for that of a dielectric",
+                  fmt::format("at most {}, or the type metal", kMostDielectricK),
+                  fmt::format("{:g} at {:g} nm", m.k[c], wavelengthsNm[c]));
+  if (pack::hasInside(m.kind)) m.absorption = 4e9 * std::numbers::pi * m.k / wavelengthsNm;
+  m.k = glm::dvec3(0.0);
+}
+
+// The index eta - i k: of a preset or file, or eta and k.
+void readIndex(StrictObject& object, pack::Material& m, SceneDescription& scene) {
   const bool dielectric = pack::isDielectric(m.kind), preset = object.has("preset"), eta = object.has("eta");
   // Paint has a default, and an opaque dielectric may have its index in a texture instead.
   const bool optional =
       dielectric && pack::canHaveIndexMap(m.kind) && (pack::canBeDiffuse(m.kind) || object.has("etaMap"));
   if (preset && (eta || object.has("k"))) object.fail("preset", "and eta, k exclude each other", "one of the two");
   if (preset) {
-    const OpticalConstants& constants = findPreset(object);
+    const OpticalConstants constants = readPreset(object, scene);
     m.eta = constants.eta;
     m.k = constants.k;
+    if (dielectric) convertDielectricK(object, scene.wavelengthsNm, m);
   } else {
     if (dielectric && !eta && !optional) object.fail("preset", "is missing", "preset or eta");
     if (dielectric && !eta) m.eta = glm::dvec3(1.5);
@@ -114,7 +138,7 @@ pack::Material readMaterial(const std::string& name, StrictObject object, SceneD
   pack::Material m;
   m.name = name;
   m.kind = readKind(object);
-  if (pack::hasIndex(m.kind)) readIndex(object, m);
+  if (pack::hasIndex(m.kind)) readIndex(object, m, scene);
   KeyReader keys(object, pack::only(m.kind));
   pack::visitMaterial(keys, m);
   readSpecialKeys(object, m);

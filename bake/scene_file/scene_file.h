@@ -62,6 +62,7 @@ struct SceneDescription {
   double mediumEta = 1;
   std::uint32_t width = 0, height = 0, depth = 0;
   double exposureEv = 0;
+  glm::dvec3 wavelengthsNm = pack::kDefaultWavelengthsNm;
   glm::dvec3 environmentRadiance{0.0};
   std::filesystem::path environmentImage;  // empty: constant
   double environmentScale = 1;
@@ -69,8 +70,9 @@ struct SceneDescription {
   double ambientIrradiance = 0;
   glm::dvec3 sun{0.0};  // unit vector toward the sun of a polarized sky; 0: none
   double skyDegree = 0;
-  std::vector<TextureDescription> textures;  // indexed by the materials' maps
-  std::vector<pack::PointLight> lights;      // in world space
+  std::vector<TextureDescription> textures;         // indexed by the materials' maps
+  std::vector<std::filesystem::path> opticalFiles;  // whose optical constants the materials have
+  std::vector<pack::PointLight> lights;             // in world space
   std::vector<pack::Material> materials;
   std::vector<MeshDescription> meshes;
   std::vector<ImportDescription> imports;

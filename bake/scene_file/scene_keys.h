@@ -33,6 +33,14 @@ void visitSceneKeys(Visitor&& visit, Scenes&... s) {
               .text = "display exposure of PNG files",
               .key = Key::optional},
         s.exposureEv...);
+  visit(Field{.name = "wavelengthsNm",
+              .low = pack::kMinWavelengthNm,
+              .high = pack::kMaxWavelengthNm,
+              .unit = "nm",
+              .text = "wavelengths in vacuum of red, green and blue, at which presets, files of optical constants and "
+                      "thin films are evaluated",
+              .key = Key::optional},
+        s.wavelengthsNm...);
 }
 
 template <class Visitor, class... Scenes>

@@ -41,7 +41,9 @@ inline constexpr SpecialKey kLightSpecialKeys[] = {
 
 inline constexpr SpecialKey kMaterialSpecialKeys[] = {
     {"type", "text", "required", "kind of material, see above"},
-    {"preset", "text", "none", "a name from `malus --list-materials`, in place of `eta` and `k`",
+    {"preset", "text", "none",
+     "optical constants in place of `eta` and `k`: a name from `malus --list-materials`, or a file (below, Optical "
+     "constants)",
      pack::kindsWhere(pack::hasIndex)},
     {"eta", "number or three numbers, 0 to 1000", "required; 1.5 for `paint`",
      "real part of the index eta - i k; 0.001 or more, or `k` is", pack::kindsWhere(pack::hasIndex)},
@@ -58,7 +60,7 @@ inline constexpr SpecialKey kMaterialSpecialKeys[] = {
      pack::kindsWhere(pack::isConductor)},
     {"projection", "object", "required with a map", "see below", pack::kindsWhere(pack::canHaveMaps)},
     {"highlight", "object", "none", "normalized Phong lobe for point lights", pack::kindsWhere(pack::hasIndex)},
-    {"coating", "object", "none", "thin film with interference at 630, 532 and 465 nm",
+    {"coating", "object", "none", "thin film with interference at `wavelengthsNm`",
      pack::kindsWhere(pack::canBeCoated)},
     {"polarization", "`{\"axis\": [x, y, z], \"degree\": 1}`", "unpolarized",
      "as of a display: the field of the light that leaves along the normal is parallel to `axis`, a direction in the "

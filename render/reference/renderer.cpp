@@ -105,7 +105,7 @@ struct Renderer::Impl {
         bvh(renderScene, threadCount),
         sourceMeshes(std::move(renderScene.sourceMeshes)) {
     for (const pack::Material& m : source.materials)
-      hemisphereTransmittance.push_back(render::hemisphereTransmittance(m));
+      hemisphereTransmittance.push_back(render::hemisphereTransmittance(m, scene.wavelengthsNm));
     for (const pack::Mesh& mesh : source.meshes) faces.push_back(computeFaces(mesh));
   }
 

@@ -31,7 +31,7 @@ dvec3 textureAt(const pack::Texture& t, double u, double v) {
 
 Surface surfaceAt(const pack::Scene& scene, std::uint32_t index, const dvec3& p) {
   const pack::Material& m = scene.materials[index];
-  Surface s{&m, m.eta, m.k, m.albedo};
+  Surface s{&m, m.eta, m.k, m.albedo, render::roundTripPhase(m.coating, scene.wavelengthsNm)};
   const auto map = [&](std::int32_t texture) {
     const dvec3 from = p - m.maps.origin;
     return textureAt(scene.textures[static_cast<std::size_t>(texture)], glm::dot(from, m.maps.u),
@@ -50,8 +50,8 @@ InterfaceMatrix asMatrix(const f64::Reflectance& r) { return interfaceMatrix(r.r
 f64::Film evaluateFilm(const Surface& surface, double c, double n1, double n2, int colour) {
   const pack::Coating& coating = surface.material->coating;
   const bool metal = pack::isConductor(surface.material->kind);
-  return f64::thinFilm(c, n1, coating.eta[colour], render::roundTripPhase(coating)[colour],
-                       metal ? surface.eta[colour] : n2, metal ? surface.k[colour] : 0);
+  return f64::thinFilm(c, n1, coating.eta[colour], surface.filmPhase[colour], metal ? surface.eta[colour] : n2,
+                       metal ? surface.k[colour] : 0);
 }
 
 }  // namespace

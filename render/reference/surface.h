@@ -12,6 +12,7 @@ namespace malus::reference {
 struct Surface {
   const pack::Material* material;
   dvec3 eta, k, albedo;
+  dvec3 filmPhase;  // of the coating: twice its thickness over the wavelength, per colour
 };
 Surface surfaceAt(const pack::Scene& scene, std::uint32_t material, const dvec3& position);
 

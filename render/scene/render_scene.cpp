@@ -19,22 +19,23 @@ gpu::SurfaceKind surfaceKind(pack::MaterialKind kind) {
   return static_cast<gpu::SurfaceKind>(bake::surfaceEffect(kind));
 }
 
-glm::dvec3 roundTripPhase(const pack::Coating& coating) { return 2 * coating.thicknessNm / pack::kWavelengthsNm; }
+glm::dvec3 roundTripPhase(const pack::Coating& coating, const glm::dvec3& wavelengthsNm) {
+  return 2 * coating.thicknessNm / wavelengthsNm;
+}
 
 namespace {
 
-f64::Reflectance reflectance(const pack::Material& m, double c, int colour) {
+f64::Reflectance reflectance(const pack::Material& m, double c, int colour, double phase) {
   const bool metal = pack::isConductor(m.kind);
   const double n3 = metal ? m.eta[colour] : m.eta.y, k3 = metal ? m.k[colour] : 0;
-  if (m.coating.thicknessNm > 0)
-    return f64::thinFilm(c, m.outsideEta, m.coating.eta[colour], roundTripPhase(m.coating)[colour], n3, k3).reflected;
+  if (m.coating.thicknessNm > 0) return f64::thinFilm(c, m.outsideEta, m.coating.eta[colour], phase, n3, k3).reflected;
   return metal ? f64::conductorReflectance(c, m.outsideEta, n3, k3) : f64::dielectricReflectance(c, m.outsideEta, n3);
 }
 
 // Rounding error of a value that is stored in float.
 float residue(double value) { return static_cast<float>(value - static_cast<double>(static_cast<float>(value))); }
 
-gpu::MaterialExtra makeExtra(const pack::Material& m) {
+gpu::MaterialExtra makeExtra(const pack::Material& m, const glm::dvec3& wavelengthsNm) {
   gpu::MaterialExtra e{};
   // Only glass has an inside: the other surfaces see the outer medium from both sides.
   e.absorption = glm::vec3(m.kind == pack::MaterialKind::glass ? m.absorption : m.outsideAbsorption);
@@ -52,7 +53,7 @@ gpu::MaterialExtra makeExtra(const pack::Material& m) {
     e.filmOverOutside = glm::vec3(m.coating.eta - m.outsideEta);
     e.filmOverBase = glm::vec3(m.coating.eta - (pack::isConductor(m.kind) ? m.eta : glm::dvec3(m.eta.y)));
     for (int i = 0; i < 3; ++i) e.filmResidue[i] = residue(m.coating.eta[i]);
-    e.roundTripPhase = glm::vec3(roundTripPhase(m.coating));
+    e.roundTripPhase = glm::vec3(roundTripPhase(m.coating, wavelengthsNm));
   }
   e.roughness = static_cast<float>(m.roughness);
   const auto map = [](std::int32_t index) { return index < 0 ? gpu::kNoTexture : static_cast<gpu::uint>(index); };
@@ -95,14 +96,15 @@ std::vector<MeshRun> findMeshRuns(const RenderScene& scene) {
   return runs;
 }
 
-glm::dvec3 hemisphereTransmittance(const pack::Material& m) {
+glm::dvec3 hemisphereTransmittance(const pack::Material& m, const glm::dvec3& wavelengthsNm) {
+  const glm::dvec3 phase = roundTripPhase(m.coating, wavelengthsNm);
   if (!pack::hasIndex(m.kind)) return glm::dvec3(1.0);
   constexpr int kSteps = 256;
   glm::dvec3 sum(0.0);
   for (int i = 0; i < kSteps; ++i) {
     const double c = (i + 0.5) / kSteps;
     for (int colour = 0; colour < 3; ++colour) {
-      const f64::Reflectance r = reflectance(m, c, colour);
+      const f64::Reflectance r = reflectance(m, c, colour, phase[colour]);
       sum[colour] += 2 * c * (1 - 0.5 * (r.rs + r.rp)) / kSteps;
     }
   }
@@ -119,14 +121,14 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     g.contrast = glm::vec3(m.eta - m.outsideEta);
     g.radiance = glm::vec3(m.radiance * basic);
     g.albedo = !pack::isEmitter(m.kind) ? glm::vec3(m.albedo) : m.twoSided ? g.radiance : glm::vec3(0.0f);
-    g.hemisphereTransmittance = glm::vec3(hemisphereTransmittance(m));
+    g.hemisphereTransmittance = glm::vec3(hemisphereTransmittance(m, scene.wavelengthsNm));
     g.outsideEta = static_cast<float>(m.outsideEta);
     g.basicScale = static_cast<float>(basic);
     g.highlightStrength = static_cast<float>(m.highlightStrength);
     g.highlightExponent = m.highlightExponent;
     g.kind = surfaceKind(m.kind);
     result.materials.push_back(g);
-    result.extras.push_back(makeExtra(m));
+    result.extras.push_back(makeExtra(m, scene.wavelengthsNm));
   }
   for (const pack::PointLight& light : scene.lights)
     result.lights.push_back({glm::vec3(light.position), glm::vec3(light.intensity)});

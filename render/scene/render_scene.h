@@ -38,10 +38,11 @@ gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const Rende
 
 // Mean transmittance of a dielectric interface, or 1 - R of a metal, for light from all directions of a
 // hemisphere (cosine weighted), per colour.
-glm::dvec3 hemisphereTransmittance(const pack::Material& material);
+glm::dvec3 hemisphereTransmittance(const pack::Material& material,
+                                   const glm::dvec3& wavelengthsNm = pack::kDefaultWavelengthsNm);
 
 // Twice the thickness over the wavelength of each colour (shaders/optics/film.h).
-glm::dvec3 roundTripPhase(const pack::Coating& coating);
+glm::dvec3 roundTripPhase(const pack::Coating& coating, const glm::dvec3& wavelengthsNm);
 
 // Point i of the unit disk that chooses facet i of a rough surface (shaders/optics/facets.h).
 glm::dvec2 facetPoint(std::size_t i);

@@ -121,6 +121,7 @@ inline pack::Scene unusualScene() {
   pack::Scene scene = smallScene();
   scene.environment.sun = {0.6, 0.8, 0};
   scene.environment.skyDegree = 0.75;
+  scene.wavelengthsNm = {650, 550, 450};
   pack::Texture letters{"letters.png", 2, 1, {{0.25f, 0.5f, 1}, {0, 0.125f, 0.75f}}};
   pack::Texture metal{"metal.exr", 1, 2, {{0.5f, 1, 1.5f}, {2, 3, 4}}};
   scene.textures = {letters, metal};

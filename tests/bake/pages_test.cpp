@@ -87,6 +87,7 @@ std::map<std::string, std::string> formatTables() {
           {"SRFX", formatTable<pack::Material>(MALUS_DESCRIBED(visitMaterial),
                                                {pack::kSurfaces, pack::newestSurfaceVersion()})},
           {"TEXR", formatTable<pack::Texture>(MALUS_DESCRIBED(visitTexture))},
+          {"WAVE", formatTable<pack::Scene>(MALUS_DESCRIBED(visitWavelengths))},
           {"SKYP", formatTable<pack::Environment>(MALUS_DESCRIBED(visitSky))},
           {"MESH", formatTable<pack::MeshEntry>(MALUS_DESCRIBED(visitMeshEntry), {pack::kMeshes, pack::kNewestMeshes})},
           {"ENCD grid", formatTable<pack::SharedGrid>(MALUS_DESCRIBED(visitSharedGrid))},

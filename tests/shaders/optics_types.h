@@ -214,7 +214,7 @@ struct Metal {
   double n[3];
   double k[3];
 };
-// Johnson and Christy 1972 and 1974 at 630, 532, 465 nm, as in bake/materials.json.
+// Johnson and Christy 1972 and 1974 at 630, 532, 465 nm, as in bake/presets.yml.
 inline constexpr Metal kMetals[] = {
     {"gold", {0.1884, 0.5439, 1.3319}, {3.4034, 2.2309, 1.8693}},
     {"silver", {0.0569, 0.054, 0.0469}, {4.2543, 3.429, 2.8028}},

@@ -1,5 +1,6 @@
 // `malus material`: table, CSV, JSON, plot, wrong arguments.
 #include <cmath>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -60,12 +61,32 @@ TEST(Material, TableCsvAndPlot) {
   const Finished csv = malus({"material", "bk7", "--angle", "0:90:10", "--csv"});
   EXPECT_TRUE(csv.out.starts_with("angleDegrees,rs,rp,ts,tp,diattenuation,phaseDegrees,reflection00,")) << csv.out;
   EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 11);
-  EXPECT_EQ(std::count(csv.out.begin(), csv.out.begin() + static_cast<long>(csv.out.find('\n')), ','), 38);
+  EXPECT_EQ(std::count(csv.out.begin(), csv.out.begin() + static_cast<long>(csv.out.find('\n')), ','), 41);
   const Folder folder;
   const Finished plot = malus({"material", "gold", "--plot", folder / "gold.svg"});
   ASSERT_EQ(plot.exitCode, 0) << plot.err;
   EXPECT_TRUE(contains(readText(folder / "gold.svg"), "angle of incidence"));
   EXPECT_EQ(folder.names(), std::vector<std::string>{"gold.svg"});
+}
+
+TEST(Material, AFileOverWavelengths) {
+  const Folder folder;
+  std::ofstream(folder / "a.csv") << "wl,n,k\n0.4,1.5,0\n0.6,1.7,0\n";
+  const json list = json::parse(malus({"material", folder / "a.csv", "--wavelength", "400:600:50", "--json"}).out);
+  ASSERT_EQ(list.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double n = 1.5 + 0.05 * static_cast<double>(i);
+    EXPECT_EQ(list[i].at("wavelengthNm"), 400 + 50 * i);
+    EXPECT_EQ(list[i].at("angleDegrees"), 0);
+    EXPECT_NEAR(list[i].at("eta").get<double>(), n, 1e-12);
+    EXPECT_NEAR(list[i].at("rs").get<double>(), std::pow((n - 1) / (n + 1), 2), 1e-12);
+  }
+  const Finished table = malus({"material", folder / "a.csv", "--wavelength", "400:600:50", "--angle", "0:60:30"});
+  EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 17) << table.out;
+  const Finished plot = malus({"material", "gold", "--wavelength", "400:700:5", "--plot", folder / "gold.svg"});
+  ASSERT_EQ(plot.exitCode, 0) << plot.err;
+  EXPECT_TRUE(contains(readText(folder / "gold.svg"), "wavelength in vacuum"));
+  expectRefusal(malus({"material", folder / "a.csv", "--wavelength", "700"}), "400 to 600 nm");
 }
 
 TEST(Material, WrongArguments) {
@@ -79,7 +100,10 @@ TEST(Material, WrongArguments) {
                                                         {"material", "gold", "--angle", "50:40:1"},
                                                         {"material", "gold", "--angle", "0:90:1e-9"},
                                                         {"material", "gold", "--angle", "nan"},
-                                                        {"material", "gold", "--wavelength", "500"},
+                                                        {"material", "gold", "--wavelength", "0"},
+                                                        {"material", "gold", "--wavelength", "green"},
+                                                        {"material", "gold", "--wavelength", "600:500:10"},
+                                                        {"material", "--eta", "1.5", "--wavelength", "500:600:10"},
                                                         {"material", "gold", "--precision", "half"},
                                                         {"material", "gold", "--csv", "--json"}};
   for (const auto& arguments : kWrong) {
@@ -88,6 +112,8 @@ TEST(Material, WrongArguments) {
     EXPECT_EQ(finished.out, "");
   }
   expectRefusal(malus({"material", "golde"}), "'gold'");
+  expectRefusal(malus({"material", "gold", "--wavelength", "100"}), "100 nm");
+  expectRefusal(malus({"material", "missing.yml"}), "missing.yml");
   expectRefusal(malus({"material", "--eta", "0"}), "--eta");
   expectRefusal(malus({"material", "gold", "--plot", "gold.txt"}), "gold.txt");
   EXPECT_EQ(malus({"material", "gold", "--plot", "/no/such/folder/gold.png"}).exitCode, 1);

@@ -8,6 +8,7 @@ find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(yaml-cpp REQUIRED)
 find_package(TBB REQUIRED)
 find_package(hwy REQUIRED)
 find_package(OpenMesh REQUIRED)
@@ -25,6 +26,11 @@ find_package(embree 4 QUIET)
 if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)
 endif()
+
+# Debian 12 exports yaml-cpp, Debian 13 yaml-cpp::yaml-cpp.
+add_library(malus_yaml INTERFACE)
+add_library(malus::yaml ALIAS malus_yaml)
+target_link_libraries(malus_yaml INTERFACE $<IF:$<TARGET_EXISTS:yaml-cpp::yaml-cpp>,yaml-cpp::yaml-cpp,yaml-cpp>)
 
 # OpenImageIO names an include folder of OpenCV that may not exist.
 add_library(malus_openimageio INTERFACE)

@@ -38,7 +38,7 @@ TEST(FilmPrecision, ThickAndHighIndexFilmsAre) {
     ASSERT_TRUE(found) << m.coating.eta.x;
     EXPECT_GT(found->difference, kFilmPrecision);
     EXPECT_LT(found->limitWaves, found->waves);
-    EXPECT_NEAR(found->waves, m.coating.eta.z * m.coating.thicknessNm / pack::kWavelengthsNm.z, 1e-9 * found->waves);
+    EXPECT_NEAR(found->waves, m.coating.eta.z * m.coating.thicknessNm / pack::kDefaultWavelengthsNm.z, 1e-9 * found->waves);
     // Films up to the limit are within the bound at angles that the search did not use.
     pack::Material thin = m;
     thin.coating.thicknessNm *= found->limitWaves / found->waves;
@@ -46,7 +46,7 @@ TEST(FilmPrecision, ThickAndHighIndexFilmsAre) {
     for (int i = 0; i < 3000; ++i) {
       const auto c = static_cast<float>((i + 0.37) / 3000);
       const double nf = thin.coating.eta.x, n3 = thin.eta.x, k3 = thin.k.x,
-                   phase = 2 * thin.coating.thicknessNm / pack::kWavelengthsNm.x;
+                   phase = 2 * thin.coating.thicknessNm / pack::kDefaultWavelengthsNm.x;
       const auto a = f64::thinFilm(c, 1, nf, phase, n3, k3).reflected;
       const auto b = f32::thinFilm(c, 1, static_cast<float>(nf), static_cast<float>(phase), static_cast<float>(n3),
                                    static_cast<float>(k3))

@@ -4,7 +4,7 @@
 #include <complex>
 #include <set>
 
-#include "bake/materials/library.h"
+#include "bake/materials/presets.h"
 #include "bake/pack/scene.h"
 #include "tests/bake/fixtures.h"
 
@@ -24,6 +24,9 @@ double diattenuation(double n, double k, double degrees) {
   return static_cast<double>((rs - rp) / (rs + rp));
 }
 
+// The constants of a preset at the default wavelengths.
+OpticalConstants constants(const char* name) { return findPreset(name)->at(pack::kDefaultWavelengthsNm); }
+
 double largestDiattenuation(const OpticalConstants& m, int colour) {
   double largest = 0;
   for (int i = 0; i < 9000; ++i) largest = std::max(largest, diattenuation(m.eta[colour], m.k[colour], i * 0.01));
@@ -32,39 +35,39 @@ double largestDiattenuation(const OpticalConstants& m, int colour) {
 
 TEST(Materials, PresetsOfTheScenes) {
   for (const char* name : {"bk7", "water", "gold", "silver", "copper", "aluminium", "iron", "chromium", "titanium"})
-    EXPECT_NE(findMaterial(name), nullptr) << name;
-  EXPECT_EQ(findMaterial("unobtainium"), nullptr);
-  EXPECT_EQ(findMaterial(""), nullptr);
-  EXPECT_EQ(materialNames().size(), materialLibrary().size());
+    EXPECT_NE(findPreset(name), nullptr) << name;
+  EXPECT_EQ(findPreset("unobtainium"), nullptr);
+  EXPECT_EQ(findPreset(""), nullptr);
 }
 
 TEST(Materials, WithinBoundsAndWithASource) {
   std::set<std::string> names;
-  for (const OpticalConstants& m : materialLibrary()) {
-    EXPECT_TRUE(names.insert(m.name).second) << m.name;
-    EXPECT_GT(m.source.size(), 20u) << m.name;
+  for (const Preset& preset : presets()) {
+    EXPECT_TRUE(names.insert(preset.name).second) << preset.name;
+    EXPECT_GT(preset.source.size(), 20u) << preset.name;
+    const OpticalConstants m = constants(preset.name.c_str());
     const bool dielectric = m.k == glm::dvec3(0);
     for (int c = 0; c < 3; ++c) {
-      EXPECT_GE(m.eta[c], dielectric ? 1.0 : pack::kMinEta) << m.name;
-      EXPECT_LE(m.eta[c], 10) << m.name;
-      EXPECT_GE(m.k[c], 0) << m.name;
-      EXPECT_LE(m.k[c], 10) << m.name;
+      EXPECT_GE(m.eta[c], dielectric ? 1.0 : pack::kMinEta) << preset.name;
+      EXPECT_LE(m.eta[c], 10) << preset.name;
+      EXPECT_GE(m.k[c], 0) << preset.name;
+      EXPECT_LE(m.k[c], 10) << preset.name;
     }
     // Normal dispersion: the index of glass is larger in blue than in red.
     if (dielectric) {
-      EXPECT_TRUE(m.eta.x < m.eta.y && m.eta.y < m.eta.z) << m.name;
+      EXPECT_TRUE(m.eta.x < m.eta.y && m.eta.y < m.eta.z) << preset.name;
     }
     if (!dielectric) {
-      EXPECT_TRUE(m.k.x > 1 && m.k.y > 1 && m.k.z > 1) << m.name;
+      EXPECT_TRUE(m.k.x > 1 && m.k.y > 1 && m.k.z > 1) << preset.name;
     }
   }
 }
 
 TEST(Materials, KnownIndices) {
-  EXPECT_EQ(findMaterial("bk7")->eta.y, 1.5195);
-  EXPECT_NEAR(findMaterial("water")->eta.y, 1.335, 1e-3);
-  EXPECT_NEAR(findMaterial("fused-silica")->eta.y, 1.4607, 1e-4);
-  EXPECT_NEAR(findMaterial("diamond")->eta.y, 2.426, 1e-3);
+  EXPECT_EQ(constants("bk7").eta.y, 1.5195);
+  EXPECT_NEAR(constants("water").eta.y, 1.335, 1e-3);
+  EXPECT_NEAR(constants("fused-silica").eta.y, 1.4607, 1e-4);
+  EXPECT_NEAR(constants("diamond").eta.y, 2.426, 1e-3);
 }
 
 TEST(Materials, Bk7FollowsItsSellmeierFormula) {
@@ -75,7 +78,18 @@ TEST(Materials, Bk7FollowsItsSellmeierFormula) {
     const double square = wavelengths[i] * wavelengths[i];
     double n2 = 1;
     for (int j = 0; j < 3; ++j) n2 += b[j] * square / (square - c[j]);
-    EXPECT_NEAR(findMaterial("bk7")->eta[i], std::sqrt(n2), 6e-5) << wavelengths[i];
+    EXPECT_NEAR(constants("bk7").eta[i], std::sqrt(n2), 6e-5) << wavelengths[i];
+  }
+}
+
+TEST(Materials, OtherWavelengthsComeFromTheTables) {
+  // Johnson and Christy's row at 0.5821 um; the catalogue's n_d.
+  EXPECT_EQ(findPreset("gold")->at(OpticalData::Quantity::n, 582.1), 0.29);
+  EXPECT_EQ(findPreset("gold")->at(OpticalData::Quantity::k, 582.1), 2.863);
+  EXPECT_EQ(findPreset("bk7")->at(OpticalData::Quantity::n, 587.5618), 1.5168);
+  for (const Preset& preset : presets()) {
+    EXPECT_THROW(preset.at(OpticalData::Quantity::n, 100), Error) << preset.name;
+    EXPECT_NO_THROW(preset.at({700, 550, 440})) << preset.name;
   }
 }
 
@@ -91,15 +105,14 @@ TEST(Materials, LargestDiattenuationOfMetals) {
                  {"aluminium", {.18, .14, .12}}};
   for (const auto& metal : kMetals)
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(largestDiattenuation(*findMaterial(metal.name), c), metal.expected[c], 0.01)
-          << metal.name << " " << c;
+      EXPECT_NEAR(largestDiattenuation(constants(metal.name), c), metal.expected[c], 0.01) << metal.name << " " << c;
 }
 
-TEST(Materials, GlassPolarizesFully) { EXPECT_GT(largestDiattenuation(*findMaterial("bk7"), 1), 0.9999); }
+TEST(Materials, GlassPolarizesFully) { EXPECT_GT(largestDiattenuation(constants("bk7"), 1), 0.9999); }
 
 TEST(Materials, ColoursOfMetals) {
   const auto reflectance = [](const char* name, int c) {
-    const Complex index(findMaterial(name)->eta[c], -findMaterial(name)->k[c]);
+    const Complex index(constants(name).eta[c], -constants(name).k[c]);
     return static_cast<double>(std::norm((index - Complex(1)) / (index + Complex(1))));
   };
   EXPECT_GT(reflectance("gold", 0), 0.9);

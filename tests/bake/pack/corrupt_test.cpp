@@ -459,6 +459,7 @@ TEST(CorruptPack, UnusualSectionsOutOfBounds) {
   EXPECT_TRUE(contains(unusualErrorWith("TEXR", kFirst + 8, std::numeric_limits<float>::quiet_NaN()), "texel"));
   EXPECT_TRUE(contains(unusualErrorWith("SKYP", 0, 0.5), "sky.sun"));
   EXPECT_TRUE(contains(unusualErrorWith("SKYP", 24, 1.5), "sky.maxDegree"));
+  EXPECT_TRUE(contains(unusualErrorWith("WAVE", 8, 0.5), "wavelengthsNm"));
   // A polarizer without an axis.
   std::vector<RawSection> sections = unusualSections();
   std::erase_if(sections, [](const RawSection& s) { return s.id == "SRFX"; });
@@ -468,7 +469,8 @@ TEST(CorruptPack, UnusualSectionsOutOfBounds) {
 TEST(CorruptPack, EveryFlippedBitOfOptionalSectionsWithMatchingHashesIsHarmless) {
   std::size_t rejected = 0, accepted = 0;
   for (std::size_t s = 0; s < unusualSections().size(); ++s) {
-    if (const std::string& id = unusualSections()[s].id; id != "SRFX" && id != "TEXR" && id != "SKYP") continue;
+    if (const std::string& id = unusualSections()[s].id; id != "SRFX" && id != "TEXR" && id != "SKYP" && id != "WAVE")
+      continue;
     for (std::size_t i = 0; i < unusualSections()[s].bytes.size(); ++i)
       for (int bit = 0; bit < 8; ++bit) {
         std::vector<RawSection> sections = unusualSections();

@@ -162,7 +162,8 @@ TEST(PackRoundTrip, Version1StillOpens) {
 TEST(PackRoundTrip, UnusedOptionalSectionsAreNotWritten) {
   const Pack pack = parse(serialize(smallScene(), {}).bytes, "test");
   for (const Section& section : pack.sections)
-    EXPECT_TRUE(section.id != kSurfaces && section.id != kTextures && section.id != kSky && section.id != kBeyond)
+    EXPECT_TRUE(section.id != kSurfaces && section.id != kTextures && section.id != kSky &&
+                section.id != kWavelengths && section.id != kBeyond)
         << section.id;
   for (const Material& m : pack.scene.materials) EXPECT_TRUE(m.isPlain()) << m.name;
 }

@@ -43,6 +43,26 @@ TEST(RenderScene, HemisphereTransmittanceOfGlass) {
   EXPECT_NEAR(hemisphereTransmittance(test::dielectric(pack::MaterialKind::paint, 1.0, 1)).y, 1, 1e-12);
 }
 
+TEST(RenderScene, FilmsAreThoseOfTheWavelengths) {
+  // A film is the same at a wavelength and thickness that are both doubled.
+  pack::Scene scene = test::emptyScene(1);
+  pack::Material glass = test::dielectric(pack::MaterialKind::glass, 1.5);
+  glass.coating = {glm::dvec3(1.38), 100};
+  test::addMaterial(scene, glass);
+  glass.coating.thicknessNm = 200;
+  test::addMaterial(scene, glass);
+  test::addSquare(scene, 0, {0, 0, 0}, {0, 0, 1}, 1);
+  scene.wavelengthsNm = {600, 500, 400};
+  const RenderScene once = makeRenderScene(scene);
+  EXPECT_FLOAT_EQ(once.extras[0].roundTripPhase.x, 200.0f / 600);
+  EXPECT_FLOAT_EQ(once.extras[0].roundTripPhase.z, 200.0f / 400);
+  scene.wavelengthsNm *= 2;
+  const RenderScene twice = makeRenderScene(scene);
+  EXPECT_EQ(once.extras[0].roundTripPhase, twice.extras[1].roundTripPhase);
+  EXPECT_EQ(once.materials[0].hemisphereTransmittance, twice.materials[1].hemisphereTransmittance);
+  EXPECT_NE(once.materials[0].hemisphereTransmittance, twice.materials[0].hemisphereTransmittance);
+}
+
 TEST(RenderScene, CameraFieldOfViewIsVertical) {
   pack::Scene scene = test::emptyScene(1);
   scene.width = 200;

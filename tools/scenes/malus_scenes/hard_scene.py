@@ -9,7 +9,7 @@ BREWSTER = math.degrees(math.atan(1.5))
 BLACK_GLASS = {"type": "mirror-glass", "eta": 1.5}
 GLASS = {"type": "glass", "eta": 1.5}
 GOLD = {"type": "metal", "preset": "gold"}
-# (eta, k) of the preset at 630, 532 and 465 nm: bake/materials.json.
+# (eta, k) of the preset at 630, 532 and 465 nm: bake/presets.yml.
 GOLD_INDEX = ((0.1884, 3.4034), (0.5439, 2.2309), (1.3319, 1.8693))
 SILVER = {"type": "metal", "preset": "silver"}
 SILVER_INDEX = ((0.0569, 4.2543), (0.054, 3.429), (0.0469, 2.8028))

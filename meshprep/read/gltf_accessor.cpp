@@ -162,6 +162,20 @@ void GltfAccessor::requireVectors(bool quantized) const {
                 fmt::format("{} components of type {}", components_, static_cast<std::uint32_t>(componentType_)));
 }
 
+void GltfAccessor::requireElements(std::size_t components, std::initializer_list<ComponentType> types,
+                                   bool isNormalized) const {
+  const bool isKnown = std::find(types.begin(), types.end(), componentType_) != types.end();
+  const bool isFloat = componentType_ == ComponentType::float32;
+  if (components_ == components && isKnown && (isFloat || normalized_ == isNormalized)) return;
+  std::vector<std::uint32_t> names;
+  for (const ComponentType type : types) names.push_back(static_cast<std::uint32_t>(type));
+  throw Error(location_, "wrong type",
+              fmt::format("{} components of type {}{}", components, fmt::join(names, ", "),
+                          isNormalized ? ", integers normalized" : ""),
+              fmt::format("{} components of type {}{}", components_, static_cast<std::uint32_t>(componentType_),
+                          normalized_ ? ", normalized" : ""));
+}
+
 std::optional<std::size_t> GltfAccessor::findNotFinite() const {
   if (componentType_ != ComponentType::float32) return std::nullopt;
   for (std::size_t i = 0; i < count_; ++i)
@@ -196,6 +210,11 @@ glm::dvec3 GltfAccessor::vector(std::size_t i) const {
   const std::size_t step = componentSize(componentType_);
   return {component(bytes, componentType_, normalized_), component(bytes + step, componentType_, normalized_),
           component(bytes + 2 * step, componentType_, normalized_)};
+}
+
+double GltfAccessor::number(std::size_t i, std::size_t at) const {
+  const std::byte* bytes = element(i);
+  return bytes == nullptr ? 0 : component(bytes + at * componentSize(componentType_), componentType_, normalized_);
 }
 
 std::uint32_t GltfAccessor::wholeNumber(std::size_t i) const {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,10 @@ class GltfAccessor {
 
   // Throws Error unless the elements are vectors of three floats or, if quantized, of three bytes or shorts.
   void requireVectors(bool quantized) const;
+  // Throws Error unless the elements have so many components of one of these types. Integers must be normalized or not,
+  // as isNormalized says.
+  void requireElements(std::size_t components, std::initializer_list<gltf::ComponentType> types,
+                       bool isNormalized = false) const;
   // Returns the first vector that is not finite.
   std::optional<std::size_t> findNotFinite() const;
   // Returns the error of such a vector.
@@ -38,6 +43,7 @@ class GltfAccessor {
   void requireIndices() const;
 
   glm::dvec3 vector(std::size_t i) const;  // normalized if the accessor is
+  double number(std::size_t i, std::size_t component) const;
   std::uint32_t wholeNumber(std::size_t i) const;
   std::uint32_t restart() const;  // primitive restart value: the largest of its type, not a valid index
 

@@ -98,9 +98,9 @@ GltfContainer::GltfContainer(const std::filesystem::path& path) : bytes_(readFil
   if (const std::uint32_t version = littleEndian(bytes, 4); version != 2)
     throw Error(at(4), "unsupported version of GLB", "2", fmt::to_string(version));
   const std::size_t length = littleEndian(bytes, 8);
-  if (length != bytes.size())
-    throw Error(at(8), "wrong length in the header", fmt::format("{} bytes", length),
-                fmt::format("{} bytes", bytes.size()));
+  if (length > bytes.size())
+    throw Error(at(bytes.size()), "unexpected end of file", fmt::format("{} bytes, the length in the header", length));
+  trailingBytes_ = bytes.size() - length;
 
   // Locate its chunks: JSON, optionally a buffer, then ignored ones.
   json_ = {};

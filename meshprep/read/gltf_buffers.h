@@ -20,16 +20,18 @@ namespace malus::prep {
 // The file, recognized by its first bytes: GLB, or JSON.
 class GltfContainer {
  public:
-  // Throws Error: unreadable, a GLB of another version, chunks that do not fill the file.
+  // Throws Error: unreadable, a GLB of another version or shorter than its header states, chunks that do not fill it.
   explicit GltfContainer(const std::filesystem::path& path);
 
   std::string_view json() const { return json_; }
   std::span<const std::byte> chunk() const { return chunk_; }  // of a GLB's first buffer
   bool hasChunk() const { return hasChunk_; }
   std::size_t size() const { return bytes_.size(); }
+  std::size_t trailingBytes() const { return trailingBytes_; }  // behind the end that the header of a GLB states
 
  private:
   std::vector<std::byte> bytes_;
+  std::size_t trailingBytes_ = 0;
   std::string_view json_;
   std::span<const std::byte> chunk_;
   bool hasChunk_ = false;

@@ -102,8 +102,20 @@ Primitive toPrimitive(const json& object) {
   get(object, "mode", primitive.mode);
   get(object, "indices", primitive.indices);
   get(object, "material", primitive.material);
-  get(object.at("attributes"), "POSITION", primitive.position);
-  get(object.at("attributes"), "NORMAL", primitive.normal);
+  const json& attributes = object.at("attributes");
+  get(attributes, "POSITION", primitive.position);
+  get(attributes, "NORMAL", primitive.normal);
+  get(attributes, "JOINTS_0", primitive.joints[0]);
+  get(attributes, "JOINTS_1", primitive.joints[1]);
+  get(attributes, "WEIGHTS_0", primitive.weights[0]);
+  get(attributes, "WEIGHTS_1", primitive.weights[1]);
+  if (const auto targets = object.find("targets"); targets != object.end())
+    for (const json& item : *targets) {
+      MorphTarget& target = primitive.targets.emplace_back();
+      if (item.is_null()) continue;
+      get(item, "POSITION", target.position);
+      get(item, "NORMAL", target.normal);
+    }
   const json& extensions = child(object, "extensions");
   if (const auto found = extensions.find("KHR_draco_mesh_compression"); found != extensions.end()) {
     DracoExtension draco;
@@ -118,6 +130,7 @@ Primitive toPrimitive(const json& object) {
 Mesh toMesh(const json& object) {
   Mesh mesh;
   get(object, "name", mesh.name);
+  get(object, "weights", mesh.weights);
   const json& primitives = object.at("primitives");
   mesh.primitives.reserve(primitives.size());
   for (const json& primitive : primitives) {
@@ -127,12 +140,31 @@ Mesh toMesh(const json& object) {
   return mesh;
 }
 
+Skin toSkin(const json& object) {
+  Skin skin;
+  get(object, "joints", skin.joints);
+  get(object, "inverseBindMatrices", skin.inverseBindMatrices);
+  return skin;
+}
+
 Node toNode(const json& object) {
   Node node;
   get(object, "name", node.name);
   get(object, "mesh", node.mesh);
   get(object, "camera", node.camera);
-  get(child(child(object, "extensions"), "KHR_lights_punctual"), "light", node.light);
+  get(object, "skin", node.skin);
+  get(object, "weights", node.weights);
+  const json& extensions = child(object, "extensions");
+  get(child(extensions, "KHR_lights_punctual"), "light", node.light);
+  node.hasInvalidInstancing = isInvalid(extensions, "EXT_mesh_gpu_instancing");
+  node.hasInvalidSkin = isInvalid(object, "skin");
+  if (extensions.contains("EXT_mesh_gpu_instancing") && !node.hasInvalidInstancing) {
+    const json& attributes = extensions.at("EXT_mesh_gpu_instancing").at("attributes");
+    GpuInstancing& instancing = node.instancing.emplace();
+    get(attributes, "TRANSLATION", instancing.translation);
+    get(attributes, "ROTATION", instancing.rotation);
+    get(attributes, "SCALE", instancing.scale);
+  }
   get(object, "children", node.children);
   get(object, "matrix", node.matrix);
   get(object, "translation", node.translation);
@@ -241,6 +273,7 @@ Document toDocument(json document, const std::string& where, GltfLeftOut& leftOu
   for (const json& scene : lists.take("scenes")) get(scene, "nodes", result.sceneNodes.emplace_back());
   for (const json& node : lists.take("nodes")) result.nodes.push_back(toNode(node));
   lists.convert("meshes", result.meshes, [](const json& mesh, const std::string&) { return toMesh(mesh); });
+  lists.convert("skins", result.skins, [](const json& skin, const std::string&) { return toSkin(skin); });
   lists.convert("accessors", result.accessors, toAccessor);
   lists.convert("bufferViews", result.bufferViews, toBufferView);
   lists.convert("buffers", result.buffers, [](json& buffer, const std::string&) { return toBuffer(buffer); });

@@ -67,28 +67,49 @@ struct DracoExtension {
   std::optional<std::uint32_t> position, normal;
 };
 
+// Displacements of the vertices of a primitive.
+struct MorphTarget {
+  std::optional<std::size_t> position, normal;
+};
+
 // Attributes and indices are indices into Document::accessors.
 struct Primitive {
   std::uint32_t mode = static_cast<std::uint32_t>(PrimitiveMode::triangles);
   std::optional<std::size_t> position, normal, indices, material;
+  std::array<std::optional<std::size_t>, 2> joints, weights;  // of a skin: four per vertex and set
+  std::vector<MorphTarget> targets;
   std::optional<DracoExtension> draco;
   bool isInvalid = false;
 };
 
 struct Mesh {
   std::string name;
+  std::vector<double> weights;  // default weights of the morph targets; empty: 0
   std::vector<Primitive> primitives;
   bool isInvalid = false;
 };
 
+struct Skin {
+  std::vector<std::size_t> joints;                 // nodes
+  std::optional<std::size_t> inverseBindMatrices;  // accessor; none: identity
+  bool isInvalid = false;
+};
+
+// EXT_mesh_gpu_instancing: accessors with one value per instance.
+struct GpuInstancing {
+  std::optional<std::size_t> translation, rotation, scale;
+};
+
 struct Node {
   std::string name;
-  std::optional<std::size_t> mesh, camera, light;
+  std::optional<std::size_t> mesh, camera, light, skin;
+  std::vector<double> weights;  // of the morph targets, in place of those of the mesh
+  std::optional<GpuInstancing> instancing;
   std::vector<std::size_t> children;
   std::optional<std::array<double, 16>> matrix;  // column-major; replaces the other three
   std::optional<std::array<double, 3>> translation, scale;
   std::optional<std::array<double, 4>> rotation;  // quaternion (x, y, z, w)
-  bool hasInvalidTransform = false, hasInvalidChildren = false;
+  bool hasInvalidTransform = false, hasInvalidChildren = false, hasInvalidInstancing = false, hasInvalidSkin = false;
 };
 
 struct Material {
@@ -129,6 +150,7 @@ struct Document {
   std::vector<std::vector<std::size_t>> sceneNodes;  // root nodes of each scene
   std::vector<Node> nodes;
   std::vector<Mesh> meshes;
+  std::vector<Skin> skins;
   std::vector<Accessor> accessors;
   std::vector<BufferView> bufferViews;
   std::vector<Buffer> buffers;

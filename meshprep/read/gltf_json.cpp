@@ -29,11 +29,11 @@ constexpr std::int64_t kMaxIndex = 0x7fffffff;
 constexpr std::int64_t kMaxSize = std::int64_t{1} << 53;  // exact in every JSON reader
 
 // Extensions that are read, and those that affect ignored textures only.
-constexpr std::array<std::string_view, 11> kKnownExtensions = {
+constexpr std::array<std::string_view, 12> kKnownExtensions = {
     "KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_materials_ior",
     "KHR_materials_transmission", "KHR_materials_volume",  "KHR_materials_emissive_strength",
     "KHR_texture_transform",      "KHR_texture_basisu",    "EXT_texture_webp",
-    "EXT_texture_avif",           "KHR_lights_punctual"};
+    "EXT_texture_avif",           "KHR_lights_punctual",   "EXT_mesh_gpu_instancing"};
 
 // Builds the document of kept keys from the parser's events. nlohmann's filter by callback needs quadratic time,
 // because it searches the whole list at the end of each object.
@@ -75,7 +75,7 @@ class Builder : public json::json_sax_t {
     path_ += key;
     const Rule* rule = findRule(path_);
     isDropped_ = rule == nullptr || rule->type == Type::noted;
-    noted_.begin(isDropped_ ? rule : nullptr);
+    noted_.begin(path_, rule == nullptr ? gltf::unknownKeyNote(path_) : std::string(isDropped_ ? rule->note : ""));
     if (isDropped_) return true;
     if (object.value->contains(key))
       throw Error(where_, fmt::format("duplicate key '{}'", path_), "each key once per object");
@@ -295,6 +295,11 @@ class TypeCheck {
         for (const json& item : value)
           if (!item.is_number()) fail(location, fmt::format("{} numbers", rule.size), item);
         break;
+      case Type::numberList:
+        if (!value.is_array()) fail(location, "a list of numbers", value);
+        for (const json& item : value)
+          if (!item.is_number()) fail(location, "a list of numbers", item);
+        break;
       case Type::text:
         if (!value.is_string()) fail(location, "a string", value);
         break;
@@ -330,8 +335,13 @@ void checkExtensions(const json& document, const std::string& where, std::vector
     if (!known(name))
       throw Error(where + ": extensionsRequired", "unknown extension",
                   fmt::format("{}", fmt::join(kKnownExtensions, ", ")), "'" + name.substr(0, 60) + "'");
-  for (const std::string& name : names("extensionsUsed"))
-    if (!known(name)) addNote(notes, fmt::format("extension {}", name.substr(0, 60)));
+  for (const std::string& name : names("extensionsUsed")) {
+    // One that is in place has a note with its number.
+    const std::string note = fmt::format("extension {}", name.substr(0, 60));
+    const bool isNoted = std::any_of(notes.begin(), notes.end(),
+                                     [&](const std::string& other) { return other.starts_with(note + " ("); });
+    if (!known(name) && !isNoted) addNote(notes, note);
+  }
 }
 
 }  // namespace

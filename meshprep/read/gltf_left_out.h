@@ -9,6 +9,12 @@
 
 namespace malus::prep {
 
+// A limit of the whole file is exceeded: nothing is left out instead.
+class GltfLimitError : public Error {
+ public:
+  using Error::Error;
+};
+
 class GltfLeftOut {
  public:
   // where: the file, which notes do not repeat. Each error becomes a note; with `strict` it is thrown.

@@ -1,20 +1,20 @@
 #include "meshprep/read/gltf_noted.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "meshprep/read/counted_note.h"
 
 namespace malus::prep {
 
-void GltfNotedContent::begin(const gltf::Rule* rule) {
+void GltfNotedContent::begin(std::string_view path, std::string note) {
   current_ = 0;
   isList_ = isName_ = false;
-  if (rule == nullptr) return;
-  const auto found =
-      std::find_if(contents_.begin(), contents_.end(), [&](const Content& c) { return c.note == rule->note; });
+  if (note.empty()) return;
+  const auto found = std::find_if(contents_.begin(), contents_.end(), [&](const Content& c) { return c.note == note; });
   current_ = static_cast<std::size_t>(found - contents_.begin()) + 1;
-  if (found == contents_.end()) contents_.push_back({rule->note, 0, 0, {}});
-  isTopLevel_ = rule->path.find('/') == std::string_view::npos;
+  isTopLevel_ = path.find('/') == std::string_view::npos;
+  if (found == contents_.end()) contents_.push_back({std::move(note), 0, 0, {}});
 }
 
 void GltfNotedContent::value(int levels, bool isList) {
@@ -42,10 +42,11 @@ std::vector<std::string> GltfNotedContent::describe() const {
   for (const Content& content : contents_) {
     const std::size_t count = content.inList > 0 ? content.inList : content.elsewhere;
     if (count == 0) continue;
-    const std::size_t remark = content.note.find(" (");
+    const std::string_view note = content.note;
+    const std::size_t remark = note.find(" (");
     const bool hasRemark = remark != std::string_view::npos;
-    notes.push_back(countedNote(content.note.substr(0, remark), count, content.names,
-                                hasRemark ? content.note.substr(remark + 2, content.note.size() - remark - 3) : ""));
+    notes.push_back(countedNote(note.substr(0, remark), count, content.names,
+                                hasRemark ? note.substr(remark + 2, note.size() - remark - 3) : ""));
   }
   return notes;
 }

@@ -1,5 +1,5 @@
-// Content of a glTF document that is left out with a note (Type::noted of gltf_rules.h): its number and its names,
-// taken from the events of the parser of gltf_json.h.
+// Content of a glTF document that is left out with a note (gltf_rules.h): its number and its names, taken from the
+// events of the parser of gltf_json.h.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "meshprep/read/gltf_rules.h"
-
 namespace malus::prep {
 
 class GltfNotedContent {
  public:
-  // The value of a key follows that is dropped by this rule; nullptr: it is kept, or dropped without a note.
-  void begin(const gltf::Rule* rule);
+  // The value of the key at a path without indices follows. note: empty if the value is kept or needs none.
+  void begin(std::string_view path, std::string note);
   // A value, or the begin of an object or a list, inside of so many levels of the dropped value: 0 for that itself. A
   // list counts by its elements, any other value as one.
   void value(int levels, bool isList);
@@ -28,7 +26,7 @@ class GltfNotedContent {
 
  private:
   struct Content {
-    std::string_view note;
+    std::string note;
     std::size_t inList = 0, elsewhere = 0;
     std::vector<std::string> names;
   };

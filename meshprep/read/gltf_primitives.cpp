@@ -56,7 +56,8 @@ GltfPrimitiveReader::GltfPrimitiveReader(const gltf::Document& document, GltfBuf
       if (primitive.position) ++users_[*primitive.position];
 }
 
-Polygons GltfPrimitiveReader::read(const gltf::Primitive& primitive, const std::string& location) {
+Polygons GltfPrimitiveReader::read(const gltf::Primitive& primitive, const GltfPose& pose,
+                                   const std::string& location) {
   if (primitive.mode < kTriangles) {
     addNote(leftOut_.notes(), "points and lines");
     return {};
@@ -64,7 +65,7 @@ Polygons GltfPrimitiveReader::read(const gltf::Primitive& primitive, const std::
   if (primitive.mode > kTriangleFan)
     throw Error(location + ".mode", "unknown mode", "0 to 6", fmt::to_string(primitive.mode));
   if (!primitive.position) throw Error(location, "no positions", "an attribute POSITION");
-  if (primitive.draco) return readDraco(primitive, location);
+  if (primitive.draco) return readDraco(primitive, pose, location);
 
   // Check the accessors.
   const Vectors& positions = vectors(*primitive.position);
@@ -83,7 +84,8 @@ Polygons GltfPrimitiveReader::read(const gltf::Primitive& primitive, const std::
 
   // Read the vertices; only those of the faces if primitives share the accessor.
   std::vector<std::uint32_t> kept;
-  if (users_.at(*primitive.position) > 1) {
+  const std::size_t passes = pose.passes(primitive);
+  if (users_.at(*primitive.position) > 1 || passes > 0) {
     kept = polygons.corners;
     std::sort(kept.begin(), kept.end());
     kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
@@ -94,6 +96,10 @@ Polygons GltfPrimitiveReader::read(const gltf::Primitive& primitive, const std::
     std::iota(kept.begin(), kept.end(), 0u);
   }
   readVertices(kept, positions, normals, polygons);
+  if (passes > 0) {
+    addVertices(passes * kept.size(), location);
+    pose.apply(primitive, kept, location, polygons);
+  }
   return polygons;
 }
 
@@ -225,7 +231,10 @@ void GltfPrimitiveReader::readVertices(const std::vector<std::uint32_t>& kept, c
     if (!isFinite(n)) n = glm::vec3(0);
 }
 
-Polygons GltfPrimitiveReader::readDraco(const gltf::Primitive& primitive, const std::string& location) {
+Polygons GltfPrimitiveReader::readDraco(const gltf::Primitive& primitive, const GltfPose& pose,
+                                        const std::string& location) {
+  if (pose.passes(primitive) > 0)
+    throw Error(location, "a skin or morph target of Draco data is not read", "a file without Draco compression");
   // Take the counts of the accessors, whose bytes, if any, are for readers without Draco.
   if (!primitive.indices) throw Error(location, "Draco data without indices", "an accessor of indices");
   const std::size_t corners = declaredCount(*primitive.indices);

@@ -13,15 +13,10 @@
 #include "meshprep/read/gltf_buffers.h"
 #include "meshprep/read/gltf_document.h"
 #include "meshprep/read/gltf_left_out.h"
+#include "meshprep/read/gltf_pose.h"
 #include "meshprep/read/polygons.h"
 
 namespace malus::prep {
-
-// A limit of the whole file is exceeded.
-class GltfLimitError : public Error {
- public:
-  using Error::Error;
-};
 
 class GltfPrimitiveReader {
  public:
@@ -30,11 +25,11 @@ class GltfPrimitiveReader {
   GltfPrimitiveReader(const gltf::Document& document, GltfBuffers& buffers, std::size_t fileBytes, std::string where,
                       GltfLeftOut& leftOut);
 
-  // Returns the triangles of a primitive; empty for points and lines. `location` is for messages. Leaves out a triangle
-  // with an index out of range or a position that is not finite, the corners at the end of a list that are no triangle,
-  // and normals that are not finite (which become zero). Throws Error: an unknown mode, no positions, an accessor that
-  // is missing, invalid or of the wrong type, no valid triangle. Throws GltfLimitError.
-  Polygons read(const gltf::Primitive& primitive, const std::string& location);
+  // Returns the triangles of a primitive in its pose; empty for points and lines. `location` is for messages. Leaves
+  // out a triangle with an index out of range or a position that is not finite, the corners at the end of a list that
+  // are no triangle, and normals that are not finite (which become zero). Throws Error: an unknown mode, no positions,
+  // an accessor that is missing, invalid or of the wrong type, no valid triangle. Throws GltfLimitError.
+  Polygons read(const gltf::Primitive& primitive, const GltfPose& pose, const std::string& location);
 
   // Totals so far.
   std::size_t triangleCount() const { return triangles_; }
@@ -59,7 +54,7 @@ class GltfPrimitiveReader {
                    const std::string& location);
   void readVertices(const std::vector<std::uint32_t>& kept, const Vectors& positions, const Vectors* normals,
                     Polygons& polygons);
-  Polygons readDraco(const gltf::Primitive& primitive, const std::string& location);
+  Polygons readDraco(const gltf::Primitive& primitive, const GltfPose& pose, const std::string& location);
 
   const gltf::Document& document_;
   GltfBuffers& buffers_;

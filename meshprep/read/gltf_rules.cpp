@@ -1,7 +1,10 @@
 #include "meshprep/read/gltf_rules.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
+
+#include <fmt/format.h>
 
 namespace malus::prep::gltf {
 
@@ -33,13 +36,20 @@ constexpr std::array kRules = {
     optionalPart("nodes/translation", Type::numbers, 3),
     optionalPart("nodes/rotation", Type::numbers, 4),
     optionalPart("nodes/scale", Type::numbers, 3),
-    noted("nodes/skin", "skins (the pose of the file is used)"),
+    optionalPart("nodes/skin", Type::index),
+    optionalValue("nodes/weights", Type::numberList),
     optionalValue("nodes/camera", Type::index),
     optionalValue("nodes/extensions", Type::object),
+    optionalPart("nodes/extensions/EXT_mesh_gpu_instancing", Type::object),
+    Rule{"nodes/extensions/EXT_mesh_gpu_instancing/attributes", Type::object, 0, true},
+    Rule{"nodes/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION", Type::index},
+    Rule{"nodes/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION", Type::index},
+    Rule{"nodes/extensions/EXT_mesh_gpu_instancing/attributes/SCALE", Type::index},
     optionalValue("nodes/extensions/KHR_lights_punctual", Type::object),
     Rule{"nodes/extensions/KHR_lights_punctual/light", Type::index, 0, true},
     Rule{"meshes", Type::objects},
     optionalValue("meshes/name", Type::text),
+    optionalValue("meshes/weights", Type::numberList),
     Rule{"meshes/primitives", Type::objects, 0, true},
     Rule{"meshes/primitives/mode", Type::index},
     Rule{"meshes/primitives/indices", Type::index},
@@ -49,9 +59,16 @@ constexpr std::array kRules = {
     Rule{"meshes/primitives/attributes/NORMAL", Type::index},
     noted("meshes/primitives/attributes/TANGENT", "tangents"),
     noted("meshes/primitives/attributes/TEXCOORD_0", "texture coordinates"),
+    noted("meshes/primitives/attributes/TEXCOORD_1", "texture coordinates"),
     noted("meshes/primitives/attributes/COLOR_0", "colours of vertices"),
-    noted("meshes/primitives/attributes/JOINTS_0", "skins (the pose of the file is used)"),
-    noted("meshes/primitives/targets", "morph targets (the shape of the file is used)"),
+    Rule{"meshes/primitives/attributes/JOINTS_0", Type::index},
+    Rule{"meshes/primitives/attributes/WEIGHTS_0", Type::index},
+    Rule{"meshes/primitives/attributes/JOINTS_1", Type::index},
+    Rule{"meshes/primitives/attributes/WEIGHTS_1", Type::index},
+    optionalValue("meshes/primitives/targets", Type::objects),
+    Rule{"meshes/primitives/targets/POSITION", Type::index},
+    Rule{"meshes/primitives/targets/NORMAL", Type::index},
+    noted("meshes/primitives/targets/TANGENT", "tangents"),
     Rule{"meshes/primitives/extensions", Type::object},
     Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression", Type::object},
     Rule{"meshes/primitives/extensions/KHR_draco_mesh_compression/bufferView", Type::index, 0, true},
@@ -102,10 +119,16 @@ constexpr std::array kRules = {
     optionalValue("materials/extensions/KHR_materials_volume/attenuationColor", Type::numbers, 3),
     optionalValue("materials/extensions/KHR_materials_emissive_strength", Type::object),
     optionalValue("materials/extensions/KHR_materials_emissive_strength/emissiveStrength", Type::number),
+    noted("materials/pbrMetallicRoughness/baseColorTexture", "base colour textures"),
+    noted("materials/pbrMetallicRoughness/metallicRoughnessTexture", "metallic-roughness textures"),
+    noted("materials/normalTexture", "normal textures"),
+    noted("materials/occlusionTexture", "occlusion textures"),
     noted("textures", "textures"),
     noted("images", "images"),
-    noted("animations", "animations (the pose of the file is used)"),
-    noted("skins", "skins (the pose of the file is used)"),
+    noted("animations", "animations (the default pose is used)"),
+    optionalValue("skins", Type::objects),
+    Rule{"skins/joints", Type::indices, 0, true},
+    Rule{"skins/inverseBindMatrices", Type::index},
     optionalValue("cameras", Type::objects),
     optionalValue("cameras/name", Type::text),
     Rule{"cameras/type", Type::text, 0, true},
@@ -138,6 +161,35 @@ const Rule* findRule(std::string_view path) {
   }();
   const auto found = kByPath.find(path);
   return found == kByPath.end() ? nullptr : found->second;
+}
+
+std::string unknownKeyNote(std::string_view path) {
+  // Names and application data may be in every object.
+  const std::string_view key = path.substr(path.rfind('/') + 1);
+  if (key == "extras" || key == "name" || path.starts_with("asset/")) return {};
+  constexpr std::array<std::string_view, 9> kHarmless = {"accessors/min",
+                                                         "accessors/max",
+                                                         "bufferViews/target",
+                                                         "cameras/perspective/znear",
+                                                         "cameras/perspective/zfar",
+                                                         "cameras/orthographic/znear",
+                                                         "cameras/orthographic/zfar",
+                                                         "samplers",
+                                                         "skins/skeleton"};
+  if (std::find(kHarmless.begin(), kHarmless.end(), path) != kHarmless.end()) return {};
+  constexpr std::string_view kAttributes = "meshes/primitives/attributes/_";  // of the application
+  if (path.starts_with(kAttributes)) return {};
+  constexpr std::string_view kExtensions = "extensions/";
+  std::size_t at = path.find(kExtensions);
+  if (at != std::string_view::npos && (at == 0 || path[at - 1] == '/')) {
+    at += kExtensions.size();
+    const std::size_t end = std::min(path.find('/', at), path.size());
+    if (findRule(path.substr(0, end)) == nullptr)
+      return fmt::format("extension {}", path.substr(at, std::min<std::size_t>(end - at, 60)));
+  }
+  std::string text(path.substr(0, 100));
+  std::replace(text.begin(), text.end(), '/', '.');
+  return fmt::format("key '{}'", text);
 }
 
 const std::vector<std::string_view>& requiredKeys(std::string_view path) {

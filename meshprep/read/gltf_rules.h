@@ -3,12 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace malus::prep::gltf {
 
-enum class Type { object, objects, index, indices, size, number, numbers, text, texts, flag, noted };
+enum class Type { object, objects, index, indices, size, number, numbers, numberList, text, texts, flag, noted };
 
 // Extent of the damage by a value of the wrong type.
 enum class Invalid {
@@ -29,6 +30,10 @@ struct Rule {
 
 // Returns the rule of a path without indices ("meshes/primitives/indices"), or nullptr if it is not on the whitelist.
 const Rule* findRule(std::string_view path);
+
+// Returns the note of a key that is not on the whitelist: "extension NAME" inside of one, else "key 'PATH'". Empty for
+// keys that do not change an image, such as extras, bounds of accessors and the planes that clip a rasterizer's image.
+std::string unknownKeyNote(std::string_view path);
 
 // Returns the keys that an object at this path must have. "" is the document.
 const std::vector<std::string_view>& requiredKeys(std::string_view path);

@@ -1,9 +1,12 @@
 #include "meshprep/read/read_gltf.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +18,7 @@
 #include "meshprep/read/gltf_left_out.h"
 #include "meshprep/read/gltf_material.h"
 #include "meshprep/read/gltf_nodes.h"
+#include "meshprep/read/gltf_pose.h"
 #include "meshprep/read/gltf_primitives.h"
 #include "meshprep/read/gltf_views.h"
 
@@ -31,18 +35,46 @@ std::string meshName(const gltf::Mesh& mesh, std::size_t index) {
   return mesh.name.empty() ? fmt::format("mesh {}", index) : mesh.name;
 }
 
-// Adds the parts of the placed meshes to the scene. Returns their indices, by mesh.
-std::vector<std::vector<std::size_t>> readParts(const gltf::Document& document, const std::vector<bool>& placed,
-                                                GltfPrimitiveReader& reader, const std::string& where,
-                                                SourceScene& scene, GltfLeftOut& leftOut) {
-  std::vector<std::vector<std::size_t>> partsOfMesh(document.meshes.size());
-  for (std::size_t m = 0; m < document.meshes.size(); ++m) {
-    if (!placed[m]) continue;
-    const gltf::Mesh& mesh = document.meshes[m];
+// Adds the parts of the placed meshes to the scene, once for each pose of a mesh. Returns their indices, by placement.
+class PartReader {
+ public:
+  PartReader(const gltf::Document& document, GltfBuffers& buffers, GltfPrimitiveReader& reader,
+             const GltfPlacements& placements, const std::string& where, SourceScene& scene, GltfLeftOut& leftOut)
+      : document_(document),
+        buffers_(buffers),
+        reader_(reader),
+        placements_(placements),
+        where_(where),
+        scene_(scene),
+        leftOut_(leftOut) {}
+
+  std::vector<std::vector<std::size_t>> read() {
+    std::map<std::tuple<std::size_t, std::vector<double>, std::optional<std::size_t>>, std::vector<std::size_t>> known;
+    std::vector<std::vector<std::size_t>> parts;
+    for (const GltfPlacement& placement : placements_.meshes) {
+      const auto [found, isNew] = known.try_emplace({placement.object, placement.morphWeights, placement.skin});
+      if (isNew) found->second = readMesh(placement);
+      parts.push_back(found->second);
+    }
+    return parts;
+  }
+
+ private:
+  std::vector<std::size_t> readMesh(const GltfPlacement& placement) {
+    const std::size_t m = placement.object;
+    const gltf::Mesh& mesh = document_.meshes[m];
+    std::vector<std::size_t> parts;
+    std::optional<GltfPose> pose;
+    try {
+      pose.emplace(document_, buffers_, placement, placements_.worldFromNode, where_);
+    } catch (const Error& error) {
+      leftOut_.addPart(error);
+      return parts;
+    }
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
       const gltf::Primitive& primitive = mesh.primitives[p];
       if (primitive.isInvalid) continue;
-      const std::string location = fmt::format("{}: meshes[{}].primitives[{}]", where, m, p);
+      const std::string location = fmt::format("{}: meshes[{}].primitives[{}]", where_, m, p);
       SourcePart part;
       part.mesh = m;
       part.meshName = meshName(mesh, m);
@@ -50,24 +82,32 @@ std::vector<std::vector<std::size_t>> readParts(const gltf::Document& document, 
       part.name = mesh.primitives.size() == 1 ? part.meshName : fmt::format("{}.{}", part.meshName, p + 1);
       try {
         part.material = primitive.material;
-        if (part.material && *part.material >= scene.materials.size())
+        if (part.material && *part.material >= scene_.materials.size())
           throw Error(location + ".material", "refers to a missing material",
-                      fmt::format("an index below {}", scene.materials.size()), fmt::to_string(*primitive.material));
-        part.polygons = reader.read(primitive, location);
+                      fmt::format("an index below {}", scene_.materials.size()), fmt::to_string(*primitive.material));
+        part.polygons = reader_.read(primitive, *pose, location);
       } catch (const GltfLimitError&) {
         throw;
       } catch (const Error& error) {  // of the primitive, or of an accessor, which does not name the primitive
-        leftOut.addPart(
-            std::string_view(error.what()).starts_with(location) ? error : Error(location, leftOut.shortText(error)));
+        leftOut_.addPart(
+            std::string_view(error.what()).starts_with(location) ? error : Error(location, leftOut_.shortText(error)));
         continue;
       }
       if (part.polygons.faceCount() == 0) continue;
-      partsOfMesh[m].push_back(scene.parts.size());
-      scene.parts.push_back(std::move(part));
+      parts.push_back(scene_.parts.size());
+      scene_.parts.push_back(std::move(part));
     }
+    return parts;
   }
-  return partsOfMesh;
-}
+
+  const gltf::Document& document_;
+  GltfBuffers& buffers_;
+  GltfPrimitiveReader& reader_;
+  const GltfPlacements& placements_;
+  const std::string& where_;
+  SourceScene& scene_;
+  GltfLeftOut& leftOut_;
+};
 
 }  // namespace
 
@@ -78,6 +118,8 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
 
   // Parse the document.
   const GltfContainer container(path);
+  if (container.trailingBytes() > 0)
+    addNote(scene.notes, fmt::format("{}{} bytes behind the end of the GLB", kAcceptedNote, container.trailingBytes()));
   gltf::Document document = gltf::toDocument(parseGltfJson(container.json(), where, leftOut), where, leftOut);
   for (const gltf::Buffer& buffer : document.buffers)
     if (!isDataUri(buffer.uri) && hasBackslash(buffer.uri))
@@ -91,7 +133,7 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
         document.materials[i], fmt::format("{}materials[{}]", strict ? where + ": " : "", i), scene.notes, strict));
 
   // Place the meshes. Meshes without a placement are not read.
-  const GltfPlacements all = gltfPlacements(document, kMaxInstances, where, leftOut);
+  const GltfPlacements all = gltfPlacements(document, buffers, kMaxInstances, where, leftOut);
   const std::vector<GltfPlacement>& placements = all.meshes;
   if (placements.empty()) leftOut.rethrowFirst();
   if (placements.empty()) throw Error(where, "no mesh in the scene", "a node with a mesh");
@@ -109,7 +151,8 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
 
   // Read the parts.
   GltfPrimitiveReader reader(document, buffers, container.size(), where, leftOut);
-  const std::vector<std::vector<std::size_t>> partsOfMesh = readParts(document, placed, reader, where, scene, leftOut);
+  const std::vector<std::vector<std::size_t>> partsOfPlacement =
+      PartReader(document, buffers, reader, all, where, scene, leftOut).read();
   if (scene.parts.empty()) leftOut.rethrowFirst();
   if (scene.parts.empty()) throw Error(where, "file has no faces", "a mesh");
 
@@ -117,8 +160,9 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
   const std::size_t most = std::max(kMinInstancedTriangles, kMaxCopies * reader.triangleCount());
   const std::size_t mostVertices = std::max(3 * most, reader.vertexCount());
   std::size_t triangles = 0, vertices = 0;
-  for (const GltfPlacement& placement : placements) {
-    const std::vector<std::size_t>& parts = partsOfMesh[placement.object];
+  for (std::size_t n = 0; n < placements.size(); ++n) {
+    const GltfPlacement& placement = placements[n];
+    const std::vector<std::size_t>& parts = partsOfPlacement[n];
     for (std::size_t i = 0; i < parts.size(); ++i) {
       triangles += scene.parts[parts[i]].polygons.faceCount();
       vertices += scene.parts[parts[i]].polygons.positions.size();

@@ -1,5 +1,5 @@
 // glTF 2.0, as JSON (.gltf) or binary (.glb), with KHR_draco_mesh_compression, KHR_mesh_quantization,
-// KHR_lights_punctual and KHR_materials_ior, _transmission, _volume and _emissive_strength.
+// KHR_lights_punctual, EXT_mesh_gpu_instancing and KHR_materials_ior, _transmission, _volume and _emissive_strength.
 //
 // The JSON is parsed through a whitelist of keys and types (gltf_json.h) into structures (gltf_document.h). Buffers are
 // data URIs, files in the folder of the glTF file or below it, or the chunk of a GLB; no other file is opened. Every
@@ -7,12 +7,13 @@
 //
 // Each primitive is a part; each node with a mesh makes one instance of every primitive of the mesh, and each node with
 // a camera or a light makes one of these (gltf_views.h). The default scene is read, or the first scene; without scenes,
-// all nodes without a parent. Skins, morph targets and animations are left out: the pose of the file is used. Whatever
-// is left out is listed in the notes.
+// all nodes without a parent. Meshes are in their default pose: morph targets by their default weights, skins by the
+// transforms of their joints (gltf_pose.h); animations are left out. EXT_mesh_gpu_instancing places a mesh once per
+// instance. Whatever is left out is listed in the notes, keys and extensions that are not known included.
 //
 // Limits, so that a small file cannot claim gigabytes; B is the size of the file and its buffers in bytes.
 //   triangles of all primitives   max(2 million, B / 2), plus twice the bytes of a primitive's Draco data
-//   vertices of all accessors     max(6 million, B)
+//   vertices of all accessors     max(6 million, B), with one for each vertex and morph target or skin of a pose
 //   instances                     65536
 //   triangles of all instances    max(4 million, 16 times those of the primitives), and three times as many vertices
 //

@@ -31,8 +31,8 @@ class GltfAccessor {
 
   // Throws Error unless the elements are vectors of three floats or, if quantized, of three bytes or shorts.
   void requireVectors(bool quantized) const;
-  // Throws Error unless the elements have so many components of one of these types. Integers must be normalized or not,
-  // as isNormalized says.
+  // Throws Error unless the elements have so many components of one of these types. isNormalized: whether integers must
+  // be normalized, or must not.
   void requireElements(std::size_t components, std::initializer_list<gltf::ComponentType> types,
                        bool isNormalized = false) const;
   // Returns the first vector that is not finite.

@@ -33,7 +33,7 @@ struct GltfPlacements {
 // Leaves out:
 //   a mesh that does not exist or is invalid, or whose transform is singular or out of range (cameras and lights:
 //   gltf_views.h), and one with an invalid skin or invalid instances
-//   a mesh that is hidden by a scale of 0, with a note of the number, which is no error
+//   a mesh that is hidden by a scale of 0, also if strict, with a note of the number
 //   a node and its descendants if its matrix has a last row other than (0, 0, 0, 1), its rotation has length 0, or one
 //   of them has the wrong type
 //   a child or root that does not exist, has another parent or is named before; the nodes of a cycle

@@ -25,7 +25,7 @@ class GltfPose {
   GltfPose(const gltf::Document& document, GltfBuffers& buffers, const GltfPlacement& placement,
            const std::vector<std::optional<glm::dmat4>>& worldFromNode, const std::string& where);
 
-  // How often each vertex of a primitive is moved; 0: the primitive is the same in its pose.
+  // Number of times that each vertex of a primitive is moved; 0: the primitive is the same in its pose.
   std::size_t passes(const gltf::Primitive& primitive) const;
 
   // Moves the vertices. kept: index in the file of each vertex of polygons. Positions of skinned meshes are in world

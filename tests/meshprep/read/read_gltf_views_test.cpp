@@ -60,7 +60,7 @@ TEST(ReadGltfViews, PlacesCameras) {
 }
 
 TEST(ReadGltfViews, LeavesOutInvalidCameras) {
-  const auto noteOf = [](const json& camera, const json& node = {{"camera", 0}}) {
+  const auto readLightNote = [](const json& camera, const json& node = {{"camera", 0}}) {
     GltfFile gltf = triangleFile();
     gltf.add("cameras", camera);
     gltf.addNode(node);
@@ -109,7 +109,7 @@ TEST(ReadGltfViews, PlacesLights) {
 }
 
 TEST(ReadGltfViews, LeavesOutInvalidLights) {
-  const auto noteOf = [](const json& light) {
+  const auto readLightNote = [](const json& light) {
     GltfFile gltf = fileWithLights({light});
     gltf.addNode({{"extensions", lightAt(0)}});
     const SourceScene scene = readGlb(gltf);

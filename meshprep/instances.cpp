@@ -93,10 +93,7 @@ class InstancePreparation {
     return repeats && !options_.asIs && !options_.simplify.any() && options_.weldRelative == 0;
   }
 
-  glm::dvec3 place(std::size_t instance, const glm::dvec3& p) const {
-    const glm::dmat4& m = scene_.instances[instance].worldFromObject;
-    return glm::dmat3(m) * p + glm::dvec3(m[3]);  // as mergeInstances()
-  }
+  glm::dvec3 place(std::size_t instance, const glm::dvec3& p) const { return toWorld(scene_.instances[instance], p); }
 
   // Returns the boxes of the instances, with the margin within which steps see other faces.
   std::vector<Box> findBoxes() const {
@@ -200,7 +197,7 @@ class InstancePreparation {
     if (!options_.flat) mesh.normals.reserve(vertices);
     report_ = {};
     report_.source = source_;
-    report_.notes = scene_.notes;
+    report_.notes = notesOfMeshes(scene_);
     report_.certificate.checked = options_.certifyGlass;
     for (const PlacedPiece& placed : placed_) {
       if (!appendMesh(placed, mesh)) return false;

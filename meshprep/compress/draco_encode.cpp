@@ -125,8 +125,6 @@ Encoded encodeSequentially(const MeshView& mesh, std::span<const glm::dvec3> rou
   encoded.decoded = decode(encoded.bytes, limits, settings.grid, kLocation);
   encoded.decodeMs = threadMs() - decoding;
   compareWithSource(mesh, rounded, settings, encoded);
-  encoded.sourceVertices = identity(mesh.positions.size());
-  encoded.sourceTriangles = identity(mesh.triangles.size());
   return encoded;
 }
 
@@ -154,8 +152,8 @@ Edgebreaker encodeByEdgebreaker(const MeshView& mesh, std::span<const glm::ivec3
 }
 
 // Replaces the sequential encoding by the edgebreaker one if that is smaller and equivalent: the decoded mesh is a
-// permutation of the sequential result. Otherwise returns the reason. vertices: their order in the decoded mesh.
-std::string preferEdgebreaker(Edgebreaker&& candidate, std::optional<std::vector<std::uint32_t>> vertices,
+// permutation of the sequential result. Otherwise returns the reason.
+std::string preferEdgebreaker(Edgebreaker&& candidate, const MeshView& mesh, std::span<const glm::ivec3> integers,
                               const Limits& limits, Encoded& encoded) {
   auto& [bytes, decoded, encodeMs, decodeMs] = candidate;
   if (!bytes) return "edgebreaker refuses the mesh";
@@ -163,6 +161,8 @@ std::string preferEdgebreaker(Edgebreaker&& candidate, std::optional<std::vector
   if (std::max(limits.vertices, limits.triangles) > kMaxPerByte * bytes->size())
     return "edgebreaker makes the mesh smaller than a reader trusts";
   if (!decoded) return "edgebreaker changes the counts: faces that are degenerate or not manifold, or loose vertices";
+  std::optional<std::vector<std::uint32_t>> vertices = matchVertices(encoded.decoded, *decoded);
+  if (!vertices) vertices = edgebreakerOrder(mesh, integers);  // several vertices have equal values
   if (!vertices) return "edgebreaker gives an unknown order of vertices";
   std::optional<std::vector<std::uint32_t>> triangles = sourceTriangles(encoded.decoded, *decoded, *vertices);
   if (!triangles) return "edgebreaker changes the triangles";
@@ -247,11 +247,13 @@ Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const 
 
   Encoded encoded;
   Edgebreaker candidate;
-  std::optional<std::vector<std::uint32_t>> vertices;
   oneapi::tbb::parallel_invoke([&] { encoded = encodeSequentially(mesh, rounded, integers, settings, limits); },
-                               [&] { candidate = encodeByEdgebreaker(mesh, integers, settings, limits); },
-                               [&] { vertices = edgebreakerOrder(mesh, integers); });
-  encoded.sequentialReason = preferEdgebreaker(std::move(candidate), std::move(vertices), limits, encoded);
+                               [&] { candidate = encodeByEdgebreaker(mesh, integers, settings, limits); });
+  encoded.sequentialReason = preferEdgebreaker(std::move(candidate), mesh, integers, limits, encoded);
+  if (!encoded.sequentialReason.empty()) {
+    encoded.sourceVertices = identity(mesh.positions.size());
+    encoded.sourceTriangles = identity(mesh.triangles.size());
+  }
   return encoded;
 }
 

@@ -20,15 +20,16 @@ namespace {
 // transferred. The scanned engine has 6.0 to 6.1 bytes per triangle with all of them.
 constexpr int kSpeed = 6;
 
-// T: float or std::int32_t, of the Draco type given.
-template <class T, class Vector>
-int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType dataType,
-                 std::span<const Vector> values) {
+// Adds an attribute of the values valueAt(0) to valueAt(count - 1), three components of type T, which dataType names.
+template <class T, class ValueAt>
+int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType dataType, std::size_t count,
+                 ValueAt valueAt) {
   draco::GeometryAttribute description;
   description.Init(type, nullptr, 3, dataType, false, 3 * sizeof(T), 0);
-  const int id = mesh.AddAttribute(description, true, static_cast<std::uint32_t>(values.size()));
-  for (std::uint32_t i = 0; i < values.size(); ++i) {
-    const std::array<T, 3> value{values[i].x, values[i].y, values[i].z};
+  const int id = mesh.AddAttribute(description, true, static_cast<std::uint32_t>(count));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto v = valueAt(i);
+    const std::array<T, 3> value{v.x, v.y, v.z};
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), value.data());
   }
   return id;
@@ -70,22 +71,19 @@ std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView&
                                                   std::span<const glm::ivec3> positions, int normalBits) {
   draco::Mesh source;
   setTriangles(source, mesh);
+  const auto addIntegers = [&](draco::GeometryAttribute::Type type, auto integerAt) {
+    addAttribute<std::int32_t>(source, type, draco::DT_INT32, positions.size(), integerAt);
+  };
   if (areSplit(positions)) {
-    std::vector<glm::ivec3> high, low;
-    for (const glm::ivec3& k : positions) {
-      high.push_back(k >> kLowBits);
-      low.push_back(k & ((1 << kLowBits) - 1));
-    }
-    addAttribute<std::int32_t>(source, draco::GeometryAttribute::POSITION, draco::DT_INT32,
-                               std::span<const glm::ivec3>(high));
-    addAttribute<std::int32_t>(source, draco::GeometryAttribute::GENERIC, draco::DT_INT32,
-                               std::span<const glm::ivec3>(low));
+    addIntegers(draco::GeometryAttribute::POSITION, [&](std::size_t i) { return positions[i] >> kLowBits; });
+    addIntegers(draco::GeometryAttribute::GENERIC, [&](std::size_t i) { return positions[i] & ((1 << kLowBits) - 1); });
   } else {
-    addAttribute<std::int32_t>(source, draco::GeometryAttribute::POSITION, draco::DT_INT32, positions);
+    addIntegers(draco::GeometryAttribute::POSITION, [&](std::size_t i) { return positions[i]; });
   }
-  const int normals = mesh.normals.empty() ? -1
-                                           : addAttribute<float>(source, draco::GeometryAttribute::NORMAL,
-                                                                 draco::DT_FLOAT32, mesh.normals);
+  const int normals = mesh.normals.empty()
+                          ? -1
+                          : addAttribute<float>(source, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32,
+                                                mesh.normals.size(), [&](std::size_t i) { return mesh.normals[i]; });
 
   draco::ExpertEncoder encoder(source);
   encoder.SetSpeedOptions(kSpeed, kSpeed);

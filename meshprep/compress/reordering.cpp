@@ -1,36 +1,117 @@
 #include "meshprep/compress/reordering.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <numeric>
 #include <tuple>
-
-#include <oneapi/tbb/parallel_sort.h>
 
 namespace malus::compress {
 
 namespace {
 
-// Triangle with its smallest corner first, rotated cyclically so that the orientation is kept, and its index.
-struct CanonicalTriangle {
-  glm::uvec3 corners;
-  std::uint32_t index;
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+// Rotates the triangle cyclically to its smallest corner, so that the orientation is kept.
+glm::uvec3 canonical(const glm::uvec3& t) {
+  if (t.y < t.x && t.y <= t.z) return {t.y, t.z, t.x};
+  if (t.z < t.x && t.z < t.y) return {t.z, t.x, t.y};
+  return t;
+}
+
+bool isLess(const glm::uvec3& a, const glm::uvec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+
+// Numbers of triangles, sorted by their canonical corners, then by number.
+class SortedTriangles {
+ public:
+  SortedTriangles(std::span<const glm::uvec3> triangles, std::size_t vertices)
+      : triangles_(triangles), first_(vertices + 1), numbers_(triangles.size()) {
+    // Sort by the first corner: count, then place.
+    for (const glm::uvec3& t : triangles) ++first_[canonical(t).x + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      numbers_[next[canonical(triangles[i]).x]++] = static_cast<std::uint32_t>(i);
+
+    // Sort the triangles of each first corner.
+    for (std::size_t v = 0; v < vertices; ++v)
+      std::sort(numbers_.begin() + first_[v], numbers_.begin() + first_[v + 1], [&](std::uint32_t a, std::uint32_t b) {
+        const glm::uvec3 cornersA = canonical(triangles[a]), cornersB = canonical(triangles[b]);
+        return isLess(cornersA, cornersB) || (cornersA == cornersB && a < b);
+      });
+  }
+
+  // Returns the position of the first triangle with these canonical corners in the sorted list, or its size.
+  std::size_t find(const glm::uvec3& corners) const {
+    const auto end = numbers_.begin() + first_[corners.x + 1];
+    const auto found =
+        std::lower_bound(numbers_.begin() + first_[corners.x], end, corners,
+                         [&](std::uint32_t a, const glm::uvec3& b) { return isLess(canonical(triangles_[a]), b); });
+    return found == end ? numbers_.size() : static_cast<std::size_t>(found - numbers_.begin());
+  }
+  bool hasAt(std::size_t position, const glm::uvec3& corners) const {
+    return position < numbers_.size() && canonical(triangles_[numbers_[position]]) == corners;
+  }
+  std::uint32_t numberAt(std::size_t position) const { return numbers_[position]; }
+
+ private:
+  std::span<const glm::uvec3> triangles_;
+  std::vector<std::uint32_t> first_;  // of each first corner in numbers_
+  std::vector<std::uint32_t> numbers_;
 };
 
-CanonicalTriangle canonical(const glm::uvec3& t, std::size_t index) {
-  const auto at = static_cast<std::uint32_t>(index);
-  if (t.y < t.x && t.y <= t.z) return {{t.y, t.z, t.x}, at};
-  if (t.z < t.x && t.z < t.y) return {{t.z, t.x, t.y}, at};
-  return {t, at};
+// Mixes 64 bits into a hash. Source: the finalizer of MurmurHash3, A. Appleby, public domain.
+std::uint64_t mixed(std::uint64_t hash, std::uint64_t bits) {
+  hash ^= bits;
+  hash = (hash ^ hash >> 33u) * 0xff51afd7ed558ccdu;
+  hash = (hash ^ hash >> 33u) * 0xc4ceb9fe1a85ec53u;
+  return hash ^ hash >> 33u;
 }
 
-auto key(const CanonicalTriangle& t) { return std::tie(t.corners.x, t.corners.y, t.corners.z, t.index); }
+// Hash table of the vertices of a mesh by their values.
+class VertexTable {
+ public:
+  explicit VertexTable(const TriangleMesh& mesh)
+      : mesh_(mesh), slots_(std::bit_ceil(2 * mesh.positions.size() + 1), kNone) {}
 
-void sort(std::vector<CanonicalTriangle>& triangles) {
-  oneapi::tbb::parallel_sort(triangles.begin(), triangles.end(),
-                             [](const CanonicalTriangle& a, const CanonicalTriangle& b) { return key(a) < key(b); });
-}
+  // Returns the slot of the vertex of the table with the values of vertex v of a mesh, or the free slot for it.
+  std::uint32_t& find(const TriangleMesh& mesh, std::size_t v) {
+    const glm::dvec3& p = mesh.positions[v];
+    std::uint64_t hash = 0;
+    for (int axis = 0; axis < 3; ++axis) hash = mixed(hash, std::bit_cast<std::uint64_t>(p[axis] + 0.0));  // -0 is 0
+    if (!mesh.normals.empty())
+      for (int axis = 0; axis < 3; ++axis)
+        hash = mixed(hash, std::bit_cast<std::uint32_t>(mesh.normals[v][axis] + 0.0f));
+    for (std::size_t slot = hash;; ++slot) {
+      std::uint32_t& number = slots_[slot & (slots_.size() - 1)];
+      if (number == kNone ||
+          (mesh_.positions[number] == p && (mesh.normals.empty() || mesh_.normals[number] == mesh.normals[v])))
+        return number;
+    }
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  std::vector<std::uint32_t> slots_;  // numbers of vertices; kNone: free
+};
 
 }  // namespace
+
+std::optional<std::vector<std::uint32_t>> matchVertices(const TriangleMesh& source, const TriangleMesh& decoded) {
+  if (decoded.normals.size() != source.normals.size()) return std::nullopt;
+  VertexTable table(source);
+  for (std::size_t v = 0; v < source.positions.size(); ++v) {
+    std::uint32_t& number = table.find(source, v);
+    if (number != kNone) return std::nullopt;
+    number = static_cast<std::uint32_t>(v);
+  }
+  std::vector<std::uint32_t> vertices(decoded.positions.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    vertices[i] = table.find(decoded, i);
+    if (vertices[i] == kNone) return std::nullopt;
+  }
+  return vertices;
+}
 
 std::optional<std::vector<std::uint32_t>> sourceTriangles(const TriangleMesh& source, const TriangleMesh& decoded,
                                                           std::span<const std::uint32_t> vertices) {
@@ -49,21 +130,18 @@ std::optional<std::vector<std::uint32_t>> sourceTriangles(const TriangleMesh& so
     used[v] = true;
   }
 
-  // Require each triangle once, with equal orientation.
-  std::vector<CanonicalTriangle> before, after;
-  before.reserve(source.triangles.size());
-  after.reserve(source.triangles.size());
-  for (std::size_t i = 0; i < source.triangles.size(); ++i) {
-    const glm::uvec3& t = decoded.triangles[i];
-    before.push_back(canonical(source.triangles[i], i));
-    after.push_back(canonical({vertices[t.x], vertices[t.y], vertices[t.z]}, i));
-  }
-  sort(before);
-  sort(after);
+  // Require each triangle once, with equal orientation; the k-th of equal ones is the k-th of the source.
+  const SortedTriangles sorted(source.triangles, count);
+  std::vector<std::uint32_t> taken(source.triangles.size(), 0);  // of equal triangles, at the position of the first
   std::vector<std::uint32_t> triangles(source.triangles.size());
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    if (before[i].corners != after[i].corners) return std::nullopt;
-    triangles[after[i].index] = before[i].index;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const glm::uvec3& t = decoded.triangles[i];
+    const glm::uvec3 corners = canonical({vertices[t.x], vertices[t.y], vertices[t.z]});
+    const std::size_t first = sorted.find(corners);
+    if (!sorted.hasAt(first, corners)) return std::nullopt;
+    const std::size_t position = first + taken[first]++;
+    if (!sorted.hasAt(position, corners)) return std::nullopt;
+    triangles[i] = sorted.numberAt(position);
   }
   return triangles;
 }

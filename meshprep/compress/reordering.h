@@ -1,4 +1,4 @@
-// Verification that a mesh is a permutation of another.
+// Permutation of the vertices and triangles of a mesh in another.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,10 @@
 #include "meshprep/compress/draco_mesh.h"
 
 namespace malus::compress {
+
+// Returns the vertex of `source` for each vertex of `decoded` by equal positions and normals, or nothing if two
+// vertices of `source` have equal values, or a vertex of `decoded` has no equal one.
+std::optional<std::vector<std::uint32_t>> matchVertices(const TriangleMesh& source, const TriangleMesh& decoded);
 
 // Returns the triangle of `source` for each triangle of `decoded`, a permutation, or nothing if the meshes differ.
 // vertices: the assumed vertex of `source` for each vertex of `decoded`. The meshes are equal if this is a permutation

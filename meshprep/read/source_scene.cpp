@@ -130,13 +130,31 @@ Polygons mergeInstances(const SourceScene& scene) {
   return mergeInstances(scene, all);
 }
 
+std::vector<std::string> notesOfMeshes(const SourceScene& scene) {
+  std::vector<std::string> notes = scene.notes;
+  for (std::string& note : viewNotes(scene.cameras, scene.lights)) addNote(notes, std::move(note));
+  return notes;
+}
+
 Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> instances) {
   Polygons result;
-  result.notes = scene.notes;
-  for (std::string& note : viewNotes(scene.cameras, scene.lights)) addNote(result.notes, std::move(note));
+  result.notes = notesOfMeshes(scene);
+  std::size_t vertices = 0, corners = 0, faces = 0;
+  for (const std::size_t index : instances) {
+    const Polygons& source = scene.parts[scene.instances[index].part].polygons;
+    vertices += source.positions.size();
+    corners += source.corners.size();
+    faces += source.faceCount();
+  }
+  result.positions.reserve(vertices);
+  result.corners.reserve(corners);
+  result.firstCorner.reserve(faces + 1);
+  result.partOf.reserve(faces);
+
   // If any part has normals, set those of the others to zero.
   const bool normals = std::any_of(scene.parts.begin(), scene.parts.end(),
                                    [](const SourcePart& part) { return !part.polygons.normals.empty(); });
+  if (normals) result.normals.reserve(vertices);
   for (const std::size_t index : instances) {
     const SourceInstance& instance = scene.instances[index];
     const SourcePart& part = scene.parts[instance.part];
@@ -147,8 +165,7 @@ Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> i
     const bool mirrors = glm::dot(m[0], glm::cross(m[1], m[2])) < 0;
 
     // Transform the vertices to world space.
-    for (const glm::dvec3& p : source.positions)
-      result.positions.push_back(m * p + glm::dvec3(instance.worldFromObject[3]));
+    for (const glm::dvec3& p : source.positions) result.positions.push_back(toWorld(instance, p));
     if (normals && source.normals.empty()) result.normals.resize(result.positions.size(), glm::vec3(0));
     if (normals)
       for (const glm::vec3& n : source.normals) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -83,6 +84,14 @@ SourceScene readSourceScene(const std::filesystem::path& path, bool strict = fal
 // Groups faces by material: one part per material, in the order of their first faces, with the vertices that its faces
 // use, in the order of the file. Of the materials only the names are set. Without materials there is one part.
 SourceScene splitByMaterial(Polygons polygons);
+
+// Returns the place of a point of an instance's part in world space.
+inline glm::dvec3 toWorld(const SourceInstance& instance, const glm::dvec3& p) {
+  return glm::dmat3(instance.worldFromObject) * p + glm::dvec3(instance.worldFromObject[3]);
+}
+
+// Returns the notes for a use of the meshes alone: those of the scene, and of its cameras and lights, which are left out.
+std::vector<std::string> notesOfMeshes(const SourceScene& scene);
 
 // Merges all instances in world space; the parts of the result are the instances. Faces of mirrored instances are
 // flipped to keep their outside. If only some parts have normals, those of the others are zero.

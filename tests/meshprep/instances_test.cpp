@@ -92,6 +92,7 @@ bool expectAsMerged(const SourceScene& scene, const Options& options, const std:
   EXPECT_EQ(report.input.vertices, merged.input.vertices) << what;
   EXPECT_EQ(report.input.faces, merged.input.faces) << what;
   EXPECT_EQ(report.output.vertices, merged.output.vertices) << what;
+  EXPECT_EQ(report.notes, merged.notes) << what;
   EXPECT_EQ(report.steps.size(), merged.steps.size()) << what;
   for (const Step& step : merged.steps) {
     EXPECT_EQ(report.count(step.name), step.count) << what << ": " << step.name;
@@ -144,6 +145,13 @@ TEST(Instances, ApartGiveTheMergedMesh) {
   EXPECT_TRUE(expectAsMerged(placedAt(test::cube(), kApart), certified, "cubes"));
   EXPECT_TRUE(expectAsMerged(placedAt(withSeams(test::sphere(7, 12)), kApart), certified, "spheres with seams"));
   EXPECT_TRUE(expectAsMerged(placedAt(test::flipped(test::sphere(7, 12)), kApart), certified, "inside out"));
+}
+
+TEST(Instances, NotesAreThoseOfTheMergedMesh) {
+  SourceScene scene = placedAt(test::cube(), kApart);
+  scene.notes = {"textures (2)"};
+  scene.cameras.emplace_back().name = "side";
+  EXPECT_TRUE(expectAsMerged(scene, {}, "cubes and a camera"));
 }
 
 TEST(Instances, FindingsAreThoseOfTheMergedMesh) {

@@ -324,6 +324,45 @@ TEST(SourceMap, RefusesAnotherMesh) {
   EXPECT_FALSE(sourceTriangles(mesh, mesh, identity).has_value());
 }
 
+TEST(SourceMap, MatchesVerticesByTheirValues) {
+  const TriangleMesh mesh = makeMesh(prep::test::sphere(15, 32));
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  TriangleMesh reversed = mesh;
+  std::reverse(reversed.positions.begin(), reversed.positions.end());
+  std::reverse(reversed.normals.begin(), reversed.normals.end());
+  for (glm::uvec3& t : reversed.triangles) t = glm::uvec3(count - 1) - t;
+  const auto vertices = matchVertices(mesh, reversed);
+  ASSERT_TRUE(vertices.has_value());
+  for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ((*vertices)[i], count - 1 - i);
+  EXPECT_TRUE(sourceTriangles(mesh, reversed, *vertices).has_value());
+
+  // Zeros are equal whatever their sign; equal positions with different normals are different.
+  TriangleMesh crease = mesh;
+  crease.positions[4] = crease.positions[5] = glm::dvec3(0.0);
+  TriangleMesh negative = crease;
+  negative.positions[4] = negative.positions[5] = glm::dvec3(-0.0);
+  ASSERT_TRUE(matchVertices(crease, negative).has_value());
+  EXPECT_EQ(matchVertices(crease, negative)->at(5), 5u);
+  crease.normals[4] = crease.normals[5];
+  EXPECT_FALSE(matchVertices(crease, crease).has_value());  // two vertices with equal values
+  TriangleMesh moved = mesh;
+  moved.positions[7].x += 1e-6;
+  EXPECT_FALSE(matchVertices(mesh, moved).has_value());
+}
+
+// Two vertices of equal positions, and two equal triangles: the order is that of the encoder.
+TEST(SourceMap, IsKnownForEqualVertices) {
+  prep::Mesh pair = prep::test::sphere(15, 32);
+  const auto count = static_cast<std::uint32_t>(pair.positions.size());
+  const std::vector<glm::uvec3> triangles = pair.triangles;
+  pair.positions.insert(pair.positions.end(), pair.positions.begin(), pair.positions.begin() + count);
+  for (const glm::uvec3& t : triangles) pair.triangles.push_back(t + count);
+  const TriangleMesh mesh = makeMesh(pair, false);
+  const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
+  EXPECT_EQ(encoded.method, "edgebreaker") << encoded.sequentialReason;
+  expectMap(mesh, encoded);
+}
+
 TEST(SourceMap, GivesTheReasonAgainstEdgebreaker) {
   prep::Mesh degenerate = prep::test::sphere(15, 32);
   degenerate.triangles.emplace_back(3, 3, 4);

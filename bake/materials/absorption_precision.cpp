@@ -7,33 +7,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "shaders/optics/optics.h"
+#include "bake/meshes/face_rounding.h"
 
 namespace malus::bake {
 
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-24;  // of float
-
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
-
-struct FaceErrors {
-  double rounding = 0;  // of a way from or to the face, along its normal
-  double start = 0;     // distance from the face at which rays start
-};
-
-// At the centre of a face. origin: of the mesh.
-FaceErrors faceErrors(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& origin) {
-  const glm::dvec3 e1 = b - a, e2 = c - a, across = glm::cross(e1, e2);
-  const double area = glm::length(across);
-  if (!(area > 0)) return {};
-  constexpr double kThird = 1.0 / 3;
-  const glm::dvec3 centre = (a + b + c) * kThird;
-  const glm::dvec3 point = f64::hitPointError(a - origin, e1, e2, kThird, kThird, kUnitRoundoff),
-                   start = point + f64::originError(origin, kUnitRoundoff) +
-                           glm::dvec3(f64::intersectionError(a, b, c, centre, kUnitRoundoff));
-  return {glm::dot(point, glm::abs(across)) / area, glm::dot(start, glm::abs(across)) / area};
-}
 
 // Twice the volume over the area: the thickness of a large pane.
 double meanThickness(const pack::Mesh& mesh) {
@@ -59,17 +39,18 @@ std::optional<AbsorptionPrecision> insufficientAbsorptionPrecision(const pack::M
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   const glm::dvec3 origin = (low + high) * 0.5;  // the pack's differs by less than the box
   // The mean over the area: the rims of a pane do not count.
-  FaceErrors mean;
+  FaceRounding mean;
   double area = 0;
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::dvec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
-    const FaceErrors face = faceErrors(a, b, c, origin);
+    constexpr double kThird = 1.0 / 3;
+    const FaceRounding face = faceRounding({a, b, c}, origin, kThird, kThird);
     const double weight = glm::length(glm::cross(b - a, c - a));
-    mean.rounding += weight * face.rounding, mean.start += weight * face.start, area += weight;
+    mean.hit += weight * face.hit, mean.start += weight * face.start, area += weight;
   }
   if (!(area > 0)) return std::nullopt;
-  mean = {mean.rounding / area, mean.start / area};
-  AbsorptionPrecision found{mean.rounding, std::expm1(absorption * mean.rounding), 0};
+  mean = {mean.hit / area, mean.start / area};
+  AbsorptionPrecision found{mean.hit, std::expm1(absorption * mean.hit), 0};
   if (inside > 0 && !mesh.openSurface)
     if (const double thickness = meanThickness(mesh); thickness > 0 && thickness <= mean.start)
       found = {mean.start, std::expm1(inside * thickness), thickness};

@@ -1,6 +1,6 @@
 // Error of the absorption that the single-precision renderers compute. A way through a medium is measured from hit to
 // hit (shaders/surfaces/hit.h), and errs by the rounding of both, which grows with the size of oblique faces. Rays
-// start off the face (shaders/optics/surface_point.h), so that they miss a medium that is thinner than that.
+// start off the face (bake/meshes/face_rounding.h), so that they miss a medium that is thinner than that.
 #pragma once
 
 #include <optional>

@@ -14,32 +14,22 @@
 #include <glm/vector_relational.hpp>
 
 #include "bake/meshes/body_contacts.h"
+#include "bake/meshes/face_rounding.h"
 #include "meshprep/clean/box_pairs.h"
 
 namespace malus::bake {
 
 namespace {
 
-constexpr double kRounding = 8 * 0x1p-24;       // of a plane in single precision, relative to the coordinates
-constexpr double kStart = 4e-6;                 // bound on the distance at which rays start, relative to them
 constexpr double kLeastOverlap = 1e-6;          // share of the smaller face
 constexpr std::uint64_t kMostPairs = 50000000;  // a second of tests
 
-using Triangle = std::array<glm::dvec3, 3>;
-
-Triangle corners(const pack::Mesh& mesh, std::uint32_t face) {
+Corners corners(const pack::Mesh& mesh, std::uint32_t face) {
   const glm::uvec3& t = mesh.triangles[face];
   return {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
 }
 
-glm::dvec3 areaVector(const Triangle& t) { return glm::cross(t[1] - t[0], t[2] - t[0]) * 0.5; }
-
-double largestCoordinate(const Triangle& t) {
-  double largest = 0;
-  for (const glm::dvec3& p : t)
-    for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(p[i]));
-  return largest;
-}
+glm::dvec3 areaVector(const Corners& t) { return glm::cross(t[1] - t[0], t[2] - t[0]) * 0.5; }
 
 // The part of a convex polygon on the inner side of the edge from p to q of a face with normal n.
 std::vector<glm::dvec3> clip(const std::vector<glm::dvec3>& polygon, const glm::dvec3& p, const glm::dvec3& q,
@@ -55,8 +45,20 @@ std::vector<glm::dvec3> clip(const std::vector<glm::dvec3>& polygon, const glm::
   return kept;
 }
 
-// Whether b overlaps a, seen along the normal of a, and is in the plane of a there.
-bool coincide(const Triangle& a, const Triangle& b) {
+// A mesh, and its origin as the pack will have it, about.
+struct PlacedMesh {
+  const pack::Mesh& mesh;
+  prep::Box box;
+  glm::dvec3 origin() const { return (box.low + box.high) * 0.5; }
+};
+
+// Distance within which rays that leave one of the faces may start beyond the other.
+double startDistance(const Corners& a, const glm::dvec3& originA, const Corners& b, const glm::dvec3& originB) {
+  return std::max(largestStart(a, originA), largestStart(b, originB));
+}
+
+// Whether b overlaps a, seen along the normal of a, and is within the start distance of the plane of a there.
+bool coincide(const Corners& a, const glm::dvec3& originA, const Corners& b, const glm::dvec3& originB) {
   const glm::dvec3 va = areaVector(a), vb = areaVector(b);
   const double areaA = glm::length(va), areaB = glm::length(vb);
   if (!(areaA > 0 && areaB > 0) || std::abs(glm::dot(va, vb)) < 0.999 * areaA * areaB) return false;
@@ -66,14 +68,14 @@ bool coincide(const Triangle& a, const Triangle& b) {
   glm::dvec3 overlap(0);
   for (std::size_t i = 2; i < part.size(); ++i) overlap += glm::cross(part[i - 1] - part[0], part[i] - part[0]) * 0.5;
   if (glm::length(overlap) <= kLeastOverlap * std::min(areaA, areaB)) return false;
-  const double tolerance = kRounding * std::max(largestCoordinate(a), largestCoordinate(b));
+  const double distance = startDistance(a, originA, b, originB);
   return std::all_of(part.begin(), part.end(),
-                     [&](const glm::dvec3& p) { return std::abs(glm::dot(p - a[0], n)) <= tolerance; });
+                     [&](const glm::dvec3& p) { return std::abs(glm::dot(p - a[0], n)) <= distance; });
 }
 
-prep::Box widened(prep::Box box) {
-  const glm::dvec3 most = glm::max(glm::abs(box.low), glm::abs(box.high));
-  const double margin = kRounding * std::max({most.x, most.y, most.z});
+// Returns the box with a margin of the start distances of all faces in the box of their mesh.
+prep::Box widened(const prep::Box& box, const PlacedMesh& placed) {
+  const double margin = boundStart(placed.box.low, placed.box.high, placed.origin());
   return {box.low - margin, box.high + margin};
 }
 
@@ -82,11 +84,11 @@ struct Faces {
   std::vector<std::uint32_t> index;
   std::vector<prep::Box> box;
 };
-Faces facesIn(const pack::Mesh& mesh, const prep::Box& region) {
+Faces facesIn(const PlacedMesh& placed, const prep::Box& region) {
   Faces faces;
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle t = corners(mesh, f);
-    const prep::Box box = widened({glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))});
+  for (std::uint32_t f = 0; f < placed.mesh.triangles.size(); ++f) {
+    const Corners t = corners(placed.mesh, f);
+    const prep::Box box = widened({glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))}, placed);
     if (!overlap(box, region)) continue;
     faces.index.push_back(f);
     faces.box.push_back(box);
@@ -100,14 +102,17 @@ struct Found {
   bool isComplete = true;
 };
 
-Found findCoincident(const pack::Mesh& glass, const pack::Mesh& other, const prep::Box& region) {
+Found findCoincident(const PlacedMesh& glass, const PlacedMesh& other) {
+  const prep::Box first = widened(glass.box, glass), second = widened(other.box, other);
+  const prep::Box region{glm::max(first.low, second.low), glm::min(first.high, second.high)};
   const Faces a = facesIn(glass, region), b = facesIn(other, region);
   Found found;
   std::mutex mutex;
   found.isComplete =
       prep::forOverlappingBoxes(a.box, b.box, kMostPairs, [&](std::uint32_t i, std::uint32_t j) -> std::uint32_t {
         const std::pair faces(a.index[i], b.index[j]);
-        if (coincide(corners(glass, faces.first), corners(other, faces.second))) {
+        if (coincide(corners(glass.mesh, faces.first), glass.origin(), corners(other.mesh, faces.second),
+                     other.origin())) {
           const std::lock_guard lock(mutex);
           if (found.count++ == 0 || faces < found.first) found.first = faces;
         }
@@ -126,30 +131,29 @@ std::vector<std::string> inspectCoincidentFaces(const pack::Scene& scene) {
   };
   GlassBodies all(scene.meshes.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  std::vector<prep::Box> boxes = meshBoxes(all, positions);
-  std::transform(boxes.begin(), boxes.end(), boxes.begin(), widened);
-  for (const auto& [first, second] : overlappingPairs(boxes)) {
-    const bool firstIsGlass = isGlass(first);
-    if (firstIsGlass == isGlass(second)) continue;
-    const pack::Mesh &glass = scene.meshes[firstIsGlass ? first : second],
-                     &other = scene.meshes[firstIsGlass ? second : first];
-    const prep::Box region{glm::max(boxes[first].low, boxes[second].low),
-                           glm::min(boxes[first].high, boxes[second].high)};
-    const Found found = findCoincident(glass, other, region);
+  const std::vector<prep::Box> boxes = meshBoxes(all, positions);
+  std::vector<prep::Box> wide;
+  for (std::size_t i = 0; i < boxes.size(); ++i) wide.push_back(widened(boxes[i], {scene.meshes[i], boxes[i]}));
+  for (const auto& [first, second] : overlappingPairs(wide)) {
+    if (isGlass(first) == isGlass(second)) continue;
+    const std::size_t glassIndex = isGlass(first) ? first : second, otherIndex = isGlass(first) ? second : first;
+    const PlacedMesh glass{scene.meshes[glassIndex], boxes[glassIndex]},
+        other{scene.meshes[otherIndex], boxes[otherIndex]};
+    const Found found = findCoincident(glass, other);
     if (!found.isComplete) {
       warnings.push_back(fmt::format(
           "glass: too many overlapping faces to find where meshes '{}' and '{}' coincide; cut long thin faces",
-          glass.name, other.name));
+          glass.mesh.name, other.mesh.name));
     } else if (found.count > 0) {
-      const Triangle face = corners(glass, found.first.first);
+      const Corners face = corners(glass.mesh, found.first.first);
       const glm::dvec3 at = (face[0] + face[1] + face[2]) / 3.0 + scene.origin;
       const double apart =
-          kStart * std::max(largestCoordinate(face), largestCoordinate(corners(other, found.first.second)));
+          2 * startDistance(face, glass.origin(), corners(other.mesh, found.first.second), other.origin());
       warnings.push_back(fmt::format(
           "glass: meshes '{}' and '{}' coincide in {} {}, first faces {} and {} near ({:.6g}, {:.6g}, {:.6g}); either "
           "may be hit there: move them at least {:.1g} m apart, or cut the covered faces from one mesh",
-          glass.name, other.name, found.count, found.count == 1 ? "pair of faces" : "pairs of faces", found.first.first,
-          found.first.second, at.x, at.y, at.z, apart));
+          glass.mesh.name, other.mesh.name, found.count, found.count == 1 ? "pair of faces" : "pairs of faces",
+          found.first.first, found.first.second, at.x, at.y, at.z, apart));
     }
   }
   return warnings;

@@ -9,8 +9,8 @@
 
 namespace malus::bake {
 
-// Returns a warning for each pair of a mesh of glass and one of another kind with faces that overlap in one plane,
-// within the rounding of single precision. Surfaces that only cross are not reported: they have an order.
+// Returns a warning for each pair of a mesh of glass and one of another kind with faces that overlap, nearer to each
+// other than rays start (face_rounding.h). Surfaces that only cross are not reported: they have an order.
 std::vector<std::string> inspectCoincidentFaces(const pack::Scene& scene);
 
 }  // namespace malus::bake

@@ -142,7 +142,8 @@ TEST_F(GlassBodiesTest, OpaqueFacesInFacesOfGlassAreAWarning) {
   for (const json& placed :
        {json{{"translate", {0, 0.5, 0}}}, json{{"translate", {0.1, 0.5, -0.2}}, {"scale", 0.3}},
         json{{"translate", {0.3, 0.5, 0}}, {"rotateDegrees", {0, 30, 0}}}, json{{"translate", {0, -0.5, 0}}},
-        json{{"translate", {0, 0.5 + 1e-8, 0}}}, json{{"translate", {2, 0.5, 1}}, {"scale", 20}}}) {
+        json{{"translate", {0, 0.5 + 1e-8, 0}}}, json{{"translate", {0, 0.5 + 4e-7, 0}}},
+        json{{"translate", {0, 0.5 - 4e-7, 0}}}, json{{"translate", {2, 0.5, 1}}, {"scale", 20}}}) {
     const std::vector<std::string> notes = label(placed);
     ASSERT_EQ(notes.size(), 1u) << placed;
     EXPECT_CONTAINS(notes[0], "'label'", "'bottle'", "apart");
@@ -150,8 +151,8 @@ TEST_F(GlassBodiesTest, OpaqueFacesInFacesOfGlassAreAWarning) {
   EXPECT_CONTAINS(label({{"translate", {0, 0.5, 0}}})[0], "pairs");
   // Apart, beside each other, through each other, and from an edge upward.
   for (const json& placed :
-       {json{{"translate", {0, 0.501, 0}}}, json{{"translate", {1, 0.5, 0}}}, json{{"translate", {0, 0.25, 0}}},
-        json{{"translate", {0.5, 1, 0}}, {"rotateDegrees", {0, 0, 90}}},
+       {json{{"translate", {0, 0.501, 0}}}, json{{"translate", {0, 0.5 + 3e-6, 0}}}, json{{"translate", {1, 0.5, 0}}},
+        json{{"translate", {0, 0.25, 0}}}, json{{"translate", {0.5, 1, 0}}, {"rotateDegrees", {0, 0, 90}}},
         json{{"translate", {0, 0.5, 0}}, {"rotateDegrees", {1, 0, 0}}}})
     EXPECT_TRUE(label(placed).empty()) << placed;
 }

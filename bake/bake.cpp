@@ -14,10 +14,12 @@
 
 #include "bake/effects/effects.h"
 #include "bake/environment/octahedral_map.h"
+#include "bake/environment/studio.h"
 #include "bake/materials/absorption_precision.h"
 #include "bake/materials/film_precision.h"
 #include "bake/meshes/coincident_faces.h"
 #include "bake/meshes/meshes.h"
+#include "bake/model/model_scene.h"
 #include "bake/pack/format.h"
 #include "bake/textures/texture.h"
 #include "meshprep/base/atomic_file.h"
@@ -103,7 +105,7 @@ std::string makeProvenance(const SceneDescription& d, const pack::WriteSettings&
                                                       : source.file.lexically_relative(d.file.parent_path()).string()},
                        {"xxh3", isMissing ? "missing" : hashText(source.file)}});
   }
-  const nlohmann::json provenance = {
+  nlohmann::json provenance = {
       {"malus", MALUS_VERSION},
       {"baker", kBakerRevision},
       {"draco", std::string(draco::kDracoVersion)},
@@ -118,6 +120,7 @@ std::string makeProvenance(const SceneDescription& d, const pack::WriteSettings&
         {"strict", options.strict}}},
       {"warnings", nlohmann::json::array()},
   };
+  if (d.model) provenance["model"] = {{"camera", d.model->camera}};
   return jsonText(provenance, -1);
 }
 
@@ -190,16 +193,30 @@ void addFaintLightNotes(const pack::Scene& scene, std::vector<std::string>& note
     check(fmt::format("light {}", i), scene.lights[i].intensity, "raise its intensity");
 }
 
-Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
+// Light from infinity.
+void addEnvironment(const SceneDescription& d, const std::function<void(std::string_view)>& progress,
+                    pack::Environment& environment, std::vector<std::string>& notes) {
+  environment.ambientIrradiance = d.ambientIrradiance;
+  if (d.environmentImage.empty() && d.environmentPreset.empty()) {
+    bakeConstantEnvironment(d.environmentRadiance, environment);
+    if (d.sun != glm::dvec3(0.0)) bakeRayleighIrradiance(d.sun, environment);
+  } else {
+    progress("baking the environment");
+    const bool isPreset = d.environmentImage.empty();
+    bakeEnvironment(isPreset ? studioImage() : image::read(d.environmentImage),
+                    isPreset ? d.environmentPreset : d.environmentImage.string(), d.environmentScale,
+                    d.environmentRotationDegrees, environment, notes);
+  }
+  environment.sun = d.sun;
+  environment.skyDegree = d.skyDegree;
+}
+
+Baked bake(const SceneDescription& asked, const pack::WriteSettings& settings,
            const std::function<void(std::string_view)>& progress, const BakeOptions& options) {
   Baked baked;
+  baked.description = asked;
+  SceneDescription& d = baked.description;
   pack::Scene& scene = baked.scene;
-  scene.name = d.name;
-  scene.title = d.title;
-  scene.width = d.width;
-  scene.height = d.height;
-  scene.depth = d.depth;
-  scene.exposureEv = d.exposureEv;
   scene.wavelengthsNm = d.wavelengthsNm;
   scene.materials = d.materials;
 
@@ -212,6 +229,14 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const PlacedMesh& mesh : placed.meshes)
     for (const glm::dvec3& p : mesh.world.positions) low = glm::min(low, p), high = glm::max(high, p);
+  if (d.model)
+    completeModel(d, {std::move(placed.cameras), std::move(placed.lights), low, high}, baked.notes, baked.choices);
+  scene.name = d.name;
+  scene.title = d.title;
+  scene.width = d.width;
+  scene.height = d.height;
+  scene.depth = d.depth;
+  scene.exposureEv = d.exposureEv;
 
   // Make positions relative to the origin. Writing the pack rounds them to a grid.
   scene.origin = d.origin.value_or((low + high) * 0.5);
@@ -229,19 +254,8 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   for (const pack::PointLight& light : d.lights)
     scene.lights.push_back({light.position - scene.origin, light.intensity});
 
-  // Light from infinity.
-  scene.environment.ambientIrradiance = d.ambientIrradiance;
-  if (d.environmentImage.empty()) {
-    bakeConstantEnvironment(d.environmentRadiance, scene.environment);
-    if (d.sun != glm::dvec3(0.0)) bakeRayleighIrradiance(d.sun, scene.environment);
-  } else {
-    progress("baking the environment");
-    bakeEnvironment(image::read(d.environmentImage), d.environmentImage.string(), d.environmentScale,
-                    d.environmentRotationDegrees, scene.environment, baked.notes);
-  }
+  addEnvironment(d, progress, scene.environment, baked.notes);
   addFaintLightNotes(scene, baked.notes);
-  scene.environment.sun = d.sun;
-  scene.environment.skyDegree = d.skyDegree;
 
   // Textures of materials.
   for (const TextureDescription& texture : d.textures) {
@@ -255,7 +269,7 @@ Baked bake(const SceneDescription& d, const pack::WriteSettings& settings,
   for (std::string& warning : inspectCoincidentFaces(scene)) baked.notes.push_back(std::move(warning));
   scene.effects = findEffects(scene);
 
-  scene.provenance = makeProvenance(d, settings, options);
+  scene.provenance = makeProvenance(asked, settings, options);
   return baked;
 }
 

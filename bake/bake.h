@@ -30,10 +30,12 @@ struct Baked {
                                       // thin films beyond single precision
   GlassBodies glassBodies;            // to be inspected again after rounding (bake/meshes/glass_bodies.h)
   std::optional<DepthProbe> probe;    // measured by the caller
+  SceneDescription description;       // completed, if it is that of a model file
+  std::vector<std::string> choices;   // of the rules for model files, a line each
 };
 
-// Calls progress with the current step. The provenance names all settings; keepMap is the only one that changes the
-// scene. Throws Error.
+// Completes the description of a model file (bake/model/model_scene.h). Calls progress with the current step. The
+// provenance names all settings; keepMap is the only one that changes the scene. Throws Error.
 Baked bake(const SceneDescription& description, const pack::WriteSettings& settings,
            const std::function<void(std::string_view)>& progress, const BakeOptions& options = {});
 

@@ -88,6 +88,7 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
             {"normalMaxDegrees", totals.worst.normalMaxDegrees},
             {"tiltMaxDegrees", totals.worst.tiltMaxDegrees}}},
           {"lightBeyondDepth", lightBeyondJson(baked)},
+          {"choices", baked.choices},
           {"notes", baked.notes},
           {"warnings", written.warnings}};
 }
@@ -119,6 +120,7 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
                         m.sequentialReason.empty() ? "" : ": ", m.sequentialReason);
   }
 
+  for (const std::string& choice : baked.choices) text += fmt::format("  {}\n", printable(choice));
   if (baked.probe)
     text += fmt::format("  light beyond depth {}: {:.3g} %, measured by {} rays in {:.0f} ms\n", baked.scene.depth,
                         100 * shareBeyond(baked.scene.lightBeyond, baked.scene.depth), baked.probe->rays,

@@ -2,26 +2,27 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bake/bake.h"
+#include "bake/bake_file.h"
 #include "bake/bake_report.h"
 #include "bake/diff.h"
 #include "bake/info.h"
 #include "bake/materials/presets.h"
+#include "bake/model/model_cli.h"
+#include "bake/model/model_scene.h"
 #include "bake/pack/reader.h"
-#include "bake/pack/writer.h"
-#include "bake/previous_pack.h"
 #include "bake/scene_file/scene_file.h"
-#include "bake/scene_json.h"
+#include "bake/scene_file/write_scene_file.h"
 #include "bake/unpack.h"
+#include "meshprep/base/atomic_file.h"
 #include "meshprep/base/console.h"
+#include "meshprep/base/error.h"
 #include "meshprep/base/output_files.h"
-#include "meshprep/base/unfinished_files.h"
 #include "meshprep/deprecated_option.h"
 #include "meshprep/json_text.h"
 #include "meshprep/number_option.h"
@@ -34,13 +35,15 @@ namespace malus::bake {
 namespace {
 
 struct BakeArguments {
-  std::string input, output;
-  pack::WriteSettings settings;
-  BakeOptions options;
-  bool json = false, force = false;
+  std::string input;
+  BakeJob job;
+  ModelOptions model;
+  std::filesystem::path sceneFile;  // --write-scene
+  bool json = false;
 };
 
-// Refuses to write the pack over a file of the scene, or over a material library of a mesh, which is not read.
+// Refuses to write the pack or the scene over a file of the scene, or over a material library of a mesh, which is not
+// read.
 void checkFiles(const BakeArguments& arguments, const std::vector<SourceFile>& sources) {
   OutputFiles files;
   files.addInput(arguments.input);
@@ -50,104 +53,104 @@ void checkFiles(const BakeArguments& arguments, const std::vector<SourceFile>& s
     if (!source.mayBeMissing && std::filesystem::is_regular_file(source.file, ignored))
       for (const std::filesystem::path& file : prep::referencedFiles(source.file)) files.addInput(file);
   }
-  files.addOutput(arguments.output, "--output");
+  files.addOutput(arguments.job.output, "--output");
+  files.addOutput(arguments.sceneFile, "--write-scene");
   files.check();
 }
 
-void reportUpToDate(const BakeArguments& arguments, const pack::Scene& scene) {
-  const std::vector<std::string> warnings = bakeWarnings(scene);
-  for (const std::string& warning : warnings) console::warn(warning);
-  if (arguments.json)
-    console::printText(
-        jsonText({{"name", scene.name}, {"output", arguments.output}, {"upToDate", true}, {"warnings", warnings}}) +
-        "\n");
-  else
-    console::printLine("{}: {} is up to date: sources and settings are unchanged", scene.name, arguments.output);
+void checkArguments(const BakeArguments& arguments) {
+  requireModel(arguments.input, arguments.model, "a scene description");
+  if (!arguments.sceneFile.empty() && !isModelFile(arguments.input))
+    throw CLI::ValidationError("--write-scene", "is for model files (glTF, OBJ, PLY, STL, OFF)");
+  if (arguments.job.output.empty() && arguments.sceneFile.empty())
+    throw CLI::RequiredError("--output, or --write-scene with a model file,");
 }
 
-void runBake(const BakeArguments& arguments, const MeasureDepth& measure) {
-  // Remove the unfinished files of killed bakers, and stop if the pack is up to date.
-  checkFiles(arguments, {});
-  const SceneDescription description = readSceneFile(arguments.input);
-  checkFiles(arguments, sourceFiles(description));
-  removeAbandoned(arguments.output);
-  for (const std::string& deprecation : description.deprecations) console::note(deprecation);
-  const std::string provenance = makeProvenance(description, arguments.settings, arguments.options);
-  std::optional<PreviousBake> previous;
-  if (!arguments.force) previous = readPrevious(arguments.output);
-  if (previous && isUpToDate(*previous, provenance)) {
-    reportUpToDate(arguments, previous->pack.scene);
+void report(const BakeArguments& arguments, const BakedFile& file) {
+  const std::string output = arguments.job.output.string();
+  if (file.isUpToDate) {
+    if (arguments.json)
+      console::printText(
+          jsonText({{"name", file.name}, {"output", output}, {"upToDate", true}, {"warnings", file.warnings}}) + "\n");
+    else
+      console::printLine("{}: {} is up to date: sources and settings are unchanged", file.name, output);
     return;
   }
-
-  // Bake the scene and write the pack.
-  Baked baked = bake(description, arguments.settings, console::progress, arguments.options);
-  if (measure) {
-    console::progress("measuring the light beyond the depth");
-    baked.probe = measure(baked.scene);
-    for (std::string& note : applyProbe(*baked.probe, baked.scene)) baked.notes.push_back(std::move(note));
-  }
-  console::progress("compressing");
-  pack::WriteSettings settings = arguments.settings;
-  settings.provenance = [&](std::vector<std::string> warnings) {
-    warnings.insert(warnings.begin(), baked.notes.begin(), baked.notes.end());
-    return withWarnings(baked.scene.provenance, std::move(warnings));
-  };
-  settings.inspection = glassInspection(baked.scene, baked.glassBodies);
-  const bool rebaked = previous && isOfSameVersions(*previous, provenance);
-  const pack::PreviousPack source{rebaked ? &previous->pack : nullptr,
-                                  rebaked ? previous->bytes : std::span<const std::byte>()};
-  const pack::Written written = pack::write(arguments.output, baked.scene, settings, rebaked ? &source : nullptr);
-  console::progressDone();
-  for (const std::string& note : baked.notes) console::warn(note);
-
-  // Report.
-  for (const std::string& warning : written.warnings) console::warn(warning);
+  nlohmann::json document = bakeJson(file.baked, file.written, output);
+  if (!arguments.sceneFile.empty()) document["sceneFile"] = arguments.sceneFile.string();
   if (arguments.json)
-    console::printText(jsonText(bakeJson(baked, written, arguments.output)) + "\n");
-  else
-    console::printText(bakeText(baked, written, arguments.output, rebaked));
+    console::printText(jsonText(document) + "\n");
+  else if (!output.empty())
+    console::printText(bakeText(file.baked, file.written, output, file.isRebaked));
+  if (!arguments.sceneFile.empty() && !arguments.json)
+    console::printLine("{}: the scene of {}", arguments.sceneFile.string(), arguments.input);
+}
+
+void runBake(const BakeArguments& arguments) {
+  checkArguments(arguments);
+  checkFiles(arguments, {});
+  const SceneDescription description =
+      isModelFile(arguments.input) ? describeModel(arguments.input, arguments.model) : readSceneFile(arguments.input);
+  checkFiles(arguments, sourceFiles(description));
+  std::error_code ignored;
+  if (!arguments.sceneFile.empty() && std::filesystem::exists(arguments.sceneFile, ignored))
+    throw Error(arguments.sceneFile.string(), "exists, and may have been edited",
+                "a new file for --write-scene, or remove this one");
+  for (const std::string& deprecation : description.deprecations) console::note(deprecation);
+  BakeJob job = arguments.job;
+  job.isForced = job.isForced || !arguments.sceneFile.empty();  // a pack does not have the scene as it was written
+  const BakedFile file = bakeFile(description, job);
+  if (!arguments.sceneFile.empty())
+    writeFile(arguments.sceneFile, sceneFileText(file.baked.description, arguments.sceneFile));
+  report(arguments, file);
 }
 
 }  // namespace
 
 void addBakeCommand(CLI::App& app, MeasureDepth measure) {
   auto arguments = std::make_shared<BakeArguments>();
-  CLI::App* command = app.add_subcommand("bake", "Bake a scene description into a scene pack");
-  command->add_option("scene", arguments->input, "Scene description (bake/SCENE.md)")->required()->type_name("FILE");
-  command->add_option("-o,--output", arguments->output, "Pack to write")
-      ->required()
-      ->check(outputName())
-      ->type_name("PACK");
+  BakeJob& job = arguments->job;
+  job.measure = std::move(measure);
+  CLI::App* command = app.add_subcommand("bake", "Bake a scene description or a model file into a scene pack");
   command
-      ->add_option("--position-error", arguments->settings.bounds.positionError,
+      ->add_option("scene", arguments->input, "Scene description (bake/SCENE.md), or a model: glTF, OBJ, PLY, STL, OFF")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-o,--output", job.output, "Pack to write")->check(outputName())->type_name("PACK");
+  addModelOptions(*command, arguments->model);
+  command
+      ->add_option("--write-scene", arguments->sceneFile,
+                   "Model files: write the equivalent scene description, to go on from")
+      ->check(outputName())
+      ->type_name("FILE");
+  command
+      ->add_option("--position-error", job.settings.bounds.positionError,
                    "Largest distance of a vertex from its source [m]")
       ->transform(positiveNumber())
       ->type_name("METRES");
   command
-      ->add_option("--normal-error", arguments->settings.bounds.normalErrorDegrees,
+      ->add_option("--normal-error", job.settings.bounds.normalErrorDegrees,
                    "Largest angle of a normal from its source [degrees]; without it 0.05 is a goal")
       ->transform(positiveNumber())
       ->type_name("DEGREES");
-  command->add_option("--position-bits", arguments->settings.bounds.positionBits, "Exact number of bits per coordinate")
+  command->add_option("--position-bits", job.settings.bounds.positionBits, "Exact number of bits per coordinate")
       ->transform(wholeNumberBetween(1, compress::kMaxPositionBits))
       ->type_name("N");
   command
-      ->add_option("--normal-bits", arguments->settings.bounds.normalBits,
-                   "Exact number of bits per coordinate of a normal")
+      ->add_option("--normal-bits", job.settings.bounds.normalBits, "Exact number of bits per coordinate of a normal")
       ->transform(wholeNumberBetween(compress::kMinNormalBits, compress::kMaxNormalBits))
       ->type_name("N");
-  command->add_flag("--keep-map", arguments->settings.keepMap,
+  command->add_flag("--keep-map", job.settings.keepMap,
                     "Write the map from packed vertices and triangles to those of the source files");
-  command->add_flag("--allow-open-glass", arguments->options.allowOpenGlass,
+  command->add_flag("--allow-open-glass", job.options.allowOpenGlass,
                     "Bake glass that is not a certified body, with a warning");
-  command->add_flag("--strict", arguments->options.strict,
+  command->add_flag("--strict", job.options.strict,
                     "Fail if a part of a file is invalid or has no area, instead of leaving it out with a warning");
-  command->add_flag("--force", arguments->force, "Bake although the pack is up to date, and encode every mesh again");
+  command->add_flag("--force", job.isForced, "Bake although the pack is up to date, and encode every mesh again");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   addFormerOption(*command, "--max-normal-error", "--normal-error");
   addRemovedOption(*command, "--max-error", "--position-error");  // `render`: relative RMS error
-  command->callback([arguments, measure = std::move(measure)] { runBake(*arguments, measure); });
+  command->callback([arguments] { runBake(*arguments); });
 }
 
 void addInfoCommand(CLI::App& app) {

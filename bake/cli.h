@@ -1,5 +1,6 @@
 // The command lines of baking:
-//   malus bake SCENE.json -o OUT.pack [--position-error METRES] [--normal-error DEGREES] [--position-bits N]
+//   malus bake SCENE.json|MODEL -o OUT.pack [--camera NAME] [--environment FILE] [--write-scene FILE] [--position-error
+//   METRES] [--normal-error DEGREES] [--position-bits N]
 //              [--normal-bits N] [--keep-map] [--force] [--json]
 //   malus info PACK [--verify] [--bounce-tolerance T] [--diff OTHER] [--json]
 //   malus unpack PACK -o FOLDER [--json]

@@ -17,6 +17,7 @@ struct DepthProbe {
   // Share of the image's light that arrives after more than i specular interactions, for i from 0 on until it is 0, at
   // most pack::kMaxDepth + 1 values. Empty: the image is black.
   std::vector<double> beyond;
+  std::vector<double> pixelRadiance;        // mean of the colours, per pixel of the small image
   std::vector<std::uint32_t> darkEmitters;  // materials: one-sided emitters of which a path meets the back
   std::uint64_t rays = 0;
   std::uint64_t unfollowed = 0;  // paths that were left because a pixel had used its rays

@@ -38,7 +38,7 @@ const std::map<std::string, MosaicChannel> kMosaicChannels = {{"luminance", Mosa
                                                               {"b", MosaicChannel::blue}};
 
 struct RenderArguments {
-  std::string pack;
+  PackInput input;
   JobSettings job;
   FilterOptions filter;
   std::vector<std::string> outputs;
@@ -66,7 +66,7 @@ bool hasExtension(const std::string& file, std::initializer_list<const char*> ex
 // Checks the output files: at least one, each once, none of them the pack, each with a known extension.
 void checkOutputs(const RenderArguments& a) {
   OutputFiles files;
-  files.addInput(a.pack);
+  addInputs(files, a.input);
   for (const std::string& file : a.outputs) files.addOutput(file, "--output");
   files.addOutput(a.dolp, "--output-dolp");
   files.addOutput(a.aolp, "--output-aolp");
@@ -211,7 +211,8 @@ void runRender(const RenderArguments& a) {
   checkOutputs(a);
   const JobSettings settings = jobSettings(a);
   checkCombinations(a);
-  const pack::Pack pack = pack::read(a.pack);
+  const std::string file = packFile(a.input);
+  const pack::Pack pack = pack::read(file);
   if (!a.mosaic.empty()) checkMosaicSize(renderParameters(settings, pack.scene).region);
   Job job(pack, settings);
   reportJob(a, job);
@@ -219,7 +220,7 @@ void runRender(const RenderArguments& a) {
 
   const std::string backend = backendInfo(job.backend()).name;
   RenderResult result = job.render();
-  if (result.faults.count > 0) throw Error(a.pack, describe(result.faults, pack.scene));
+  if (result.faults.count > 0) throw Error(file, describe(result.faults, pack.scene));
   if (a.intensity) result = withoutStokes(std::move(result));
   const image::Image image = takeImage(result, pack, job.parameters(), backend, job.method());
   std::vector<std::string> written;
@@ -288,8 +289,8 @@ void addMethodOptions(CLI::App& command, JobSettings& job) {
 
 void addRenderCommand(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
-  CLI::App* command = app.add_subcommand("render", "Render a scene pack");
-  addJobOptions(*command, a->pack, a->job);
+  CLI::App* command = app.add_subcommand("render", "Render a scene pack or a model file");
+  addJobOptions(*command, a->input, a->job);
   addFilterOptions(*command, a->filter);
   addMethodOptions(*command, a->job);
   addOutputOptions(*command, *a);

@@ -1,4 +1,4 @@
-// malus render PACK -o OUT.exr [-o OUT.png] [--backend B] [--method M]
+// malus render PACK|MODEL -o OUT.exr [-o OUT.png] [--backend B] [--method M]
 //              [--polarizer DEG | --analyser right|left] [--wave-plate AXIS[,RETARDANCE]]
 //              [--output-dolp FILE] [--output-aolp FILE] [--mosaic FILE [--mosaic-bits 8|12|16]] ...
 // and the list that `malus --list-methods` prints.

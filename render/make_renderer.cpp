@@ -18,4 +18,6 @@ std::unique_ptr<Renderer> makeRenderer(Backend backend, const pack::Scene& scene
   return std::make_unique<reference::Renderer>(scene, options.threads);
 }
 
+bake::DepthProbe probeDepth(const pack::Scene& scene) { return reference::Renderer(scene, 0).probeDepth(); }
+
 }  // namespace malus::render

@@ -1,9 +1,10 @@
-// Makes the renderer of a backend.
+// Makes the renderer of a backend, and runs the depth probe.
 #pragma once
 
 #include <memory>
 #include <string>
 
+#include "bake/depth_probe.h"
 #include "bake/pack/scene.h"
 #include "render/renderer.h"
 
@@ -18,5 +19,8 @@ struct RendererOptions {
 // device, one without ray tracing, out of memory.
 std::unique_ptr<Renderer> makeRenderer(Backend backend, const pack::Scene& scene, const RendererOptions& options);
 std::unique_ptr<Renderer> makeRenderer(Backend backend, pack::Scene&& scene, const RendererOptions& options) = delete;
+
+// The depth probe of the reference renderer.
+bake::DepthProbe probeDepth(const pack::Scene& scene);
 
 }  // namespace malus::render

@@ -77,8 +77,8 @@ void addExposure(CLI::App& command, std::optional<double>& exposure) {
       ->transform(numberBetween(-100, 100));
 }
 
-void addJobOptions(CLI::App& command, std::string& pack, JobSettings& settings) {
-  command.add_option("pack", pack, "Scene pack")->required()->type_name("PACK");
+void addJobOptions(CLI::App& command, PackInput& input, JobSettings& settings) {
+  addPackInput(command, input);
   addBackend(command, settings.backend);
   addMethod(command, settings.method);
   addWidth(command, settings.width);

@@ -13,6 +13,7 @@
 #include "meshprep/base/image.h"
 #include "meshprep/number_option.h"
 #include "render/job.h"
+#include "render/pack_input.h"
 
 namespace malus::render {
 
@@ -56,8 +57,8 @@ CLI::Option* addDepth(CLI::App& command, Value& depth) {
                    "Most specular interactions along a path (default: the pack's)");
 }
 
-// The pack, and every option of JobSettings that `render` and `sweep` share.
-void addJobOptions(CLI::App& command, std::string& pack, JobSettings& settings);
+// The input, and every option of JobSettings that `render` and `sweep` share.
+void addJobOptions(CLI::App& command, PackInput& input, JobSettings& settings);
 
 // Throws CLI::ValidationError that names `option` and the methods to choose from, if images of the method have no
 // Stokes channels.

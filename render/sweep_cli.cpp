@@ -31,7 +31,8 @@ namespace {
 constexpr const char* kListFile = "sweep.json";
 
 struct SweepArguments {
-  std::string pack, folder;
+  PackInput input;
+  std::string folder;
   JobSettings job;
   unsigned frames = 36;
   std::optional<double> exposure;
@@ -100,7 +101,7 @@ std::string frameName(const SweepArguments& a, unsigned frame) {
 // Refuses to write a frame or the list over the pack.
 void checkFiles(const SweepArguments& a) {
   OutputFiles files;
-  files.addInput(a.pack);
+  addInputs(files, a.input);
   files.addOutputFolder(a.folder, "--output");
   files.addOutput(fs::path(a.folder) / kListFile, "--output");
   files.check();
@@ -111,7 +112,7 @@ void checkFiles(const SweepArguments& a) {
     const fs::path frame = fs::path(a.folder) / frameName(a, i);
     if (!fs::exists(frame, ignored)) continue;
     OutputFiles one;
-    one.addInput(a.pack);
+    addInputs(one, a.input);
     one.addOutput(frame, "--output");
     one.check();
   }
@@ -120,7 +121,7 @@ void checkFiles(const SweepArguments& a) {
 void runSweep(const SweepArguments& a) {
   requireStokes(a.job.backend, a.job.method, "--method");
   checkFiles(a);
-  const pack::Pack pack = pack::read(a.pack);
+  const pack::Pack pack = pack::read(packFile(a.input));
   JobSettings settings = a.job;
   settings.stokes = settings.storesStokes = true;
   Job job(pack, settings);
@@ -173,7 +174,7 @@ void addSweepCommand(CLI::App& app) {
   auto a = std::make_shared<SweepArguments>();
   a->job.method = completeRecursiveMethod().name;
   CLI::App* command = app.add_subcommand("sweep", "Render a polarizer that rotates by 180 degrees, as numbered frames");
-  addJobOptions(*command, a->pack, a->job);
+  addJobOptions(*command, a->input, a->job);
   command->add_option("-o,--output", a->folder, "Folder for frame-000.png, ... and sweep.json")
       ->required()
       ->check(outputName())

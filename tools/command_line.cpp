@@ -17,8 +17,8 @@
 #include "render/compare/cli.h"
 #include "render/compare_images_cli.h"
 #include "render/devices_cli.h"
+#include "render/make_renderer.h"
 #include "render/material_cli.h"
-#include "render/reference/renderer.h"
 #include "render/sweep_cli.h"
 #include "tools/completion.h"
 
@@ -118,7 +118,7 @@ CommandLine::CommandLine() : app_("malus: polarized mirror and glass reflections
   app_.add_flag("--list-materials", listsMaterials_, "List the materials with published n and k");
   app_.add_flag("--list-devices", listsDevices_, "List the Vulkan devices");
   prep::addPrepCommand(app_);
-  bake::addBakeCommand(app_, [](const pack::Scene& scene) { return reference::Renderer(scene, 0).probeDepth(); });
+  bake::addBakeCommand(app_, render::probeDepth);
   bake::addInfoCommand(app_);
   bake::addUnpackCommand(app_);
   render::addRenderCommand(app_);

@@ -137,6 +137,24 @@ std::vector<std::string> fileNotes(const std::filesystem::path& file, const std:
   return others;
 }
 
+namespace {
+
+// Keeps or notes the cameras and lights, and makes sentences of all notes. joined: those about joined parts.
+void finish(const ImportDescription& description, prep::SourceScene source, const std::vector<std::string>& joined,
+            Imported& result) {
+  if (description.usesViews) {
+    result.cameras = std::move(source.cameras);
+    result.lights = std::move(source.lights);
+  } else {
+    for (std::string& note : prep::viewNotes(source.cameras, source.lights))
+      prep::addNote(source.notes, std::move(note));
+  }
+  result.notes = fileNotes(description.file, source.notes);
+  for (const std::string& note : joined) result.notes.push_back(fmt::format("{}: {}", description.file.string(), note));
+}
+
+}  // namespace
+
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
                      UniqueNames& materialNames, UniqueNames& meshNames, bool strict) {
   Imported result;
@@ -212,9 +230,7 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     result.meshes.push_back(std::move(mesh));
   }
   if (result.meshes.empty() && firstError) throw Error(*firstError);
-  for (std::string& note : prep::viewNotes(source.cameras, source.lights)) prep::addNote(notes, std::move(note));
-  result.notes = fileNotes(description.file, notes);
-  for (const std::string& note : joined) result.notes.push_back(fmt::format("{}: {}", description.file.string(), note));
+  finish(description, std::move(source), joined, result);
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include "bake/pack/scene.h"
 #include "bake/scene_file/scene_file.h"
 #include "meshprep/mesh.h"
+#include "meshprep/read/source_view.h"
 #include "meshprep/report.h"
 
 namespace malus::bake {
@@ -45,6 +46,8 @@ struct ImportedMesh {
 struct Imported {
   std::vector<ImportedPart> parts;
   std::vector<ImportedMesh> meshes;
+  std::vector<prep::SourceCamera> cameras;  // if the import uses them; in the coordinates of the file
+  std::vector<prep::SourceLight> lights;
   std::vector<std::string> notes;  // "model.glb: left out: textures (2); animations (1: 'run')"
 };
 

@@ -68,6 +68,8 @@ class Placer {
   void add(const ImportDescription& import) {
     Imported imported = importScene(import, materials_, materialNames_, meshNames_, settings_.strict);
     result_.notes.insert(result_.notes.end(), imported.notes.begin(), imported.notes.end());
+    result_.cameras.insert(result_.cameras.end(), imported.cameras.begin(), imported.cameras.end());
+    result_.lights.insert(result_.lights.end(), imported.lights.begin(), imported.lights.end());
     std::vector<char> reported(imported.parts.size(), 0);
     for (ImportedMesh& mesh : imported.meshes) {
       const ImportedPart& part = imported.parts[mesh.part];

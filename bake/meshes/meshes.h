@@ -9,6 +9,7 @@
 #include "bake/pack/scene.h"
 #include "bake/scene_file/scene_file.h"
 #include "meshprep/mesh.h"
+#include "meshprep/read/source_view.h"
 #include "meshprep/report.h"
 
 namespace malus::bake {
@@ -29,8 +30,10 @@ struct PlacedMesh {
 
 struct PlacedMeshes {
   std::vector<PlacedMesh> meshes;
-  std::vector<prep::Report> reports;  // per mesh of the description, then per part of an import
-  std::vector<std::string> notes;     // as of Baked (bake/bake.h)
+  std::vector<prep::Report> reports;        // per mesh of the description, then per part of an import
+  std::vector<std::string> notes;           // as of Baked (bake/bake.h)
+  std::vector<prep::SourceCamera> cameras;  // of imports that use them
+  std::vector<prep::SourceLight> lights;
 };
 
 // Adds the materials of imports to materials. Throws Error: a mesh that cannot be read or cleaned, glass that is not

@@ -54,15 +54,20 @@ void readCamera(StrictObject object, SceneDescription& scene) {
 }
 
 void readEnvironment(StrictObject object, SceneDescription& scene) {
-  const bool constant = object.has("radiance"), image = object.has("image");
-  if (constant == image)
-    object.fail("radiance", "and image exclude each other", "one of the two", constant ? "both" : "neither");
+  const bool constant = object.has("radiance"), image = object.has("image"), preset = object.has("preset");
+  const int kinds = (constant ? 1 : 0) + (image ? 1 : 0) + (preset ? 1 : 0);
+  if (kinds != 1)
+    object.fail("radiance", "image and preset exclude each other", "one of the three", fmt::format("{}", kinds));
   KeyReader keys(object);
   if (constant) visitConstantKeys(keys, scene);
-  if (image) {
-    scene.environmentImage = scene.file.parent_path() / object.text("image");
-    visitImageKeys(keys, scene);
+  if (image) scene.environmentImage = scene.file.parent_path() / object.text("image");
+  if (preset) {
+    scene.environmentPreset = object.text("preset");
+    if (scene.environmentPreset != kStudioPreset)
+      object.fail("preset", "unknown environment", fmt::format("'{}'", kStudioPreset),
+                  fmt::format("'{}'", scene.environmentPreset));
   }
+  if (!constant) visitImageKeys(keys, scene);
   visitEnvironmentKeys(keys, scene);
   keys.finish();
   object.finish();

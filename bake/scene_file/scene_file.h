@@ -38,6 +38,7 @@ struct ImportDescription {
   prep::Options preparation;                     // of every part; open surfaces are listed below
   std::optional<prep::Normals> normals;          // nothing: authored if a part has them, else crease
   std::vector<std::string> openSurfaces;         // names of parts or instances
+  bool usesViews = false;                        // cameras and lights of the file are used, not left out
 };
 
 // An image of a material: number = offset + scale x value.
@@ -49,6 +50,14 @@ struct TextureDescription {
   bool isColour() const { return high <= 1; }  // an albedo; others are numbers
   friend bool operator==(const TextureDescription&, const TextureDescription&) = default;
 };
+
+// The request of a scene that is made of a model file alone (bake/model/model_scene.h).
+struct ModelRequest {
+  std::string camera;  // as ModelOptions::camera
+};
+
+// The name of the environment that is computed (bake/environment/studio.h).
+inline constexpr const char* kStudioPreset = "studio";
 
 struct SceneDescription {
   std::filesystem::path file;
@@ -64,7 +73,8 @@ struct SceneDescription {
   double exposureEv = 0;
   glm::dvec3 wavelengthsNm = pack::kDefaultWavelengthsNm;
   glm::dvec3 environmentRadiance{0.0};
-  std::filesystem::path environmentImage;  // empty: constant
+  std::filesystem::path environmentImage;  // empty: a preset, or constant
+  std::string environmentPreset;           // kStudioPreset or empty
   double environmentScale = 1;
   double environmentRotationDegrees = 0;
   double ambientIrradiance = 0;
@@ -77,6 +87,7 @@ struct SceneDescription {
   std::vector<MeshDescription> meshes;
   std::vector<ImportDescription> imports;
   std::vector<std::string> deprecations;  // a line per deprecated key in the file
+  std::optional<ModelRequest> model;      // camera, size, lights and environment are completed by bake()
 };
 
 // Throws Error: unreadable, not JSON, a key missing, unknown or out of range, an unknown material, nothing to render.

@@ -12,6 +12,7 @@ namespace malus::bake {
 
 inline constexpr double kMaxSceneLength = 1e12;  // metres
 inline constexpr double kMaxSceneLight = 1e9;    // radiance, intensity
+inline constexpr double kLeastFovDegrees = 0.01, kMostFovDegrees = 170;
 
 template <class Visitor, class... Scenes>
 void visitSceneKeys(Visitor&& visit, Scenes&... s) {
@@ -67,8 +68,8 @@ void visitCameraKeys(Visitor&& visit, Scenes&... s) {
               .key = Key::optional},
         s.cameraUp...);
   visit(Field{.name = "verticalFovDegrees",
-              .low = 0.01,
-              .high = 170,
+              .low = kLeastFovDegrees,
+              .high = kMostFovDegrees,
               .unit = "degrees",
               .text = "vertical field of view",
               .key = Key::required},
@@ -116,7 +117,7 @@ void visitConstantKeys(Visitor&& visit, Scenes&... s) {
         s.environmentRadiance...);
 }
 
-// Keys of an environment with an image.
+// Keys of an environment with an image or a preset.
 template <class Visitor, class... Scenes>
 void visitImageKeys(Visitor&& visit, Scenes&... s) {
   using pack::Field, pack::Key;

@@ -35,6 +35,12 @@ inline constexpr SpecialKey kImageSpecialKeys[] = {
     {"image", "file", "required", "latitude-longitude image, in any format that OpenImageIO reads (below, Images)"},
 };
 
+inline constexpr SpecialKey kPresetSpecialKeys[] = {
+    {"preset", "`studio`", "required",
+     "a neutral room with soft boxes, which malus computes: a key light to the left of a camera at +z, a fill light to "
+     "the right, a rim light behind. A white diffuse surface that faces the key light has about the radiance 1"},
+};
+
 inline constexpr SpecialKey kLightSpecialKeys[] = {
     {"type", "`point`", "required", "kind of light"},
 };

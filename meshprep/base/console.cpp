@@ -96,6 +96,10 @@ void note(std::string_view text) {
   if (gVerbosity == Verbosity::verbose) printMessage("", text);
 }
 
+void inform(std::string_view text) {
+  if (gVerbosity != Verbosity::quiet) printMessage("malus: ", text);
+}
+
 void warn(std::string_view text) {
   if (gVerbosity != Verbosity::quiet) printMessage("malus: warning: ", text);
 }

@@ -34,6 +34,8 @@ void progress(std::string_view text);
 void progressDone();
 // Prints a detail. Verbose only.
 void note(std::string_view text);
+// Prints "malus: TEXT" to stderr: a fact that the user did not ask for. Not printed if quiet.
+void inform(std::string_view text);
 // Prints "malus: warning: TEXT". Not printed if quiet.
 void warn(std::string_view text);
 // Prints "malus: TEXT", always.

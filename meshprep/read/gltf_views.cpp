@@ -17,7 +17,7 @@ struct Axes {
 };
 
 // Throws Error if the transform has no direction along -z, or none along +y at a right angle to it.
-Axes axesOf(const GltfPlacement& placement, const std::string& location) {
+Axes viewAxes(const GltfPlacement& placement, const std::string& location) {
   const glm::dmat4& m = placement.worldFromObject;
   for (int i = 0; i < 16; ++i)
     if (!std::isfinite(m[i / 4][i % 4])) throw Error(location, "transform is not finite", "finite numbers");
@@ -51,7 +51,7 @@ const Object& find(const std::vector<Object>& objects, const char* list, const G
 
 SourceCamera toCamera(const gltf::Camera& source, const GltfPlacement& placement, const std::string& where) {
   const std::string location = fmt::format("{}: cameras[{}]", where, placement.object);
-  const Axes axes = axesOf(placement, fmt::format("{}: node '{}'", where, placement.name));
+  const Axes axes = viewAxes(placement, fmt::format("{}: node '{}'", where, placement.name));
   SourceCamera camera;
   camera.name = placement.name;
   camera.objectName = source.name;
@@ -85,7 +85,7 @@ SourceLight toLight(const gltf::Light& source, const GltfPlacement& placement, c
     light.kind = SourceLight::Kind::point;
   } else if (source.type == "spot" || source.type == "directional") {
     light.kind = source.type == "spot" ? SourceLight::Kind::spot : SourceLight::Kind::directional;
-    light.direction = axesOf(placement, fmt::format("{}: node '{}'", where, placement.name)).forward;
+    light.direction = viewAxes(placement, fmt::format("{}: node '{}'", where, placement.name)).forward;
   } else {
     throw Error(location + ".type", "unknown type of light", "'point', 'spot' or 'directional'",
                 fmt::format("'{}'", source.type.substr(0, 40)));

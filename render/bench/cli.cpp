@@ -17,7 +17,7 @@ namespace malus::render {
 namespace {
 
 struct Arguments {
-  std::string pack;
+  PackInput input;
   JobSettings job;
   RaysBenchSettings settings;
   bool json = false;
@@ -25,10 +25,10 @@ struct Arguments {
 
 void runRays(const Arguments& a) {
   OutputFiles files;
-  files.addInput(a.pack);
+  addInputs(files, a.input);
   files.addOutput(a.settings.rayFile, "--write-rays");
   files.check();
-  const pack::Pack pack = pack::read(a.pack);
+  const pack::Pack pack = pack::read(packFile(a.input));
   const RenderParameters parameters = renderParameters(a.job, pack.scene);
   const RaysBench bench = benchRays(pack.scene, parameters, a.settings);
   console::printText(a.json ? jsonText(toJson(bench)) + "\n" : toTable(bench));
@@ -42,7 +42,7 @@ void addBenchCommand(CLI::App& app) {
   CLI::App* bench = app.add_subcommand("bench", "Measure parts of the renderers by themselves");
   bench->require_subcommand(1);
   CLI::App* command = bench->add_subcommand("rays", "Time the rays of a render without the rest of the renderer");
-  command->add_option("pack", a->pack, "Scene pack")->required()->type_name("PACK");
+  addPackInput(*command, a->input);
   command->add_option("--methods", a->settings.methods, "Methods (default: all)")
       ->delimiter(',')
       ->transform(methodName());

@@ -1,5 +1,6 @@
 #include "render/compare/cli.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -19,6 +20,7 @@
 #include "render/compare/results.h"
 #include "render/method_option.h"
 #include "render/options.h"
+#include "render/pack_input.h"
 #include "render/report_script.h"
 #include "render/scene/methods.h"
 #include "render/vulkan/gpu_model.h"
@@ -29,7 +31,9 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Arguments {
-  std::vector<std::string> packs, shown;
+  std::vector<std::string> inputs, shown;
+  std::vector<std::string> packs;  // of the inputs
+  bake::ModelPackOptions model;
   std::string output;
   ComparisonSettings settings;
   bool noReport = false, json = false;
@@ -104,11 +108,18 @@ void showDevices(const Arguments& a) {
   console::printLine("report: {}", (fs::path(a.output) / "index.html").string());
 }
 
+// The options for model files apply to every model; they need one.
+void addAllInputs(OutputFiles& files, const Arguments& a) {
+  const bool hasModel = std::ranges::any_of(a.inputs, [](const std::string& file) { return bake::isModelFile(file); });
+  for (const std::string& file : a.inputs)
+    addInputs(files, {file, bake::isModelFile(file) || !hasModel ? a.model : bake::ModelPackOptions()});
+}
+
 // Refuses to write a report over a pack.
 void checkFiles(const Arguments& a) {
   const fs::path folder = a.output;
   OutputFiles files;
-  for (const std::string& pack : a.packs) files.addInput(pack);
+  addAllInputs(files, a);
   files.addOutputFolder(folder, "--output");
   files.addOutputFolder(folder / "images", "--output");
   for (const char* file : {"results.json", "results.csv", "index.html"}) files.addOutput(folder / file, "--output");
@@ -118,7 +129,7 @@ void checkFiles(const Arguments& a) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images", ignored)) {
     OutputFiles image;
-    for (const std::string& pack : a.packs) image.addInput(pack);
+    addAllInputs(image, a);
     image.addOutput(entry.path(), "--output");
     image.check();
   }
@@ -131,16 +142,17 @@ void writeResults(const Comparison& comparison, const Arguments& a) {
 }
 
 void checkArguments(const Arguments& a) {
-  if (!a.shown.empty() && !a.packs.empty())
+  if (!a.shown.empty() && !a.inputs.empty())
     throw CLI::ValidationError("--show", "excludes scene packs: it shows results of earlier comparisons");
-  if (a.shown.empty() && a.packs.empty()) throw CLI::RequiredError("PACK, or --show with a results.json,");
+  if (a.shown.empty() && a.inputs.empty()) throw CLI::RequiredError("PACK, or --show with a results.json,");
   if (a.shown.empty() && a.output.empty()) throw CLI::RequiredError("--output");
 }
 
-void runCompare(const Arguments& a) {
+void runCompare(Arguments& a) {
   checkArguments(a);
   if (!a.shown.empty()) return showDevices(a);
   checkFiles(a);
+  for (const std::string& file : a.inputs) a.packs.push_back(packFile({file, a.model}));
   const console::PeriodicProgress periodic;
   const fs::path folder = a.output;
   std::error_code failed;
@@ -181,7 +193,8 @@ void addCompareCommand(CLI::App& app) {
   ComparisonSettings& settings = a->settings;
   settings.methods = methodNames();
   CLI::App* command = app.add_subcommand("compare", "Compare methods and renderers: error against time");
-  command->add_option("packs", a->packs, "Scene packs")->type_name("PACK");
+  command->add_option("packs", a->inputs, "Scene packs, or models: glTF, OBJ, PLY, STL, OFF")->type_name("PACK");
+  addModelOptions(*command, a->model);
   command->add_option("-o,--output", a->output, "Folder for the report")->check(outputName())->type_name("FOLDER");
   command->add_option("--show", a->shown, "Print the results of several devices side by side, render nothing")
       ->type_name("FILE...");

@@ -31,10 +31,11 @@ class DepthPaths {
 
   explicit DepthPaths(const SceneAccess& access) : darkBacks(access.scene.materials.size()), access_(access) {}
 
-  void followPixel(const dvec3& origin, const dvec3& direction) {
+  // Returns the light of the pixel, the mean of the colours, as basic radiance.
+  double followPixel(const dvec3& origin, const dvec3& direction) {
     waiting_ = {};
     push({{origin, direction, glm::vec3(origin), 0, 0, false}, unpolarized(dvec3(1)), 0});
-    endedLight_ = endedImportance_ = 0;
+    endedLight_ = endedImportance_ = pixelLight_ = 0;
     for (std::uint32_t ray = 0; ray < kRaysPerPixel && !waiting_.empty(); ++ray) {
       const Path path = waiting_.top();
       waiting_.pop();
@@ -42,6 +43,7 @@ class DepthPaths {
     }
     unfollowed += waiting_.size();
     estimateRest();
+    return pixelLight_ / 3;
   }
 
  private:
@@ -61,6 +63,7 @@ class DepthPaths {
   }
   void add(double light, std::uint32_t interactions) {
     energy[std::min<std::size_t>(interactions, energy.size() - 1)] += light;
+    pixelLight_ += light;
   }
   static double dot(const Light& importance, const Light& light) {
     double sum = 0;
@@ -175,7 +178,7 @@ class DepthPaths {
   std::vector<ShadowRay> ways_;
   std::vector<std::uint8_t> visible_;
   std::priority_queue<Path> waiting_;
-  double endedLight_ = 0, endedImportance_ = 0;  // of the current pixel
+  double endedLight_ = 0, endedImportance_ = 0, pixelLight_ = 0;  // of the current pixel
 };
 
 // The shares of bake::DepthProbe::beyond.

@@ -175,13 +175,18 @@ bake::DepthProbe Renderer::probeDepth() {
     std::vector<double> energy;
     std::vector<bool> darkBacks;
     std::uint64_t rays, unfollowed;
+    std::vector<double> pixels;
   };
   std::vector<Row> rows(height);
   tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {
     DepthPaths paths(access);
+    std::vector<double> pixels(kSide);
+    const double basicToRadiance = scene.camera.mediumEta * scene.camera.mediumEta;
     for (std::uint32_t x = 0; x < kSide; ++x)
-      paths.followPixel(scene.camera.position, plane.direction(scene.camera, (x + 0.5) / kSide, (y + 0.5) / height));
-    rows[y] = {paths.energy, paths.darkBacks, paths.rays, paths.unfollowed};
+      pixels[x] =
+          basicToRadiance * paths.followPixel(scene.camera.position,
+                                              plane.direction(scene.camera, (x + 0.5) / kSide, (y + 0.5) / height));
+    rows[y] = {paths.energy, paths.darkBacks, paths.rays, paths.unfollowed, std::move(pixels)};
   });
 
   // Add up in the order of the rows, so that the sums do not depend on the threads.
@@ -193,6 +198,7 @@ bake::DepthProbe Renderer::probeDepth() {
     for (std::size_t i = 0; i < darkBacks.size(); ++i) darkBacks[i] = darkBacks[i] || row.darkBacks[i];
     probe.rays += row.rays;
     probe.unfollowed += row.unfollowed;
+    probe.pixelRadiance.insert(probe.pixelRadiance.end(), row.pixels.begin(), row.pixels.end());
   }
   probe.beyond = sharesBeyond(energy);
   for (std::uint32_t i = 0; i < darkBacks.size(); ++i)

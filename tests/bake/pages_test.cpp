@@ -188,6 +188,7 @@ std::map<std::string, std::string> sceneTables() {
           {"camera", sceneTable<SceneDescription>(MALUS_KEYS(visitCameraKeys))},
           {"constant", sceneTable<SceneDescription>(MALUS_KEYS(visitConstantKeys))},
           {"image", sceneTable<SceneDescription>(MALUS_KEYS(visitImageKeys), kImageSpecialKeys)},
+          {"preset", sceneTable(kPresetSpecialKeys)},
           {"environment", sceneTable<SceneDescription>(MALUS_KEYS(visitEnvironmentKeys))},
           {"light", sceneTable<pack::PointLight>(MALUS_KEYS(visitLightKeys), kLightSpecialKeys)},
           {"material", sceneTable<pack::Material>(MALUS_KEYS(pack::visitMaterial), kMaterialSpecialKeys, true)},

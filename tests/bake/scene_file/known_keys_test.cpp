@@ -102,11 +102,14 @@ TEST(KnownKeys, AreThoseOfTheTables) {
 
   // The alternatives of an environment exclude each other.
   Names environment = with<SceneDescription>(special({kImageSpecialKeys}), MALUS_KEYS(visitEnvironmentKeys));
-  environment.insert("radiance");
+  environment.insert({"radiance", "preset"});
   json constant = scene;
   constant["environment"] = {{"radiance", {1, 1, 1}}};
   EXPECT_EQ(knownKeys(constant, "/environment"), environment);
   EXPECT_EQ(knownKeys(scene, "/environment"), with<SceneDescription>(environment, MALUS_KEYS(visitImageKeys)));
+  json preset = scene;
+  preset["environment"] = {{"preset", "studio"}};
+  EXPECT_EQ(knownKeys(preset, "/environment"), with<SceneDescription>(environment, MALUS_KEYS(visitImageKeys)));
 }
 
 TEST(KnownKeys, OfEveryKindOfMaterial) {

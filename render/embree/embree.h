@@ -9,6 +9,9 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -51,6 +54,43 @@ using RayHitPacket = typename PacketTypes<N>::RayHit;
 
 // As in Vulkan, a triangle at distance 0 is not hit, so that a camera exactly on a face does not see that face.
 inline constexpr float kNearest = std::numeric_limits<float>::min();
+// End of a ray that nothing ends, in lengths of its direction.
+inline constexpr float kFarthest = 1e30f;
+
+// A field of a single ray, or that of all rays of a packet.
+template <class Value>
+void setField(Value& field, Value value) {
+  field = value;
+}
+template <class Value, std::size_t N>
+void setField(Value (&field)[N], Value value) {
+  std::fill_n(field, N, value);
+}
+
+// Sets the fields that all queries have in common. No call of Embree changes them.
+template <class Ray>
+void initializeRay(Ray& ray) {
+  setField(ray.tnear, kNearest);
+  setField(ray.time, 0.0f);
+  setField(ray.mask, ~0u);
+  setField(ray.id, 0u);
+  setField(ray.flags, 0u);
+}
+
+// The start of a query for the nearest triangle: no hit at any distance.
+template <class RayHit>
+void initializeHit(RayHit& query) {
+  setField(query.ray.tfar, kFarthest);
+  setField(query.hit.geomID, Intersection::kMiss);
+  setField(query.hit.instID[0], Intersection::kMiss);
+}
+
+// Bit i is set where the direction is negative along axis i. Packets whose rays are in one octant are traced fastest.
+template <class Direction>
+std::uint32_t octant(const Direction& d) {
+  return (d.x < 0 ? 1u : 0u) | (d.y < 0 ? 2u : 0u) | (d.z < 0 ? 4u : 0u);
+}
+inline constexpr std::uint32_t kOctants = 8;
 
 class Bvh {
  public:
@@ -91,9 +131,9 @@ inline Intersection Bvh::nearest(const glm::vec3& o, const glm::vec3& d) const {
   RTCRayHit query;
   query.ray.org_x = o.x, query.ray.org_y = o.y, query.ray.org_z = o.z;
   query.ray.dir_x = d.x, query.ray.dir_y = d.y, query.ray.dir_z = d.z;
-  query.ray.tnear = kNearest, query.ray.tfar = 1e30f;
-  query.ray.time = 0, query.ray.mask = ~0u, query.ray.id = 0, query.ray.flags = 0;
-  query.hit.geomID = query.hit.primID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  initializeRay(query.ray);
+  initializeHit(query);
+  query.hit.primID = 0;  // read also where nothing is hit
 #if RTC_VERSION_MAJOR >= 4
   rtcIntersect1(scene_, &query, nullptr);
 #else
@@ -108,8 +148,8 @@ inline bool Bvh::visible(const glm::vec3& o, const glm::vec3& d, float distance)
   RTCRay ray;
   ray.org_x = o.x, ray.org_y = o.y, ray.org_z = o.z;
   ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
-  ray.tnear = kNearest, ray.tfar = distance;
-  ray.time = 0, ray.mask = ~0u, ray.id = 0, ray.flags = 0;
+  initializeRay(ray);
+  ray.tfar = distance;
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded1(scene_, &ray, nullptr);
 #else

@@ -28,24 +28,14 @@ struct Counts {
 
 // Copies up to N rays from `first` on and returns which are valid. The others keep what an earlier packet left.
 template <std::size_t N, class Ray>
-void load(const RayArrays& rays, std::size_t first, std::size_t count, float end, Ray& packet, int* valid) {
+void load(const RayArrays& rays, std::size_t first, std::size_t count, Ray& packet, int* valid) {
   std::copy_n(rays.origin[0].data() + first, count, packet.org_x);
   std::copy_n(rays.origin[1].data() + first, count, packet.org_y);
   std::copy_n(rays.origin[2].data() + first, count, packet.org_z);
   std::copy_n(rays.direction[0].data() + first, count, packet.dir_x);
   std::copy_n(rays.direction[1].data() + first, count, packet.dir_y);
   std::copy_n(rays.direction[2].data() + first, count, packet.dir_z);
-  std::fill_n(packet.tnear, N, kNearest);
-  std::fill_n(packet.tfar, N, end);
   for (std::size_t i = 0; i < N; ++i) valid[i] = i < count ? -1 : 0;
-}
-
-template <class Ray>
-void clear(Ray& packet) {
-  std::ranges::fill(packet.time, 0.0f);
-  std::ranges::fill(packet.mask, ~0u);
-  std::ranges::fill(packet.id, 0u);
-  std::ranges::fill(packet.flags, 0u);
 }
 
 template <std::size_t N>
@@ -53,12 +43,11 @@ Counts replayNearest(const Bvh& bvh, const RayArrays& rays, std::size_t begin, s
   Counts counts;
   RayHitPacket<N> query{};
   alignas(64) int valid[N];
-  clear(query.ray);
+  initializeRay(query.ray);
   for (std::size_t i = begin; i < end; i += N) {
     const std::size_t count = std::min(N, end - i);
-    load<N>(rays, i, count, 1e30f, query.ray, valid);
-    std::fill_n(query.hit.geomID, N, Intersection::kMiss);
-    std::fill_n(query.hit.instID[0], N, Intersection::kMiss);
+    load<N>(rays, i, count, query.ray, valid);
+    initializeHit(query);
     bvh.nearest(valid, query, coherent);
     for (std::size_t k = 0; k < count; ++k) counts.add(query.hit.geomID[k], query.hit.primID[k]);
   }
@@ -70,10 +59,11 @@ Counts replayShadows(const Bvh& bvh, const RayArrays& rays, std::size_t begin, s
   Counts counts;
   RayPacket<N> query{};
   alignas(64) int valid[N];
-  clear(query);
+  initializeRay(query);
   for (std::size_t i = begin; i < end; i += N) {
     const std::size_t count = std::min(N, end - i);
-    load<N>(rays, i, count, 1.0f, query, valid);
+    load<N>(rays, i, count, query, valid);
+    setField(query.tfar, 1.0f);
     bvh.occluded(valid, query, coherent);
     for (std::size_t k = 0; k < count; ++k) counts.hits += query.tfar[k] < 0;
   }
@@ -152,8 +142,8 @@ RayArrays sortRays(const RayArrays& rays) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float cell = std::clamp((rays.origin[axis][i] - low[axis]) * scale[axis], 0.0f, 1023.0f);
       key |= std::uint64_t{spreadBits(static_cast<std::uint32_t>(cell))} << axis;
-      key |= std::uint64_t{rays.direction[axis][i] < 0} << (32 + axis);
     }
+    key |= std::uint64_t{octant(glm::vec3(rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]))} << 32;
     order[i] = {key, i};
   });
   tbb::parallel_sort(order);

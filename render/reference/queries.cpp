@@ -1,7 +1,8 @@
 #include "render/reference/queries.h"
 
 #include <algorithm>
-#include <utility>
+
+#include "render/embree/counting_sort.h"
 
 namespace malus::reference {
 
@@ -14,11 +15,9 @@ constexpr std::size_t kFewRays = 3;
 // depend on the other rays.
 constexpr float kNearEdge = 1e-5f;
 
-void setRay(RTCRay16& packet, std::size_t lane, const glm::vec3& origin, const glm::vec3& direction, float length) {
+void setRay(RTCRay16& packet, std::size_t lane, const glm::vec3& origin, const glm::vec3& direction) {
   packet.org_x[lane] = origin.x, packet.org_y[lane] = origin.y, packet.org_z[lane] = origin.z;
   packet.dir_x[lane] = direction.x, packet.dir_y[lane] = direction.y, packet.dir_z[lane] = direction.z;
-  packet.tnear[lane] = embree::kNearest, packet.tfar[lane] = length;
-  packet.time[lane] = 0, packet.mask[lane] = ~0u, packet.id[lane] = 0, packet.flags[lane] = 0;
 }
 
 // The first `count` lanes.
@@ -32,16 +31,8 @@ template <class Direction>
 void Queries::sortByOctant(std::size_t count, Direction direction) {
   octants_.resize(count);
   order_.resize(count);
-  std::uint32_t begins[8] = {};
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto d = direction(i);
-    octants_[i] = static_cast<std::uint8_t>((d.x < 0 ? 1 : 0) + (d.y < 0 ? 2 : 0) + (d.z < 0 ? 4 : 0));
-    ++begins[octants_[i]];
-  }
-  std::uint32_t sum = 0;
-  for (std::uint32_t& begin : begins) sum += std::exchange(begin, sum);
-  for (std::size_t i = 0; i < count; ++i) order_[begins[octants_[i]]++] = static_cast<std::uint32_t>(i);
-  std::ranges::copy(begins, ends_);
+  for (std::size_t i = 0; i < count; ++i) octants_[i] = embree::octant(direction(i));
+  embree::countingSort(octants_.data(), static_cast<std::uint32_t>(count), ends_, order_.data());
 }
 
 template <class Trace>
@@ -63,10 +54,11 @@ void Queries::findNearest(std::span<const Ray> rays, std::vector<embree::Interse
     alignas(64) int valid[kLanes];
     setValid(valid, packet.size());
     RTCRayHit16 query;
+    embree::initializeRay(query.ray);
+    embree::initializeHit(query);
     for (std::size_t lane = 0; lane < packet.size(); ++lane) {
       const Ray& ray = rays[packet[lane]];
-      setRay(query.ray, lane, ray.queryOrigin, glm::vec3(ray.d), 1e30f);
-      query.hit.geomID[lane] = query.hit.primID[lane] = query.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+      setRay(query.ray, lane, ray.queryOrigin, glm::vec3(ray.d));
     }
     // By an incoherent call: where two surfaces nearly coincide, coherent ones find another triangle than single rays.
     bvh_.nearest(valid, query, false);
@@ -93,9 +85,11 @@ void Queries::findVisible(std::span<const ShadowRay> rays, std::vector<std::uint
     alignas(64) int valid[kLanes];
     setValid(valid, packet.size());
     RTCRay16 query;
+    embree::initializeRay(query);
     for (std::size_t lane = 0; lane < packet.size(); ++lane) {
       const ShadowRay& ray = rays[packet[lane]];
-      setRay(query, lane, ray.origin, ray.direction, ray.length);
+      setRay(query, lane, ray.origin, ray.direction);
+      query.tfar[lane] = ray.length;
     }
     bvh_.occluded(valid, query, false);
     for (std::size_t lane = 0; lane < packet.size(); ++lane) visible[packet[lane]] = query.tfar[lane] >= 0 ? 1 : 0;

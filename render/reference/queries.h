@@ -31,9 +31,9 @@ class Queries {
   void forEachPacket(Trace trace);
 
   const embree::Bvh& bvh_;
-  std::vector<std::uint8_t> octants_;
+  std::vector<std::uint32_t> octants_;
   std::vector<std::uint32_t> order_;
-  std::uint32_t ends_[8] = {};  // of the octants in order_
+  std::uint32_t ends_[embree::kOctants] = {};  // of the octants in order_
 };
 
 }  // namespace malus::reference

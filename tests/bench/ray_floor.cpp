@@ -77,7 +77,7 @@ RTCScene makeScene(RTCDevice device, const malus::render::RenderScene& scene) {
 void fill(const Rays& rays, std::size_t index, std::size_t lane, float* fields[8]) {
   for (int i = 0; i < 6; ++i) fields[i][lane] = rays.values[i][index];
   fields[6][lane] = malus::embree::kNearest;
-  fields[7][lane] = rays.shadow ? 1.0f : 1e30f;
+  fields[7][lane] = rays.shadow ? 1.0f : malus::embree::kFarthest;
 }
 
 // Traces all rays in packets of 8, the last one filled up; returns the hits.

@@ -19,6 +19,13 @@ struct Intersections {
   HWY_ALIGN_MAX std::uint32_t order[kBatch + kLanes];  // indices of the rays
 };
 
+// A key of each ray of a batch.
+struct Keys {
+  HWY_ALIGN_MAX std::uint32_t key[kBatch + kLanes];
+  std::uint64_t mixed;  // bit i: the rays of packet i have several keys
+};
+static_assert(kBatch / kLanes <= 64);
+
 FN real loadR(const float* from) { return hn::LoadU(Floats(), from); }
 FN word loadW(const std::uint32_t* from) { return hn::LoadU(Words(), from); }
 FN void storeR(real a, float* to) { hn::StoreU(a.v, Floats(), to); }
@@ -29,12 +36,57 @@ FN word gatherW(const std::uint32_t* from, word index) {
 FN void scatterR(real a, float* to, word index) { hn::ScatterIndex(a.v, Floats(), to, hn::BitCast(Ints(), index.v)); }
 FN word addW(word a, word b) { return hn::Add(a.v, b.v); }
 FN word timesW(word a, std::uint32_t factor) { return hn::Mul(a.v, hn::Set(Words(), factor)); }
+// The same where all lanes have one index.
+FN std::uint32_t addW(std::uint32_t a, std::uint32_t b) { return a + b; }
+FN std::uint32_t timesW(std::uint32_t a, std::uint32_t factor) { return a * factor; }
 FN std::uint32_t firstLane(word a) { return hn::GetLane(a.v); }
 FN bool sameInAll(word a) { return hn::AllTrue(Words(), hn::Eq(a.v, hn::Set(Words(), firstLane(a)))); }
 // Whether the lanes are successive numbers.
 FN bool isSuccessive(word a) { return hn::AllTrue(Words(), hn::Eq(a.v, hn::Iota(Words(), firstLane(a)))); }
+FN real3 gather3(const float* from, std::uint32_t index) { return {from[index], from[index + 1], from[index + 2]}; }
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+// Loads and shuffles are faster than gathers.
+using Points = hn::FixedTag<float, 4>;
+FN hn::Vec<Points> loadPoint(const float* from) { return hn::MaskedLoad(hn::FirstN(Points(), 3), Points(), from); }
+#if HWY_TARGET == HWY_AVX3
+// The points k, k + 4, k + 8 and k + 12.
+FN real loadPoints(const float* from, const std::uint32_t* index) {
+  const hn::FixedTag<float, 8> pairs;
+  return hn::Combine(Floats(), hn::Combine(pairs, loadPoint(from + index[12]), loadPoint(from + index[8])),
+                     hn::Combine(pairs, loadPoint(from + index[4]), loadPoint(from + index[0])));
+}
+#else
+// The points k and k + 4.
+FN real loadPoints(const float* from, const std::uint32_t* index) {
+  return hn::Combine(Floats(), loadPoint(from + index[4]), loadPoint(from + index[0]));
+}
+#endif
+FN real3 gather3(const float* from, word index) {
+  HWY_ALIGN_MAX std::uint32_t at[kLanes];
+  hn::Store(index.v, Words(), at);
+  const hn::Repartition<double, Floats> pairs;
+  const real p0 = loadPoints(from, at), p1 = loadPoints(from, at + 1);
+  const real p2 = loadPoints(from, at + 2), p3 = loadPoints(from, at + 3);
+  const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(Floats(), p0.v, p1.v));
+  const auto xy23 = hn::BitCast(pairs, hn::InterleaveLower(Floats(), p2.v, p3.v));
+  const auto z01 = hn::BitCast(pairs, hn::InterleaveUpper(Floats(), p0.v, p1.v));
+  const auto z23 = hn::BitCast(pairs, hn::InterleaveUpper(Floats(), p2.v, p3.v));
+  return {hn::BitCast(Floats(), hn::InterleaveLower(pairs, xy01, xy23)),
+          hn::BitCast(Floats(), hn::InterleaveUpper(pairs, xy01, xy23)),
+          hn::BitCast(Floats(), hn::InterleaveLower(pairs, z01, z23))};
+}
+#else
 FN real3 gather3(const float* from, word index) {
   return {gatherR(from, index), gatherR(from + 1, index), gatherR(from + 2, index)};
+}
+#endif
+
+FN void gather3W(const std::uint32_t* from, std::uint32_t index, std::uint32_t& a, std::uint32_t& b, std::uint32_t& c) {
+  a = from[index], b = from[index + 1], c = from[index + 2];
+}
+FN void gather3W(const std::uint32_t* from, word index, word& a, word& b, word& c) {
+  const real3 bits = gather3(reinterpret_cast<const float*>(from), index);  // moved, not computed with
+  a = floatBits(bits.x), b = floatBits(bits.y), c = floatBits(bits.z);
 }
 
 // The lanes of a that are chosen, next to each other from `to` on.
@@ -99,9 +151,12 @@ struct PacketAccess {
   MaterialExtra extra;  // of the packet that is shaded
   mask active;          // its lanes that have a ray
   std::uint64_t rays;
-  std::uint32_t* bucketEnds;                                 // for sortByMaterial()
-  HWY_ALIGN_MAX std::uint32_t octants[kBatch + kLanes];      // of a batch
+  std::span<std::uint32_t> bucketEnds;                       // of the batch that was traced last
+  embree::RayHitPacket<kLanes> nearestQuery;                 // initialized by begin()
+  embree::RayPacket<kLanes> shadowQuery;                     // the same
   HWY_ALIGN_MAX std::uint32_t octantOrder[kBatch + kLanes];  // indices of its rays, by octant
+  Keys octants;                                              // of a batch
+  Keys buckets;                                              // of its hits
 
   void begin(const embree::PacketInput& input) {
     scene = input.tile.scene;
@@ -112,6 +167,9 @@ struct PacketAccess {
     lights = {scene->lights.data()};
     rays = 0;
     bucketEnds = input.bucketEnds;
+    embree::initializeRay(nearestQuery.ray);
+    embree::setField(nearestQuery.hit.instID[0], embree::Intersection::kMiss);
+    embree::initializeRay(shadowQuery);
   }
 
   const MaterialExtra& materialExtra(word) { return extra; }
@@ -158,13 +216,10 @@ struct PacketAccess {
   mask visible(mask needed, const real3& origin, const real3& way) {
     needed = andM(needed, active);
     if (!anyM(needed)) return needed;
-    embree::RayPacket<kLanes> query;
+    embree::RayPacket<kLanes>& query = shadowQuery;
     storeR(origin.x, query.org_x), storeR(origin.y, query.org_y), storeR(origin.z, query.org_z);
     storeR(way.x, query.dir_x), storeR(way.y, query.dir_y), storeR(way.z, query.dir_z);
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      query.tnear[i] = embree::kNearest, query.tfar[i] = 1;
-      query.time[i] = 0, query.mask[i] = ~0u, query.id[i] = 0, query.flags[i] = 0;
-    }
+    storeR(1.0f, query.tfar);
     HWY_ALIGN_MAX std::uint32_t valid[kLanes];
     hn::Store(selectW(needed, ~0u, 0u).v, Words(), valid);
     bvh->occluded(reinterpret_cast<const int*>(valid), query, false);

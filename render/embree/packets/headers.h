@@ -2,6 +2,7 @@
 // functions of these headers must not be compiled for one.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "render/embree/counting_sort.h"
 #include "render/embree/packets/packets.h"
 #include "render/embree/tile_effects.h"
 #include "shaders/gpu/constants.h"

@@ -17,6 +17,7 @@ ShadingOrder::ShadingOrder(const render::RenderScene& scene) {
     bucketOfMaterial[m] = static_cast<std::uint32_t>(kindOfBucket.size());
     kindOfBucket.push_back(scene.materials[m].kind);
   }
+  bucketOfMesh.push_back(0);
   for (const gpu::Mesh& mesh : scene.meshes) bucketOfMesh.push_back(bucketOfMaterial[mesh.material]);
 }
 

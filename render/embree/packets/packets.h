@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "bake/pack/format.h"
@@ -18,7 +19,7 @@ namespace malus::embree {
 struct ShadingOrder {
   explicit ShadingOrder(const render::RenderScene& scene);
 
-  std::vector<std::uint32_t> bucketOfMesh;  // 1 + rank of its material; bucket 0: rays that leave the scene
+  std::vector<std::uint32_t> bucketOfMesh;  // 1 + rank of its material, at 1 + mesh; bucket 0: rays that miss, at 0
   std::vector<std::uint32_t> kindOfBucket;  // gpu::SurfaceKind; unused for bucket 0
 };
 
@@ -44,7 +45,7 @@ struct PacketMemory {
 struct PacketInput {
   const TileInput& tile;
   const ShadingOrder* order;
-  std::uint32_t* bucketEnds;
+  std::span<std::uint32_t> bucketEnds;
 };
 
 struct PacketMethod {

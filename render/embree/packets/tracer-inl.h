@@ -52,7 +52,7 @@ embree::TileOutput renderTile(const embree::TileInput& tile, const embree::Shadi
                        delete static_cast<Tracer*>(t);
                      }};
   Tracer& tracer = *static_cast<Tracer*>(memory.tracer.get());
-  tracer.begin({tile, &order, memory.bucketEnds.data()});
+  tracer.begin({tile, &order, memory.bucketEnds});
   tracer.renderTile(tile);
   return {tracer.rays, {}};
 }

@@ -7,6 +7,10 @@ struct Throughput {
   real3 share;
 };
 
+CONST int kSharedFields = 3;
+
+FN mask isSplit(IN(Throughput) c) { return false; }
+
 // behind: first row of the Mueller matrix in front of the camera; unpolarized light needs only its first number.
 FN Throughput startThroughput(real3 d, real3 up, real behind0, real behind1, real behind2, real behind3) {
   Throughput c;

@@ -9,10 +9,13 @@ CONST int kHasStokes = 1;
 struct Throughput {
   real3 x;             // frame of the vectors: unit, perpendicular to the ray; their y is cross(-d, x)
   ImportanceVector r;  // of red, or of all colours
+  real split;          // 1: green and blue have their own vectors; else 0
   ImportanceVector g;
   ImportanceVector b;
-  real split;  // 1: green and blue have their own vectors; else 0
 };
+
+// Fields before those that only a split throughput has.
+CONST int kSharedFields = 8;
 
 // d: direction of the camera ray; behind: first row of the Mueller matrix in front of the camera.
 FN Throughput startThroughput(real3 d, real3 up, real behind0, real behind1, real behind2, real behind3) {

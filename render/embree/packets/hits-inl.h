@@ -34,26 +34,55 @@ Ray loadRay(const Rays& batch, word ray) {
   return loadRay(batch, [&](const float* values) HWY_ATTR { return loadR(values + first); });
 }
 
-// The hits of rays that meet a surface.
-Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
-  const Ray traced = loadRay(batch, ray);
-  const MeshRow mesh = gatherRow<MeshRow>(scene->meshes.data(), gatherW(found.mesh, ray));
-  const word corners = timesW(addW(mesh.firstTriangle, gatherW(found.triangle, ray)), 3);
-  const std::uint32_t* triangles = &scene->triangles.data()->x;
-  const word c0 = timesW(addW(mesh.firstVertex, gatherW(triangles, corners)), 3);
-  const word c1 = timesW(addW(mesh.firstVertex, gatherW(triangles + 1, corners)), 3);
-  const word c2 = timesW(addW(mesh.firstVertex, gatherW(triangles + 2, corners)), 3);
+MeshRow meshRow(word mesh) { return gatherRow<MeshRow>(scene->meshes.data(), mesh); }
+const gpu::Mesh& meshRow(std::uint32_t mesh) { return scene->meshes[mesh]; }
+
+// Triangles that rays meet, and what their meshes have.
+struct Triangles {
+  real3 p0, p1, p2;  // corners, relative to the mesh's origin
+  real3 n0, n1, n2;  // their normals
+  mask smooth;       // the mesh has normals; otherwise they are not set
+  real3 origin;
+  word material;
+};
+
+// Index: word, or std::uint32_t if all lanes meet the same triangle.
+template <class Index>
+void gatherTriangles(Index mesh, Index triangle, Triangles& t) {
+  const auto& row = meshRow(mesh);
+  Index c0, c1, c2;
+  gather3W(&scene->triangles.data()->x, timesW(addW(row.firstTriangle, triangle), 3), c0, c1, c2);
+  c0 = timesW(addW(row.firstVertex, c0), 3);
+  c1 = timesW(addW(row.firstVertex, c1), 3);
+  c2 = timesW(addW(row.firstVertex, c2), 3);
   const float* p = &scene->positions.data()->x;
-  const real3 p0 = gather3(p, c0), p1 = gather3(p, c1), p2 = gather3(p, c2);
-  const Barycentrics b = barycentricCoordinates(traced.origin - mesh.origin, traced.d, p0, p1, p2);
-  real3 interpolated = splat3(0.0f);
-  const mask smooth = notM(equalW(mesh.hasNormals, 0u));
-  if (anyM(smooth)) {
+  t.p0 = gather3(p, c0), t.p1 = gather3(p, c1), t.p2 = gather3(p, c2);
+  t.smooth = notM(equalW(row.hasNormals, 0u));
+  if (anyM(t.smooth)) {
     const float* n = &scene->normals.data()->x;
-    const real b0 = real(1.0f) - b.b1 - b.b2;
-    interpolated = select3(smooth, gather3(n, c0) * b0 + gather3(n, c1) * b.b1 + gather3(n, c2) * b.b2, interpolated);
+    t.n0 = gather3(n, c0), t.n1 = gather3(n, c1), t.n2 = gather3(n, c2);
   }
-  return makeHit(traced, p0, p1, p2, b.b1, b.b2, mesh.origin, interpolated, mesh.material);
+  t.origin = row.origin;
+  t.material = row.material;
+}
+
+// The hits of rays that meet a surface. Neighbouring rays mostly meet the same triangle.
+Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
+  const word mesh = gatherW(found.mesh, ray);
+  const word triangle = gatherW(found.triangle, ray);
+  Triangles t;
+  if (sameInAll(mesh) && sameInAll(triangle))
+    gatherTriangles(firstLane(mesh), firstLane(triangle), t);
+  else
+    gatherTriangles(mesh, triangle, t);
+  const Ray traced = loadRay(batch, ray);
+  const Barycentrics b = barycentricCoordinates(traced.origin - t.origin, traced.d, t.p0, t.p1, t.p2);
+  real3 interpolated = splat3(0.0f);
+  if (anyM(t.smooth)) {
+    const real b0 = real(1.0f) - b.b1 - b.b2;
+    interpolated = select3(t.smooth, t.n0 * b0 + t.n1 * b.b1 + t.n2 * b.b2, interpolated);
+  }
+  return makeHit(traced, t.p0, t.p1, t.p2, b.b1, b.b2, t.origin, interpolated, t.material);
 }
 
 // Adds the chosen lanes to a batch and returns the index of the first; the others follow.
@@ -78,12 +107,13 @@ void cameraRays(const embree::TileInput& tile, std::uint32_t column, std::uint32
   const std::uint32_t width = tile.endX - tile.beginX;
   batch.count = width * (tile.endY - tile.beginY);
   const real3 from(camera.position);
+  std::uint32_t pixelX = 0, pixelY = 0;
   for (std::uint32_t at = 0; at < batch.count; at += static_cast<std::uint32_t>(kLanes)) {
     HWY_ALIGN float x[kLanes], y[kLanes];
     for (std::uint32_t i = 0; i < kLanes; ++i) {
-      const std::uint32_t pixel = at + i;
-      x[i] = static_cast<float>((tile.beginX + camera.regionX + pixel % width) * camera.samples + column);
-      y[i] = static_cast<float>((tile.beginY + camera.regionY + pixel / width) * camera.samples + row);
+      x[i] = static_cast<float>((tile.beginX + camera.regionX + pixelX) * camera.samples + column);
+      y[i] = static_cast<float>((tile.beginY + camera.regionY + pixelY) * camera.samples + row);
+      if (++pixelX == width) pixelX = 0, ++pixelY;
     }
     const real3 d = sampleDirection(loadR(x), loadR(y));
     storeR(from.x, batch.origin[0] + at), storeR(d.x, batch.direction[0] + at);
@@ -96,19 +126,25 @@ void cameraRays(const embree::TileInput& tile, std::uint32_t column, std::uint32
   }
 }
 
-// Writes `channels` floats per pixel for the pixels of a tile from index `at` on.
-static void writePixels(const embree::TileInput& tile, std::uint32_t at, const real3* values, std::size_t channels) {
-  HWY_ALIGN float lanes[gpu::kStokesChannels][kLanes];
-  for (std::size_t i = 0; i < channels; ++i) {
-    const real3& v = values[i / 3];
-    storeR(i % 3 == 0 ? v.x : i % 3 == 1 ? v.y : v.z, lanes[i]);
-  }
+// Writes kChannels floats per pixel, three per value, for the pixels of a tile from index `at` on.
+template <std::size_t kChannels>
+static void writePixels(const embree::TileInput& tile, std::uint32_t at, const real3* values) {
   const std::uint32_t width = tile.endX - tile.beginX;
   const std::uint32_t count = width * (tile.endY - tile.beginY);
+  std::uint32_t x = at % width, y = at / width;
+  float* pixel = tile.pixels + (std::size_t{tile.beginY + y} * tile.camera->regionWidth + tile.beginX + x) * kChannels;
+  if (kChannels == 3 && x + kLanes <= width) {
+    hn::StoreInterleaved3(values->x.v, values->y.v, values->z.v, Floats(), pixel);
+    return;
+  }
+  HWY_ALIGN_MAX float lanes[kChannels / 3][kLanes * 3];
+  for (std::size_t i = 0; i < kChannels / 3; ++i)
+    hn::StoreInterleaved3(values[i].x.v, values[i].y.v, values[i].z.v, Floats(), lanes[i]);
   for (std::uint32_t lane = 0; lane < kLanes && at + lane < count; ++lane) {
-    const std::size_t x = tile.beginX + (at + lane) % width;
-    const std::size_t y = tile.beginY + (at + lane) / width;
-    float* pixel = tile.pixels + (y * tile.camera->regionWidth + x) * channels;
-    for (std::size_t i = 0; i < channels; ++i) pixel[i] = lanes[i][lane];
+    for (std::size_t i = 0; i < kChannels / 3; ++i) std::memcpy(pixel + 3 * i, lanes[i] + 3 * lane, 3 * sizeof(float));
+    pixel += kChannels;
+    if (++x < width) continue;
+    x = 0;
+    pixel += std::size_t{tile.camera->regionWidth - width} * kChannels;
   }
 }

@@ -34,13 +34,20 @@ Level* levels[embree::kMostLevels] = {};
 HWY_ALIGN_MAX float sums[3][kBatch + kLanes];  // radiance that the camera records, by pixel
 real threshold;                                // paths with a smaller throughput end
 
+// Fields of colours that share the first vector are not stored.
 Throughput loadThroughput(const Paths& paths, word path) {
   Throughput c;
-  if (isSuccessive(path)) {
-    for (std::size_t i = 0; i < kFields<Throughput>; ++i) setField(c, i, loadR(paths.throughput[i] + firstLane(path)));
-    return c;
-  }
-  for (std::size_t i = 0; i < kFields<Throughput>; ++i) setField(c, i, gatherR(paths.throughput[i], path));
+  const auto load = [&](std::size_t begin, std::size_t end, auto row) HWY_ATTR {
+    for (std::size_t i = begin; i < end; ++i) setField(c, i, row(paths.throughput[i]));
+  };
+  const auto loadAll = [&](auto row) HWY_ATTR {
+    load(0, kSharedFields, row);
+    if (kSharedFields < kFields<Throughput> && anyM(isSplit(c))) load(kSharedFields, kFields<Throughput>, row);
+  };
+  if (isSuccessive(path))
+    loadAll([&](const float* values) HWY_ATTR { return loadR(values + firstLane(path)); });
+  else
+    loadAll([&](const float* values) HWY_ATTR { return gatherR(values, path); });
   return c;
 }
 
@@ -48,7 +55,8 @@ void addPaths(Paths& paths, mask chosen, const CameraPath& p, word pixel) {
   chosen = andM(chosen, active);
   if (!anyM(chosen)) return;
   const std::uint32_t at = paths.rays.count;
-  for (std::size_t i = 0; i < kFields<Throughput>; ++i)
+  const bool split = kSharedFields < kFields<Throughput> && anyM(andM(chosen, isSplit(p.throughput)));
+  for (std::size_t i = 0; i < (split ? kFields<Throughput> : kSharedFields); ++i)
     storeChosen(getField(p.throughput, i), chosen, paths.throughput[i] + at);
   hn::StoreU(hn::Compress(pixel.v, hn::RebindMask(Words(), chosen.m)), Words(), paths.pixel + at);
   addRays(paths.rays, chosen, p.ray);
@@ -56,6 +64,13 @@ void addPaths(Paths& paths, mask chosen, const CameraPath& p, word pixel) {
 
 // Adds light to the pixels of the active lanes. Each pixel has one path in a batch.
 void record(const real3& light, word pixel) {
+  if (isSuccessive(pixel)) {  // and all lanes are active
+    const std::uint32_t at = firstLane(pixel);
+    storeR(loadR(sums[0] + at) + light.x, sums[0] + at);
+    storeR(loadR(sums[1] + at) + light.y, sums[1] + at);
+    storeR(loadR(sums[2] + at) + light.z, sums[2] + at);
+    return;
+  }
   pixel = parked(pixel);
   scatterR(gatherR(sums[0], pixel) + light.x, sums[0], pixel);
   scatterR(gatherR(sums[1], pixel) + light.y, sums[1], pixel);
@@ -159,7 +174,7 @@ void tracePixels(const embree::TileInput& tile, const glm::vec4& behind) {
         const word path = addW(hn::Iota(Words(), 0), at);
         const Throughput c =
             startThroughput(rayDirection(primary.rays, path), camera.up, behind.x, behind.y, behind.z, behind.w);
-        for (std::size_t f = 0; f < kFields<Throughput>; ++f) storeR(getField(c, f), primary.throughput[f] + at);
+        for (std::size_t f = 0; f < kSharedFields; ++f) storeR(getField(c, f), primary.throughput[f] + at);
         hn::StoreU(path.v, Words(), primary.pixel + at);
       }
       followPaths(0, primary);
@@ -193,7 +208,7 @@ void renderStokes(const embree::TileInput& tile) {
     s.s2 = light(2) - s.s0;
     s.s3 = light(3) - s.s0;
     const real3 values[5] = {cameraColour(s), s.s0, s.s1, s.s2, s.s3};
-    writePixels(tile, at, values, gpu::kStokesChannels);
+    writePixels<gpu::kStokesChannels>(tile, at, values);
   }
 }
 
@@ -205,7 +220,7 @@ void renderTile(const embree::TileInput& tile) {
   tracePixels(tile, camera.analyser);
   for (std::uint32_t at = 0; at < primary.rays.count; at += static_cast<std::uint32_t>(kLanes)) {
     const real3 colour = recorded(at);
-    writePixels(tile, at, &colour, gpu::kColourChannels);
+    writePixels<gpu::kColourChannels>(tile, at, &colour);
   }
 }
 

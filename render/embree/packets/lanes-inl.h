@@ -58,10 +58,15 @@ FN mask notM(mask a) { return hn::Not(a.m); }
 FN bool anyM(mask a) { return !hn::AllFalse(Floats(), a.m); }
 FN std::size_t countM(mask a) { return hn::CountTrue(Floats(), a.m); }
 
-// As `a < b ? a : b` for NaN and zeros too.
 FN real selectR(mask m, real a, real b) { return hn::IfThenElse(m.m, a.v, b.v); }
+// As `a < b ? a : b` for NaN and zeros too, which is what the instructions of x86 do.
+#if HWY_ARCH_X86
+FN real minR(real a, real b) { return hn::Min(a.v, b.v); }
+FN real maxR(real a, real b) { return hn::Max(a.v, b.v); }
+#else
 FN real minR(real a, real b) { return selectR(lessR(a, b), a, b); }
 FN real maxR(real a, real b) { return selectR(lessR(b, a), a, b); }
+#endif
 FN real sqrtR(real a) { return hn::Sqrt(a.v); }
 FN real absR(real a) { return hn::Abs(a.v); }
 FN real floorR(real a) { return hn::Floor(a.v); }

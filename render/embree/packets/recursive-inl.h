@@ -52,8 +52,12 @@ void storePayload(const Payload& payload, Payloads& to, word ray) {
 
 // The payloads from `first` on, in the chosen lanes.
 Payload loadPayload(const Payloads& from, std::uint32_t first, mask chosen) {
-  const Ranks ranks = rankChosen(chosen);
   Payload payload;
+  if (!anyM(notM(chosen))) {
+    for (std::size_t i = 0; i < kFields<Payload>; ++i) setField(payload, i, loadR(from.field[i] + first));
+    return payload;
+  }
+  const Ranks ranks = rankChosen(chosen);
   for (std::size_t i = 0; i < kFields<Payload>; ++i) setField(payload, i, loadChosen(from.field[i] + first, ranks));
   return payload;
 }
@@ -189,25 +193,30 @@ void traceRays(std::size_t depth, const Rays& batch, Payloads& light) {
 // Of the pixels of a tile.
 Rays primary;
 Payloads primaryLight;
-HWY_ALIGN_MAX float sums[12][kBatch + kLanes];
+static constexpr bool kPolarized = kFields<SurfaceLight> > 3;  // more than a colour
+static constexpr std::size_t kSums = kPolarized ? 12 : 3;      // fields of a Stokes vector that are not 0
+HWY_ALIGN_MAX float sums[kSums][kBatch + kLanes];
 
 // Adds the Stokes vectors in the camera frame.
 void addSamples() {
   for (std::uint32_t at = 0; at < primary.count; at += static_cast<std::uint32_t>(kLanes)) {
     const word pixel = addW(hn::Iota(Words(), 0), at);
     const real3 d = rayDirection(primary, pixel);
-    real cos2;
-    real sin2;
-    cameraFrameRotation(d, camera.up, cos2, sin2);
-    const Stokes s = rotateStokes(payloadStokes(loadPayload(primaryLight, at, true), d), cos2, sin2);
-    for (std::size_t i = 0; i < 12; ++i) storeR(loadR(sums[i] + at) + getField(s, i), sums[i] + at);
+    Stokes s = payloadStokes(loadPayload(primaryLight, at, true), d);
+    if (kPolarized) {
+      real cos2;
+      real sin2;
+      cameraFrameRotation(d, camera.up, cos2, sin2);
+      s = rotateStokes(s, cos2, sin2);
+    }
+    for (std::size_t i = 0; i < kSums; ++i) storeR(loadR(sums[i] + at) + getField(s, i), sums[i] + at);
   }
 }
 
 Stokes pixelStokes(std::uint32_t at) {
-  Stokes s;
+  Stokes s = stokesUnpolarized(splat3(0.0f));
   const real scale = camera.basicToRadiance / static_cast<float>(camera.samples * camera.samples);
-  for (std::size_t i = 0; i < 12; ++i) setField(s, i, loadR(sums[i] + at) * scale);
+  for (std::size_t i = 0; i < kSums; ++i) setField(s, i, loadR(sums[i] + at) * scale);
   return s;
 }
 
@@ -222,7 +231,7 @@ void renderTile(const embree::TileInput& tile) {
   for (std::uint32_t at = 0; at < primary.count; at += static_cast<std::uint32_t>(kLanes)) {
     const Stokes s = pixelStokes(at);
     const real3 values[5] = {cameraColour(s), s.s0, s.s1, s.s2, s.s3};
-    writePixels(tile, at, values, kHasStokes != 0 ? gpu::kStokesChannels : gpu::kColourChannels);
+    writePixels<kHasStokes != 0 ? gpu::kStokesChannels : gpu::kColourChannels>(tile, at, values);
   }
 }
 

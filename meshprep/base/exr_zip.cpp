@@ -27,7 +27,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "EXR files are little endian");
 
 constexpr int kChunkRows = 16;       // of Imf::ZIP_COMPRESSION
-constexpr std::uint32_t kLevel = 2;  // of 0 to 3: 3 % larger than zlib's level 4, in a seventh of its time
+constexpr std::uint32_t kLevel = 1;  // of 0 to 3: the table in the header
 
 // Indices of the channels in the order of the file, which is that of their names.
 std::vector<std::size_t> channelOrder(const Imf::Header& header, const Image& image) {
@@ -87,7 +87,16 @@ class ChunkEncoder {
     differences_.resize(count);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(split_.data());
     differences_[0] = bytes[0];
-    for (std::size_t i = 1; i < count; ++i) differences_[i] = static_cast<std::uint8_t>(bytes[i] - bytes[i - 1] + 128);
+    std::size_t i = 1;
+    for (; i + 8 <= count; i += 8) {  // eight bytes at once: without the top bits no byte borrows from the next
+      constexpr std::uint64_t kTop = 0x8080808080808080u;
+      std::uint64_t a = 0, b = 0;
+      std::memcpy(&a, bytes + i, 8);
+      std::memcpy(&b, bytes + i - 1, 8);
+      const std::uint64_t difference = ((a | kTop) - (b & ~kTop)) ^ (~(a ^ b) & kTop) ^ kTop;
+      std::memcpy(differences_.data() + i, &difference, 8);
+    }
+    for (; i < count; ++i) differences_[i] = static_cast<std::uint8_t>(bytes[i] - bytes[i - 1] + 128);
   }
 
   // Returns the size of the zlib stream; 0 if it is not smaller than the values, which are stored then.
@@ -118,7 +127,7 @@ class ChunkEncoder {
   std::span<const std::size_t> order_;
   std::vector<std::uint16_t> split_;
   std::vector<std::uint8_t> differences_;
-  std::vector<std::uint8_t> buffer_ = std::vector<std::uint8_t>(ISAL_DEF_LVL2_DEFAULT);
+  std::vector<std::uint8_t> buffer_ = std::vector<std::uint8_t>(ISAL_DEF_LVL1_DEFAULT);
   std::unique_ptr<isal_zstream> stream_ = std::make_unique<isal_zstream>();
 };
 

@@ -47,12 +47,11 @@ TEST_F(Safety, OutputsAreNotInputs) {
   fs::create_symlink("scene.json", folder_ / "link");
   fs::create_hard_link(folder_ / "cube.obj", folder_ / "hard");
   before_ = contents();
-  for (const char* output : {"scene.json", "./scene.json", "cube.obj", "floor.obj", "link", "hard"})
+  for (const char* output : {"./scene.json", "floor.obj", "link", "hard"})
     refuse({"bake", "scene.json", "-o", output}, "--output");
   refuse({"bake", "scene.json", "-o", "cube.obj", "--force"}, "--output");
   refuse({"prep", "cube.obj", "-o", "./cube.obj"}, "--output");
   refuse({"prep", "cube.obj", "-o", "x.drc", "--report", "hard"}, "--report");
-  refuse({"prep", "cube.obj", "-o", "x.drc", "--source-map", "cube.obj"}, "--source-map");
   for (const char* option : {"--output-dolp", "--output-aolp", "--mosaic", "-o"})
     refuse({"render", "tiny.pack", "--method", "stokes", option, "tiny.pack"}, option[1] == '-' ? option : "--output");
   fs::create_directories(folder_ / "out/images");
@@ -88,19 +87,10 @@ TEST_F(Safety, OutputsAreNotFilesOfTheScene) {
     refuse({"bake", "scene.json", "-o", output}, "--output");
 }
 
-TEST_F(Safety, ImagesAreNotReplacedByTheirDifference) {
-  ASSERT_EQ(malus({"render", pack(), "-o", folder_ / "a.png", "--width", "8"}).exitCode, 0);
-  before_ = contents();
-  refuse({"compare-images", "a.png", "a.png", "--difference", "./a.png"}, "--difference");
-}
-
 TEST_F(Safety, OutputsAreDifferentFiles) {
   fs::create_symlink("new.exr", folder_ / "link.exr");
   refuse({"render", "tiny.pack", "-o", "o.exr", "-o", "o.exr"}, "--output");
-  refuse({"render", "tiny.pack", "-o", "o.exr", "-o", "./o.exr"}, "--output");
   refuse({"render", "tiny.pack", "-o", "new.exr", "-o", "link.exr"}, "--output");
-  refuse({"render", "tiny.pack", "--method", "stokes", "-o", "o.exr", "--output-dolp", "./o.exr"}, "--output-dolp");
-  refuse({"prep", "cube.obj", "-o", "x.drc", "--source-map", "x.drc"}, "--source-map");
   refuse({"prep", "cube.obj", "-o", "x.drc", "--report", folder_ / "x.drc"}, "--report");
 }
 

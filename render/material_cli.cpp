@@ -27,7 +27,8 @@ using nlohmann::json;
 namespace {
 
 struct MaterialArguments {
-  std::string name, angle, wavelength = "532", precision = "double", plot;
+  std::string name, wavelength = "532", precision = "double", plot;
+  std::optional<std::string> angle;
   std::optional<double> eta;
   double k = 0, outside = 1;
   bool csv = false, json = false;
@@ -98,7 +99,7 @@ std::vector<Row> computeRows(const MaterialArguments& a) {
   using Quantity = bake::OpticalData::Quantity;
   const std::vector<double> wavelengths =
       parseRange("--wavelength", a.wavelength, pack::kMinWavelengthNm, pack::kMaxWavelengthNm);
-  const std::string angle = !a.angle.empty() ? a.angle : wavelengths.size() > 1 ? "0" : "0:90:5";
+  const std::string angle = a.angle.value_or(wavelengths.size() > 1 ? "0" : "0:90:5");
   const std::vector<double> angles = parseRange("--angle", angle, 0, 90);
   if (a.eta && wavelengths.size() > 1)
     throw CLI::ValidationError("--wavelength", "needs a NAME or file; --eta is the same at every wavelength");

@@ -16,6 +16,9 @@ constexpr double kLeastReflectance = 0.001, kMostReflectance = 0.999;
 constexpr double kLeastAlpha = 0.01;  // smoother is a mirror
 constexpr double kMattAlpha = 0.3;    // rougher is matt
 constexpr double kLeastColour = 1e-6;
+constexpr double kMostDielectricReflectance = 0.25;  // of an index of 3, above that of every clear solid
+constexpr double kCoatIor = 1.5;                     // of KHR_materials_clearcoat
+constexpr double kLeastEmission = 0.1;               // of the colour; less emission gives way to the reflection
 constexpr double kMostRadiance = 1e9;
 
 // Per metre.
@@ -37,29 +40,110 @@ void setMetal(pack::Material& metal, const glm::dvec3& reflectance) {
   }
 }
 
+// An index at which the reflectance is 1 within 1e-8 at every angle.
+void setPerfectMirror(pack::Material& metal, int colour) {
+  metal.eta[colour] = pack::kMinEta;
+  metal.k[colour] = pack::kMaxEta;
+}
+
+// Reflectance of a dielectric at normal incidence, per colour.
+glm::dvec3 normalReflectance(const prep::SourceMaterial& source) {
+  const double root = (source.ior - 1) / (source.ior + 1);
+  return glm::min(glm::dvec3(source.ior == 0 ? 1.0 : root * root) * source.specularColour, glm::dvec3(1.0));
+}
+
+// The index with this reflectance at normal incidence, as of Fresnel's equations: (1 + sqrt r) / (1 - sqrt r).
+glm::dvec3 dielectricIndex(const prep::SourceMaterial& source) {
+  if (source.specularColour == glm::dvec3(1.0) && source.ior > 0)
+    return glm::dvec3(std::clamp(source.ior, 1.0, pack::kMaxEta));
+  const glm::dvec3 root = glm::sqrt(normalReflectance(source));
+  return glm::clamp((1.0 + root) / glm::max(1.0 - root, 1e-3), 1.0, pack::kMaxEta);
+}
+
+double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+
+// Converts an opaque material that is not metallic; alpha: its roughness.
+void setOpaqueDielectric(const prep::SourceMaterial& source, double alpha, pack::Material& result) {
+  using Kind = pack::MaterialKind;
+  const glm::dvec3 reflectance = normalReflectance(source);
+  result.albedo = glm::clamp(source.baseColour, 0.0, 1.0);
+  if (largest(reflectance) > kMostDielectricReflectance && source.specular > 0) {
+    result.kind = Kind::metal;
+    setMetal(result, reflectance);
+    for (int c = 0; c < 3; ++c)
+      if (reflectance[c] > kMostReflectance) setPerfectMirror(result, c);
+    result.roughness = std::min(alpha, 1.0);
+  } else if (alpha >= kMattAlpha || source.specular == 0 || reflectance == glm::dvec3(0.0)) {
+    result.kind = Kind::lambert;
+  } else {
+    result.kind = Kind::paint;
+    result.eta = dielectricIndex(source);
+    result.roughness = alpha;
+  }
+}
+
+double smoothedAlpha(double roughness) { return roughness * roughness < kLeastAlpha ? 0 : roughness * roughness; }
+
+// Adds the clear coat and the thin film of a material, or a note.
+void addLayers(const prep::SourceMaterial& source, pack::Material& result, std::vector<std::string>& notes) {
+  using Kind = pack::MaterialKind;
+  const auto note = [&](std::string_view what) {
+    prep::addNote(notes, fmt::format("{} of material '{}'", what, source.name));
+  };
+  if (source.clearcoat > 0) {
+    if (source.clearcoat < 0.5)
+      note("the clear coat of less than half");
+    else if (result.kind != Kind::lambert && result.kind != Kind::paint)
+      note("the clear coat on metal or glass");
+    else {
+      // The base has the coat's index, so that only the coat reflects.
+      result.kind = Kind::paint;
+      result.eta = glm::dvec3(kCoatIor);
+      result.roughness = smoothedAlpha(source.clearcoatRoughness);
+      if (source.clearcoat < 1) note("the uncoated part");
+    }
+  }
+  if (source.film > 0 && source.filmThicknessNm > 0) {
+    if (source.film < 0.5)
+      note("the thin film of less than half");
+    else if (!pack::canBeCoated(result.kind))
+      note("the thin film on a surface without one");
+    else {
+      result.coating = {glm::dvec3(std::clamp(source.filmIor, 1.0, pack::kMaxEta)),
+                        std::min(source.filmThicknessNm, pack::kMaxThicknessNm)};
+      if (source.film < 1) note("the part without a thin film");
+    }
+  }
+}
+
 }  // namespace
 
 pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<std::string>& notes) {
   using Kind = pack::MaterialKind;
   pack::Material result;
   result.name = source.name;
-  double alpha = source.roughness * source.roughness;
-  if (alpha < kLeastAlpha) alpha = 0;
+  const double alpha = smoothedAlpha(source.roughness);
   const glm::dvec3 colour = glm::clamp(source.baseColour, 0.0, 1.0);
-  const glm::dvec3 ior(std::clamp(source.ior, 1.0, pack::kMaxEta));
 
   // The metallic share of a material is opaque.
   const double transmission = source.transmission * (1 - source.metallic);
   if (transmission > 0 && transmission <= prep::kTransmissive)
     prep::addNote(notes, fmt::format("the transmission of material '{}', at most half of the light", source.name));
 
-  if (source.emissive != glm::dvec3(0.0)) {
+  // A surface has either emission or reflection.
+  const bool isEmitter = largest(source.emissive) > kLeastEmission * largest(colour);
+  if (source.emissive != glm::dvec3(0.0) && !isEmitter)
+    prep::addNote(notes, fmt::format("the faint emission of material '{}'", source.name));
+
+  if (isEmitter) {
     result.kind = Kind::emitter;
     result.radiance = glm::clamp(source.emissive, 0.0, kMostRadiance);
     result.twoSided = source.isDoubleSided;
-  } else if (transmission > prep::kTransmissive) {
+    return result;
+  }
+  if (transmission > prep::kTransmissive) {
     result.kind = source.isThinWalled ? Kind::thinGlass : Kind::glass;
-    result.eta = ior;
+    result.eta = dielectricIndex(source);
     if (source.isThinWalled) result.transmittanceParallel = colour;  // of thin glass: internal transmittance
     if (source.hasVolume) result.absorption = volumeAbsorption(source);
     if (alpha > 0) prep::addNote(notes, fmt::format("the roughness of glass '{}'", source.name));
@@ -68,15 +152,12 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
     result.kind = Kind::metal;
     setMetal(result, colour);
     result.roughness = std::min(alpha, 1.0);
-  } else if (alpha >= kMattAlpha) {
-    result.kind = Kind::lambert;
-    result.albedo = colour;
   } else {
-    result.kind = Kind::paint;
-    result.eta = ior;
-    result.albedo = colour;
-    result.roughness = alpha;
+    setOpaqueDielectric(source, alpha, result);
   }
+  if (source.specular > 0 && source.specular < 1 && result.kind != Kind::lambert && source.metallic < 0.5)
+    prep::addNote(notes, fmt::format("the specular factor of material '{}'", source.name));
+  addLayers(source, result, notes);
   return result;
 }
 

@@ -1,8 +1,8 @@
 // Converts the material of an imported file (glTF's terms, meshprep/read/source_scene.h) into one of malus's materials
 // by the first of these rules that fits:
 //
-//   emissive over 0         emitter: radiance = emissive, whose cd/m^2 are taken as the scene's unit; twoSided if the
-//                           material is double-sided
+//   emissive over 0.1 of    emitter: radiance = emissive, whose cd/m^2 are taken as the scene's unit; twoSided if the
+//   the base colour         material is double-sided. Fainter emission is left out, with a note
 //   transmission over 0.5   transmission x (1 - metallic), as metals are opaque. Thin-walled (glTF without a volume, or
 //                           with one of thickness 0): thin-glass, eta = ior, internal transmittance at normal incidence
 //                           = base colour. Otherwise glass: eta = ior; with a volume, absorption = -ln(attenuation
@@ -12,14 +12,24 @@
 //                           n = (1 - r) / (1 + r), k^2 = (r (n + 1)^2 - (n - 1)^2) / (1 - r), the index with the
 //                           least n (edge tint 1) of O. Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4),
 //                           2014; roughness alpha
-//   alpha 0.3 or more       lambert: albedo = base colour
-//   otherwise               paint: albedo = base colour, eta = ior, roughness alpha
+//   otherwise               a dielectric of the reflectance f = ((ior - 1) / (ior + 1))^2 x specularColour at normal
+//                           incidence, 1 for an ior of 0:
+//     f over 0.25 in a colour   metal of that reflectance (1 at every angle if over 0.999), albedo = base colour,
+//                               roughness alpha: no clear solid has an index over 3
+//     alpha 0.3 or more, a      lambert: albedo = base colour
+//     specular of 0, or f 0
+//     otherwise                 paint: albedo = base colour, eta = (1 + sqrt f) / (1 - sqrt f), roughness alpha. A
+//                               specular between 0 and 1 is left out, with a note
+//
+// A clear coat of half or more makes paint of eta 1.5 and its roughness from lambert and paint: the base has the index
+// of the coat, so that it does not reflect. A film of half or more becomes the coating of paint, metal and glass. Other
+// clear coats and films are left out, with a note.
 //
 // KHR_materials_transmission multiplies the transmitted light by the base colour at each surface: a wall has one, on
 // which the Fresnel reflection of its two interfaces is not tinted. A body has two, and its colour is that of the
 // volume; the readers note a base colour other than white.
 //
-// alpha = roughness^2, as glTF has it; below 0.01 it is 0. ior is clamped to 1 to 1000, the bounds of a pack.
+// alpha = roughness^2, as glTF has it; below 0.01 it is 0. Indices are clamped to 1 to 1000, the bounds of a pack.
 #pragma once
 
 #include <string>

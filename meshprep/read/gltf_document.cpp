@@ -189,6 +189,23 @@ Material toMaterial(const json& object) {
   const json& extensions = child(object, "extensions");
   get(child(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", material.emissiveStrength);
   get(child(extensions, "KHR_materials_ior"), "ior", material.ior);
+  material.hasEmissiveTexture = object.contains("emissiveTexture");
+  const json& specular = child(extensions, "KHR_materials_specular");
+  get(specular, "specularFactor", material.specularFactor);
+  get(specular, "specularColorFactor", material.specularColorFactor);
+  const json& clearcoat = child(extensions, "KHR_materials_clearcoat");
+  get(clearcoat, "clearcoatFactor", material.clearcoatFactor);
+  get(clearcoat, "clearcoatRoughnessFactor", material.clearcoatRoughnessFactor);
+  const json& iridescence = child(extensions, "KHR_materials_iridescence");
+  get(iridescence, "iridescenceFactor", material.iridescenceFactor);
+  get(iridescence, "iridescenceIor", material.iridescenceIor);
+  get(iridescence, "iridescenceThicknessMaximum", material.iridescenceThicknessMaximum);
+  if (const auto found = extensions.find("KHR_materials_pbrSpecularGlossiness"); found != extensions.end()) {
+    SpecularGlossiness& values = material.specularGlossiness.emplace();
+    get(*found, "diffuseFactor", values.diffuseFactor);
+    get(*found, "specularFactor", values.specularFactor);
+    get(*found, "glossinessFactor", values.glossinessFactor);
+  }
   get(child(extensions, "KHR_materials_transmission"), "transmissionFactor", material.transmissionFactor);
   const json& volume = child(extensions, "KHR_materials_volume");
   get(volume, "thicknessFactor", material.volumeThicknessFactor);

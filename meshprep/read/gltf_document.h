@@ -112,6 +112,13 @@ struct Node {
   bool hasInvalidTransform = false, hasInvalidChildren = false, hasInvalidInstancing = false, hasInvalidSkin = false;
 };
 
+// KHR_materials_pbrSpecularGlossiness, in place of the metallic-roughness values.
+struct SpecularGlossiness {
+  std::array<double, 4> diffuseFactor{1, 1, 1, 1};
+  std::array<double, 3> specularFactor{1, 1, 1};
+  double glossinessFactor = 1;
+};
+
 struct Material {
   std::string name;
   std::array<double, 4> baseColorFactor{1, 1, 1, 1};
@@ -120,8 +127,17 @@ struct Material {
   std::array<double, 3> emissiveFactor{0, 0, 0};
   std::string alphaMode = "OPAQUE";
   bool doubleSided = false;
-  double emissiveStrength = 1;       // KHR_materials_emissive_strength
-  double ior = 1.5;                  // KHR_materials_ior
+  double emissiveStrength = 1;  // KHR_materials_emissive_strength
+  bool hasEmissiveTexture = false;
+  double ior = 1.5;           // KHR_materials_ior; 0: the reflectance is 1
+  double specularFactor = 1;  // KHR_materials_specular
+  std::array<double, 3> specularColorFactor{1, 1, 1};
+  double clearcoatFactor = 0;  // KHR_materials_clearcoat
+  double clearcoatRoughnessFactor = 0;
+  double iridescenceFactor = 0;  // KHR_materials_iridescence
+  double iridescenceIor = 1.3;
+  double iridescenceThicknessMaximum = 400;  // nanometres
+  std::optional<SpecularGlossiness> specularGlossiness;
   double transmissionFactor = 0;     // KHR_materials_transmission
   double volumeThicknessFactor = 0;  // KHR_materials_volume
   std::array<double, 3> attenuationColor{1, 1, 1};

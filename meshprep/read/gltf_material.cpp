@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMaxEmission = 1e12;  // of factor and strength
-constexpr double kDefaultIor = 1.5;
+constexpr double kDefaultIor = 1.5, kDefaultFilmIor = 1.3;
+constexpr double kMaxSpecularColour = 1e6;
+constexpr double kMaxFilmNm = 1e5;
 
 // Bounds of the numbers of one material.
 class BoundsCheck {
@@ -51,6 +53,57 @@ class BoundsCheck {
   bool strict_;
 };
 
+// Sets colour, metallic and roughness. Specular-glossiness is a dielectric whose reflectance at normal incidence is the
+// specular colour, which KHR_materials_specular and an index of 0 (KHR_materials_ior) describe too.
+void readBase(const gltf::Material& material, const BoundsCheck& checked, SourceMaterial& result) {
+  if (material.specularGlossiness) {
+    const gltf::SpecularGlossiness& values = *material.specularGlossiness;
+    result.baseColour = checked("diffuseFactor", values.diffuseFactor);
+    result.metallic = 0;
+    result.roughness = 1 - checked("glossinessFactor", values.glossinessFactor, 0, 1);
+    result.ior = 0;
+    result.specularColour = checked("specularFactor", values.specularFactor);
+    return;
+  }
+  result.baseColour = checked("pbrMetallicRoughness.baseColorFactor", material.baseColorFactor);
+  result.metallic = checked("pbrMetallicRoughness.metallicFactor", material.metallicFactor, 0, 1);
+  result.roughness = checked("pbrMetallicRoughness.roughnessFactor", material.roughnessFactor, 0, 1);
+  result.ior = material.ior == 0 ? 0 : checked.replaced("ior", material.ior, 1, kInfinity, kDefaultIor);
+  result.specular = checked("specularFactor", material.specularFactor, 0, 1);
+  for (std::size_t i = 0; i < 3; ++i)
+    result.specularColour[static_cast<int>(i)] =
+        checked("specularColorFactor", material.specularColorFactor[i], 0, kMaxSpecularColour);
+}
+
+void readEmission(const gltf::Material& material, const BoundsCheck& checked, std::vector<std::string>& notes,
+                  SourceMaterial& result) {
+  for (std::size_t i = 0; i < 3; ++i)
+    result.emissive[static_cast<int>(i)] = checked("emissiveFactor", material.emissiveFactor[i], 0, kMaxEmission);
+  if (result.emissive.x > 1 || result.emissive.y > 1 || result.emissive.z > 1)
+    addNote(notes, std::string(kAcceptedNote) + "emissive factors above 1");
+  result.emissive *= checked("emissiveStrength", material.emissiveStrength, 0, kMaxEmission);
+  // The factor is usually 1, and the texture mostly black.
+  if (!material.hasEmissiveTexture || result.emissive == glm::dvec3(0.0)) return;
+  result.emissive = glm::dvec3(0.0);
+  addNote(notes, fmt::format("the emission of material '{}', which has an emissive texture", material.name));
+}
+
+// Sets transmission, volume and layers.
+void readDielectric(const gltf::Material& material, const BoundsCheck& checked, SourceMaterial& result) {
+  result.transmission = checked("transmissionFactor", material.transmissionFactor, 0, 1);
+  result.hasVolume = material.volumeThicknessFactor > 0;
+  result.attenuationColour = checked("attenuationColor", material.attenuationColor);
+  result.attenuationDistance = checked.replaced("attenuationDistance", material.attenuationDistance,
+                                                std::numeric_limits<double>::min(), kInfinity, kInfinity);
+  // Without a volume, or with one of thickness 0, KHR_materials_volume makes the material thin-walled.
+  result.isThinWalled = result.transmission > 0 && !result.hasVolume;
+  result.clearcoat = checked("clearcoatFactor", material.clearcoatFactor, 0, 1);
+  result.clearcoatRoughness = checked("clearcoatRoughnessFactor", material.clearcoatRoughnessFactor, 0, 1);
+  result.film = checked("iridescenceFactor", material.iridescenceFactor, 0, 1);
+  result.filmIor = checked.replaced("iridescenceIor", material.iridescenceIor, 1, kInfinity, kDefaultFilmIor);
+  result.filmThicknessNm = checked("iridescenceThicknessMaximum", material.iridescenceThicknessMaximum, 0, kMaxFilmNm);
+}
+
 }  // namespace
 
 SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& location,
@@ -59,27 +112,11 @@ SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& l
   SourceMaterial result;
   result.name = material.name;
 
-  // Metallic-roughness and emission.
-  result.baseColour = checked("pbrMetallicRoughness.baseColorFactor", material.baseColorFactor);
-  result.metallic = checked("pbrMetallicRoughness.metallicFactor", material.metallicFactor, 0, 1);
-  result.roughness = checked("pbrMetallicRoughness.roughnessFactor", material.roughnessFactor, 0, 1);
-  for (std::size_t i = 0; i < 3; ++i)
-    result.emissive[static_cast<int>(i)] = checked("emissiveFactor", material.emissiveFactor[i], 0, kMaxEmission);
-  if (result.emissive.x > 1 || result.emissive.y > 1 || result.emissive.z > 1)
-    addNote(notes, std::string(kAcceptedNote) + "emissive factors above 1");
-  result.emissive *= checked("emissiveStrength", material.emissiveStrength, 0, kMaxEmission);
+  readBase(material, checked, result);
+  readEmission(material, checked, notes, result);
+  readDielectric(material, checked, result);
   result.isDoubleSided = material.doubleSided;
   if (material.alphaMode != "OPAQUE") addNote(notes, "alpha coverage");
-
-  // Transmission and volume. KHR_materials_ior reserves 0 for older shading models.
-  result.ior = material.ior == 0 ? kDefaultIor : checked.replaced("ior", material.ior, 1, kInfinity, kDefaultIor);
-  result.transmission = checked("transmissionFactor", material.transmissionFactor, 0, 1);
-  result.hasVolume = material.volumeThicknessFactor > 0;
-  result.attenuationColour = checked("attenuationColor", material.attenuationColor);
-  result.attenuationDistance = checked.replaced("attenuationDistance", material.attenuationDistance,
-                                                std::numeric_limits<double>::min(), kInfinity, kInfinity);
-  // Without a volume, or with one of thickness 0, KHR_materials_volume makes the material thin-walled.
-  result.isThinWalled = result.transmission > 0 && !result.hasVolume;
   if (result.transmission > 0 && result.hasVolume && result.baseColour != glm::dvec3(1.0))
     addNote(notes, "base colours of transmissive materials with a volume");
   return result;

@@ -1,8 +1,8 @@
-// Materials of glTF 2.0: metallic-roughness, emission, and the extensions KHR_materials_ior, _transmission, _volume
-// and _emissive_strength.
+// Materials of glTF 2.0: metallic-roughness, emission, and the extensions KHR_materials_ior, _transmission, _volume,
+// _specular, _iridescence, _clearcoat, _emissive_strength and _pbrSpecularGlossiness.
 //
-// An index of 0, which KHR_materials_ior reserves for older shading models, becomes 1.5. An attenuation distance is
-// used without a thickness too, because meshes are closed. Emissive factors above 1, which exporters wrote before
+// An attenuation distance is used without a thickness too, because meshes are closed. The emission of a material with
+// an emissive texture, which is not read, is left out. Emissive factors above 1, which exporters wrote before
 // KHR_materials_emissive_strength, are accepted with a note. Ignored content leaves a note.
 #pragma once
 

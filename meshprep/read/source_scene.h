@@ -30,15 +30,22 @@ inline constexpr double kTransmissive = 0.5;
 struct SourceMaterial {
   std::string name;  // empty if the file has none
   glm::dvec3 baseColour{1.0};
-  double metallic = 1;              // 0 to 1
-  double roughness = 1;             // 0 to 1; the square root of GGX's alpha
-  glm::dvec3 emissive{0.0};         // radiance, W / (m^2 sr) or relative, including the strength
-  bool isDoubleSided = false;       // emission on both sides
-  double transmission = 0;          // 0 to 1
-  bool isThinWalled = false;        // transmits without refraction, tinted by the base colour
-  double ior = 1.5;                 // 1 or more
-  bool hasVolume = false;           // the interior absorbs light:
-  glm::dvec3 attenuationColour{1};  // transmittance of
+  double metallic = 1;             // 0 to 1
+  double roughness = 1;            // 0 to 1; the square root of GGX's alpha
+  glm::dvec3 emissive{0.0};        // radiance, W / (m^2 sr) or relative, including the strength
+  bool isDoubleSided = false;      // emission on both sides
+  double transmission = 0;         // 0 to 1
+  bool isThinWalled = false;       // transmits without refraction, tinted by the base colour
+  double ior = 1.5;                // 1 or more; 0: the reflectance of the dielectric at normal incidence is 1
+  glm::dvec3 specularColour{1.0};  // 0 or more: factor of that reflectance
+  double specular = 1;             // 0 to 1: factor of the reflectance at every angle
+  double clearcoat = 0;            // 0 to 1: share of the surface under a layer of index 1.5
+  double clearcoatRoughness = 0;   // as roughness
+  double film = 0;                 // 0 to 1: share of the surface with a thin film
+  double filmIor = 1.3;            // 1 or more
+  double filmThicknessNm = 400;
+  bool hasVolume = false;                                                // the interior absorbs light:
+  glm::dvec3 attenuationColour{1};                                       // transmittance of
   double attenuationDistance = std::numeric_limits<double>::infinity();  // this distance, metres
 };
 

@@ -38,7 +38,8 @@ TEST(FilmPrecision, ThickAndHighIndexFilmsAre) {
     ASSERT_TRUE(found) << m.coating.eta.x;
     EXPECT_GT(found->difference, kFilmPrecision);
     EXPECT_LT(found->limitWaves, found->waves);
-    EXPECT_NEAR(found->waves, m.coating.eta.z * m.coating.thicknessNm / pack::kDefaultWavelengthsNm.z, 1e-9 * found->waves);
+    EXPECT_NEAR(found->waves, m.coating.eta.z * m.coating.thicknessNm / pack::kDefaultWavelengthsNm.z,
+                1e-9 * found->waves);
     // Films up to the limit are within the bound at angles that the search did not use.
     pack::Material thin = m;
     thin.coating.thicknessNm *= found->limitWaves / found->waves;

@@ -42,6 +42,123 @@ TEST(SourceMaterial, MetalReflectsItsBaseColour) {
   }
 }
 
+prep::SourceMaterial dielectric(double roughness) {
+  prep::SourceMaterial source;
+  source.name = "plastic";
+  source.metallic = 0;
+  source.roughness = roughness;
+  source.baseColour = {0.2, 0.4, 0.6};
+  return source;
+}
+
+// Fresnel's equations at normal incidence.
+double normalReflectance(const pack::Material& m, int colour) {
+  const std::complex<double> index(m.eta[colour], -m.k[colour]);
+  return std::norm((1.0 - index) / (1.0 + index));
+}
+
+TEST(SourceMaterial, TheSpecularColourChangesTheIndex) {
+  prep::SourceMaterial source = dielectric(0);
+  EXPECT_EQ(made(source).eta, glm::dvec3(1.5));
+  source.specularColour = {1, 0.5, 2};
+  const pack::Material paint = made(source);
+  EXPECT_EQ(paint.kind, Kind::paint);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(normalReflectance(paint, c), 0.04 * source.specularColour[c], 1e-12);
+  source.specularColour = {0, 0, 0};
+  EXPECT_EQ(made(source).kind, Kind::lambert);
+  // Specular-glossiness: an index of 0 and the colour of the reflection.
+  source.ior = 0;
+  source.specularColour = {0.04, 0.09, 0.16};
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(normalReflectance(made(source), c), source.specularColour[c], 1e-12);
+}
+
+TEST(SourceMaterial, ReflectancesOfNoDielectricAreMetal) {
+  prep::SourceMaterial source = dielectric(0.5);
+  source.ior = 0;
+  source.specularColour = {0.9, 0.6, 0.3};
+  const pack::Material metal = made(source);
+  EXPECT_EQ(metal.kind, Kind::metal);
+  EXPECT_EQ(metal.roughness, 0.25);
+  EXPECT_EQ(metal.albedo, source.baseColour);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(normalReflectance(metal, c), source.specularColour[c], 1e-12);
+  // Without a specular colour the reflectance is 1, at every angle.
+  source.specularColour = {1, 1, 1};
+  const pack::Material mirror = made(source);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(normalReflectance(mirror, c), 1, 1e-8);
+}
+
+TEST(SourceMaterial, TheSpecularFactorScalesTheReflection) {
+  prep::SourceMaterial source = dielectric(0);
+  source.specular = 0;
+  EXPECT_EQ(made(source).kind, Kind::lambert);
+  EXPECT_EQ(made(source).albedo, source.baseColour);
+  source.specular = 0.5;
+  std::vector<std::string> notes;
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::paint);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_CONTAINS(notes[0], "specular factor", "'plastic'");
+}
+
+TEST(SourceMaterial, AClearCoatIsTheInterface) {
+  prep::SourceMaterial source = dielectric(0.9);
+  EXPECT_EQ(made(source).kind, Kind::lambert);
+  source.clearcoat = 1;
+  source.clearcoatRoughness = 0.5;
+  for (const double roughness : {0.9, 0.3}) {
+    source.roughness = roughness;
+    const pack::Material coated = made(source);
+    EXPECT_EQ(coated.kind, Kind::paint);
+    EXPECT_EQ(coated.eta, glm::dvec3(1.5));
+    EXPECT_EQ(coated.roughness, 0.25);
+    EXPECT_EQ(coated.albedo, source.baseColour);
+  }
+  std::vector<std::string> notes;
+  source.metallic = 1;
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::metal);
+  source.metallic = 0;
+  source.clearcoat = 0.25;
+  convertMaterial(source, notes);
+  source.clearcoat = 0.75;
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::paint);
+  ASSERT_EQ(notes.size(), 3u);
+  for (const std::string& note : notes) EXPECT_CONTAINS(note, "'plastic'", "coat");
+}
+
+TEST(SourceMaterial, IridescenceIsAThinFilm) {
+  prep::SourceMaterial source = dielectric(0);
+  source.film = 1;
+  source.filmIor = 1.7;
+  source.filmThicknessNm = 350;
+  for (const double metallic : {0.0, 1.0}) {
+    source.metallic = metallic;
+    EXPECT_EQ(made(source).coating.thicknessNm, 350);
+    EXPECT_EQ(made(source).coating.eta, glm::dvec3(1.7));
+  }
+  std::vector<std::string> notes;
+  source.metallic = 0;
+  source.roughness = 1;
+  EXPECT_EQ(convertMaterial(source, notes).coating.thicknessNm, 0);
+  source.roughness = 0;
+  source.film = 0.25;
+  EXPECT_EQ(convertMaterial(source, notes).coating.thicknessNm, 0);
+  ASSERT_EQ(notes.size(), 2u);
+  for (const std::string& note : notes) EXPECT_CONTAINS(note, "'plastic'", "film");
+}
+
+TEST(SourceMaterial, FaintEmissionGivesWayToTheReflection) {
+  prep::SourceMaterial source = dielectric(1);
+  source.emissive = {0.05, 0.05, 0.05};
+  std::vector<std::string> notes;
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::lambert);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_CONTAINS(notes[0], "faint emission", "'plastic'");
+  source.baseColour = {0, 0, 0};
+  EXPECT_EQ(made(source).kind, Kind::emitter);
+  source.baseColour = {0.2, 0.4, 0.6};
+  source.emissive = {1, 1, 1};
+  EXPECT_EQ(made(source).kind, Kind::emitter);
+}
+
 TEST(SourceMaterial, GlassAbsorbsByItsVolume) {
   prep::SourceMaterial source;
   source.metallic = 0;

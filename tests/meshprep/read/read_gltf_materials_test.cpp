@@ -36,6 +36,45 @@ TEST(ReadGltf, ReplacesMaterialValuesOutOfRange) {
     EXPECT_TRUE(hasNote(scene, key)) << key;
 }
 
+TEST(ReadGltf, ReadsSpecularLayersAndGlossiness) {
+  GltfFile gltf = triangleFile();
+  gltf.document["materials"] = json::parse(R"([
+    {"extensions": {"KHR_materials_ior": {"ior": 0},
+      "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [0.25, 1, 2]},
+      "KHR_materials_clearcoat": {"clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.5},
+      "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceIor": 1.75, "iridescenceThicknessMinimum": 50,
+        "iridescenceThicknessMaximum": 250}}},
+    {"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1], "metallicFactor": 1},
+     "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0, 1, 0, 1],
+       "specularFactor": [0.25, 0.5, 0.75], "glossinessFactor": 0.25}}},
+    {"name": "lamp", "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}},
+    {"extensions": {"KHR_materials_specular": {"specularFactor": 2, "specularColorFactor": [-1, 1, 1]},
+      "KHR_materials_clearcoat": {"clearcoatFactor": -1}, "KHR_materials_iridescence": {"iridescenceIor": 0.5}}}])");
+  const SourceScene scene = readGlb(gltf);
+  const SourceMaterial& layers = scene.materials[0];
+  EXPECT_EQ(layers.ior, 0);
+  EXPECT_EQ(layers.specular, 0.5);
+  EXPECT_EQ(layers.specularColour, glm::dvec3(0.25, 1, 2));
+  EXPECT_EQ(layers.clearcoat, 0.75);
+  EXPECT_EQ(layers.clearcoatRoughness, 0.5);
+  EXPECT_EQ(layers.film, 1);
+  EXPECT_EQ(layers.filmIor, 1.75);
+  EXPECT_EQ(layers.filmThicknessNm, 250);
+  const SourceMaterial& glossy = scene.materials[1];
+  EXPECT_EQ(glossy.baseColour, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(glossy.metallic, 0);
+  EXPECT_EQ(glossy.roughness, 0.75);
+  EXPECT_EQ(glossy.ior, 0);
+  EXPECT_EQ(glossy.specularColour, glm::dvec3(0.25, 0.5, 0.75));
+  EXPECT_EQ(scene.materials[2].emissive, glm::dvec3(0));
+  EXPECT_TRUE(hasNote(scene, "emission of material 'lamp'"));
+  EXPECT_EQ(scene.materials[3].specular, 1);
+  EXPECT_EQ(scene.materials[3].specularColour, glm::dvec3(0, 1, 1));
+  EXPECT_EQ(scene.materials[3].filmIor, 1.3);
+  for (const char* key : {"specularFactor", "specularColorFactor", "clearcoatFactor", "iridescenceIor"})
+    EXPECT_TRUE(hasNote(scene, key)) << key;
+}
+
 TEST(ReadGltf, ReadsMaterials) {
   GltfFile gltf = triangleFile();
   gltf.document["meshes"][0]["primitives"][0]["material"] = 1;

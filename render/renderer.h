@@ -37,6 +37,8 @@ class Renderer {
   virtual std::vector<std::string> methods() const = 0;
   // Paths of a device of the Vulkan renderer, the one that iterative methods take automatically first; else empty.
   virtual std::vector<VulkanPath> vulkanPaths() const { return {}; }
+  // Paths of the Embree renderer on this processor, the automatic one first; else empty.
+  virtual std::vector<EmbreePath> embreePaths() const { return {}; }
 
   // Prepares images, so that their first render() is faster: Vulkan compiles their shaders in parallel. Optional; what
   // fails is reported by render().

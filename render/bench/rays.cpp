@@ -10,7 +10,6 @@
 #include "render/bench/ray_file.h"
 #include "render/bench/ray_sets.h"
 #include "render/bench/vulkan_ray_sets.h"
-#include "render/embree/packets/packets.h"
 #include "render/embree/renderer.h"
 #include "render/make_renderer.h"
 
@@ -31,11 +30,9 @@ auto sum(const RayFloor& floor, Value value) {
 
 // The rows of a method, without times.
 void addRows(RaysBench& bench, const RaysBenchSettings& settings, const std::string& method, std::size_t floor,
-             const std::vector<VulkanPath>& vulkanPaths) {
-  if (has(settings, Backend::embree)) {
-    if (embree::hasPacketInstructions()) bench.rows.push_back({method, EmbreePath::packet, floor});
-    bench.rows.push_back({method, EmbreePath::scalar, floor});
-  }
+             const std::vector<EmbreePath>& embreePaths, const std::vector<VulkanPath>& vulkanPaths) {
+  if (has(settings, Backend::embree))
+    for (const EmbreePath path : embreePaths) bench.rows.push_back({method, path, floor});
   for (const VulkanPath path : vulkanPaths) bench.rows.push_back({method, path, floor});
 }
 
@@ -97,7 +94,7 @@ RaysBench benchRays(const pack::Scene& scene, const RenderParameters& parameters
   bench.height = parameters.height;
   bench.rounds = settings.rounds;
   for (const std::string& method : settings.methods)
-    addRows(bench, settings, method, sets.add(method),
+    addRows(bench, settings, method, sets.add(method), renderer.embreePaths(),
             vulkanRenderer ? vulkanRenderer->vulkanPaths() : std::vector<VulkanPath>{});
   std::optional<VulkanRaySets> vulkanSets;
   if (vulkanRenderer) {

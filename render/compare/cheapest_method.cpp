@@ -73,10 +73,11 @@ std::vector<MethodEstimate> estimateMethods(const pack::Pack& pack, const Render
   parameters.samples = 1;
   const std::string device = fmt::format("{} {}", backendInfo(renderer.backend()).name, renderer.device());
   const std::string key = fmt::format(
-      "malus {} errors of methods, pack {:016x} {} path {} {}x{} depth {} analyser {} {} {} {} stokes {} methods {}",
-      MALUS_VERSION, pack.hash, device, vulkanPathName(parameters.vulkanPath), parameters.width, parameters.height,
-      parameters.depth, parameters.analyser[0], parameters.analyser[1], parameters.analyser[2], parameters.analyser[3],
-      parameters.stokes, fmt::join(methodNames(), " "));
+      "malus {} errors of methods, pack {:016x} {} paths {} {} {}x{} depth {} analyser {} {} {} {} stokes {} methods "
+      "{}",
+      MALUS_VERSION, pack.hash, device, vulkanPathName(parameters.vulkanPath), embreePathName(parameters.embreePath),
+      parameters.width, parameters.height, parameters.depth, parameters.analyser[0], parameters.analyser[1],
+      parameters.analyser[2], parameters.analyser[3], parameters.stokes, fmt::join(methodNames(), " "));
   const fs::path path = cacheFile(key);
   if (std::vector<MethodEstimate> known = load(path, key); !known.empty()) return known;
 

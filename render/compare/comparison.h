@@ -17,6 +17,7 @@
 #include "render/compare/image_error.h"
 #include "render/compare/statistics.h"
 #include "render/progress.h"
+#include "render/scene/embree_path.h"
 #include "render/scene/vulkan_path.h"
 
 namespace malus::render {
@@ -33,9 +34,9 @@ struct ComparisonSettings {
   unsigned threads = 0;  // 0: all
   std::string device;    // as RendererOptions::device
   VulkanPath vulkanPath = VulkanPath::automatic;  // automatic: iterative methods by each path that the device has
-  EmbreePath embreePath = EmbreePath::automatic;
-  std::optional<double> polarizerDegrees;  // filter in front of the camera
-  std::vector<std::string> gpuFamilies;    // for a compiler's static estimates: navi21, navi31, ...
+  EmbreePath embreePath = EmbreePath::automatic;  // automatic: schlick and complete methods by each path
+  std::optional<double> polarizerDegrees;         // filter in front of the camera
+  std::vector<std::string> gpuFamilies;           // for a compiler's static estimates: navi21, navi31, ...
 };
 
 // One method on one renderer with one view of one scene.
@@ -44,8 +45,9 @@ struct ComparisonRow {
   Backend backend = Backend::vulkan;
   bool everyEffect = false;                       // every effect is compiled in; else those that the image needs
   VulkanPath vulkanPath = VulkanPath::automatic;  // of the Vulkan renderer: the path taken
-  bool isSecondPath = false;     // an iterative method once more, by the path that is not taken automatically
-  std::string withoutRecursion;  // as RenderResult::withoutRecursion
+  EmbreePath embreePath = EmbreePath::automatic;  // of the Embree renderer: the path taken
+  bool isSecondPath = false;                      // a method once more, by the path that is not taken automatically
+  std::string withoutRecursion;                   // as RenderResult::withoutRecursion
   std::uint32_t width = 0, height = 0, depth = 0;
   std::size_t payloadBytes = 0;  // per ray: of a recursive method, or a hit record
   std::size_t stateBytes = 0;    // per pixel, of an iterative method: the current path and the stack of waiting paths
@@ -66,6 +68,11 @@ struct ComparisonRow {
   bool isMain() const { return !everyEffect && !isSecondPath; }
 };
 
+// Of the renderer that rendered the row; "auto" if it failed.
+inline const char* pathName(const ComparisonRow& row) {
+  return row.backend == Backend::embree ? embreePathName(row.embreePath) : vulkanPathName(row.vulkanPath);
+}
+
 struct ComparisonReference {
   std::string scene;
   std::uint32_t width = 0, height = 0, depth = 0;
@@ -84,12 +91,12 @@ struct EffectsComparison {
   double brightest = 0;                                      // of any pixel and colour in `all`
 };
 
-// An iterative method by both paths of one Vulkan device and with one view. Indices into Comparison::rows.
+// A method by both paths of one renderer and with one view. Indices into Comparison::rows.
 struct PathComparison {
-  std::size_t query = 0, pipeline = 0;
-  Spread pipelineToQuery;        // ratio of times, round by round
-  bool differs = false;          // significantly
-  double largestDifference = 0;  // of any pixel and colour
+  std::size_t first = 0, second = 0;  // by ray queries and by pipelines, or by packets and by single rays
+  Spread secondToFirst;               // ratio of times, round by round
+  bool differs = false;               // significantly
+  double largestDifference = 0;       // of any pixel and colour
 };
 
 struct Comparison {

@@ -27,7 +27,9 @@ std::uint64_t pixels(const json& row) {
 
 std::string rowName(const json& row, bool isSecondPath) {
   const std::string method = row.at("method").get<std::string>();
-  return isSecondPath ? fmt::format("{}, {}", method, row.at("vulkanPath").get<std::string>()) : method;
+  if (!isSecondPath) return method;
+  const json path = row.value("embreePath", json());  // not of an earlier version
+  return fmt::format("{}, {}", method, (path.is_string() ? path : row.at("vulkanPath")).get<std::string>());
 }
 
 // The columns of a scene in one file: one per renderer.

@@ -3,25 +3,26 @@
 #include <algorithm>
 
 #include "render/compare/image_error.h"
+#include "render/compare/paths_table.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
 
 std::vector<MethodVariant> methodVariants(const std::vector<std::string>& methods, const EffectsChoice& cheapest,
-                                          VulkanPath vulkanPath, VulkanPath secondPath) {
+                                          Backend backend, const PathChoice& path, const PathChoice& secondPath) {
   const auto contains = [&](std::string_view name) {
     return std::find(methods.begin(), methods.end(), name) != methods.end();
   };
   std::vector<MethodVariant> variants;
   variants.reserve(2 * methods.size() + 3);
-  for (const std::string& method : methods) variants.push_back({method, false, vulkanPath});
+  for (const std::string& method : methods) variants.push_back({method, false, path});
   if (contains(completeRecursiveMethod().name) && !contains(cheapest.method))
-    variants.push_back({cheapest.method, false, vulkanPath});
+    variants.push_back({cheapest.method, false, path});
   for (const MethodInfo& m : render::methods())
-    if (m.isComplete() && contains(m.name)) variants.push_back({m.name, true, vulkanPath});
-  if (secondPath == VulkanPath::automatic) return variants;
+    if (m.isComplete() && contains(m.name)) variants.push_back({m.name, true, path});
+  if (secondPath == PathChoice{}) return variants;
   for (const std::string& method : methods)
-    if (methodNamed(method).isIterative) variants.push_back({method, false, secondPath, true});
+    if (hasSecondPath(backend, method)) variants.push_back({method, false, secondPath, true});
   return variants;
 }
 

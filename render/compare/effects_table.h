@@ -11,19 +11,26 @@
 
 namespace malus::render {
 
+// Path of a renderer; automatic: the renderer chooses. Each renderer reads its own field.
+struct PathChoice {
+  VulkanPath vulkan = VulkanPath::automatic;
+  EmbreePath embree = EmbreePath::automatic;
+  bool operator==(const PathChoice&) const = default;
+};
+
 // A method to render, with the effects that the scene needs or with every effect.
 struct MethodVariant {
   std::string method;
   bool everyEffect = false;
-  VulkanPath vulkanPath = VulkanPath::automatic;
+  PathChoice path{};
   bool isSecondPath = false;
 };
 
 // Everything that a comparison renders: `methods`; the cheapest exact method in place of the complete recursive one;
-// the complete methods once more with every effect; and the iterative methods once more by secondPath, unless that is
-// automatic. vulkanPath: of all others.
+// the complete methods once more with every effect; and some (hasSecondPath) once more by secondPath, unless that is
+// automatic. path: of all others.
 std::vector<MethodVariant> methodVariants(const std::vector<std::string>& methods, const EffectsChoice& cheapest,
-                                          VulkanPath vulkanPath, VulkanPath secondPath);
+                                          Backend backend, const PathChoice& path, const PathChoice& secondPath);
 
 class EffectsTable {
  public:

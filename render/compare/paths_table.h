@@ -1,4 +1,4 @@
-// The table of the iterative methods by both paths of a Vulkan device, collected while the rows are rendered.
+// The table of the methods by both paths of a renderer, collected while the rows are rendered.
 #pragma once
 
 #include <map>
@@ -9,6 +9,10 @@
 #include "render/scene/render_result.h"
 
 namespace malus::render {
+
+// Methods that are rendered by both paths of a renderer: on Vulkan the iterative ones, whose rays and payloads are
+// those of the other path; with Embree, where a path takes several times as long, the baseline and the complete ones.
+bool hasSecondPath(Backend backend, const std::string& method);
 
 // Rows of one renderer and view.
 class PathsTable {
@@ -23,7 +27,7 @@ class PathsTable {
     std::size_t row;
     std::vector<float> colours;
   };
-  std::map<std::string, std::map<VulkanPath, Rendered>> methods_;
+  std::map<std::string, std::map<std::string, Rendered>> methods_;  // by method and path
 };
 
 // Fills in the ratios of times, from the samples of the rows.

@@ -42,6 +42,7 @@ json toJson(const ComparisonRow& row) {
   const auto when = [](bool known, json value) { return known ? std::move(value) : json(); };
   const auto orNull = [](bool known, std::string text) { return known ? json(std::move(text)) : json(); };
   result["vulkanPath"] = orNull(row.vulkanPath != VulkanPath::automatic, vulkanPathName(row.vulkanPath));
+  result["embreePath"] = orNull(row.embreePath != EmbreePath::automatic, embreePathName(row.embreePath));
   result["withoutRecursion"] = orNull(!row.withoutRecursion.empty(), row.withoutRecursion);
   result["rays"] = when(rendered, row.rays);
   result["samplesMs"] = row.samplesMs;
@@ -99,7 +100,7 @@ json toJson(const EffectsComparison& e, const Comparison& comparison) {
           {"brightest", e.brightest}};
 }
 
-// An iterative method by both paths. Repeats both rows, so that it can be read alone.
+// A method by both paths. Repeats both rows, so that it can be read alone.
 json toJson(const PathComparison& e, const Comparison& comparison) {
   const auto rowJson = [&](const ComparisonRow& r) {
     return json{{"medianMs", r.samplesMs.empty() ? json() : json(r.time.median)},
@@ -107,16 +108,16 @@ json toJson(const PathComparison& e, const Comparison& comparison) {
                 {"payloadBytes", r.payloadBytes},
                 {"stateBytes", r.stateBytes}};
   };
-  const ComparisonRow &query = comparison.rows[e.query], &pipeline = comparison.rows[e.pipeline];
-  return {{"scene", query.scene},
-          {"renderer", backendInfo(query.backend).name},
-          {"width", query.width},
-          {"height", query.height},
-          {"depth", query.depth},
-          {"method", query.method},
-          {"query", rowJson(query)},
-          {"pipeline", rowJson(pipeline)},
-          {"pipelineToQuery", spreadJson(e.pipelineToQuery)},
+  const ComparisonRow &first = comparison.rows[e.first], &second = comparison.rows[e.second];
+  return {{"scene", first.scene},
+          {"renderer", backendInfo(first.backend).name},
+          {"width", first.width},
+          {"height", first.height},
+          {"depth", first.depth},
+          {"method", first.method},
+          {pathName(first), rowJson(first)},
+          {pathName(second), rowJson(second)},
+          {first.backend == Backend::embree ? "scalarToPacket" : "pipelineToQuery", spreadJson(e.secondToFirst)},
           {"differs", e.differs},
           {"largestDifference", number(e.largestDifference)}};
 }
@@ -192,21 +193,32 @@ std::string effectsTable(const Comparison& comparison) {
   return text;
 }
 
-std::string pathsTable(const Comparison& comparison) {
-  if (comparison.paths.empty()) return {};
-  std::string text = fmt::format(
-      "\niterative methods by ray queries and by pipelines whose rays return a hit record of {} bytes\n"
-      "  {:<34}{:<18}{:>10}{:>14}  {:<26}{:<26}{:<26}{}\n",
-      kHitRecordBytes, "", "method", "query, ms", "pipeline, ms", "pipeline / query", "query to schlick",
-      "pipeline to schlick", "largest difference");
+std::string pathsTable(const Comparison& comparison, Backend backend, const std::string& title) {
+  std::string text;
   for (const PathComparison& e : comparison.paths) {
-    const ComparisonRow &query = comparison.rows[e.query], &pipeline = comparison.rows[e.pipeline];
+    const ComparisonRow &first = comparison.rows[e.first], &second = comparison.rows[e.second];
+    if (first.backend != backend) continue;
+    if (text.empty())
+      text = fmt::format("\n{}\n  {:<34}{:<18}{:>10}{:>14}  {:<26}{:<26}{:<26}{}\n", title, "", "method",
+                         fmt::format("{}, ms", pathName(first)), fmt::format("{}, ms", pathName(second)),
+                         fmt::format("{} / {}", pathName(second), pathName(first)),
+                         fmt::format("{} to schlick", pathName(first)), fmt::format("{} to schlick", pathName(second)),
+                         "largest difference");
     text += fmt::format("  {:<34}{:<18}{:>10.1f}{:>14.1f}  {:<26}{:<26}{:<26}{:.1e}\n",
-                        fmt::format("{} {} x {}", query.scene, query.width, query.height), query.method,
-                        query.time.median, pipeline.time.median, ratioText(e.pipelineToQuery),
-                        ratioText(query.ratioToSchlick), ratioText(pipeline.ratioToSchlick), e.largestDifference);
+                        fmt::format("{} {} x {}", first.scene, first.width, first.height), first.method,
+                        first.time.median, second.time.median, ratioText(e.secondToFirst),
+                        ratioText(first.ratioToSchlick), ratioText(second.ratioToSchlick), e.largestDifference);
   }
   return text;
+}
+
+std::string pathsTables(const Comparison& comparison) {
+  return pathsTable(
+             comparison, Backend::vulkan,
+             fmt::format("iterative methods by ray queries and by pipelines whose rays return a hit record of {} "
+                         "bytes",
+                         kHitRecordBytes)) +
+         pathsTable(comparison, Backend::embree, "methods by packets of rays and by single rays");
 }
 
 }  // namespace
@@ -294,10 +306,10 @@ std::string toCsv(const Comparison& comparison) {
       "cpuMs,buildMs,uploadMs,"
       "compileMs,readBackMs,ratioToSchlick,ratioLow,ratioHigh,meanAbs,maxAbs,relRms,shareOver1Percent,perceptual,"
       "energyRatio,precisionRelRms,precisionShareOver1Percent,referenceRelRms,referenceShareOver1Percent,vulkanPath,"
-      "status\n";
+      "embreePath,status\n";
   for (const ComparisonRow& r : comparison.rows) {
     text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
         isPlain(r.scene) ? r.scene : csvText(r.scene), backendInfo(r.backend).name, r.method,
         r.everyEffect ? "all" : "auto", r.width, r.height, r.depth, r.payloadBytes, r.stateBytes, r.rays, r.time.median,
         r.time.low, r.time.high, median(r.wallMs), median(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs,
@@ -306,7 +318,7 @@ std::string toCsv(const Comparison& comparison) {
         r.precision ? fmt::format("{}", r.precision->relRms) : "",
         r.precision ? fmt::format("{}", r.precision->shareOver1Percent) : "", r.errorToReference.relRms,
         r.errorToReference.shareOver1Percent, r.vulkanPath == VulkanPath::automatic ? "" : vulkanPathName(r.vulkanPath),
-        csvText(r.status));
+        r.embreePath == EmbreePath::automatic ? "" : embreePathName(r.embreePath), csvText(r.status));
   }
   return text;
 }
@@ -324,7 +336,7 @@ std::string toTable(const Comparison& comparison) {
     group.push_back(&r);
     text += rowText(r);
   }
-  return text + groupEnd(group) + effectsTable(comparison) + pathsTable(comparison);
+  return text + groupEnd(group) + effectsTable(comparison) + pathsTables(comparison);
 }
 
 }  // namespace malus::render

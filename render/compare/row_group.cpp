@@ -32,6 +32,7 @@ RenderParameters rowParameters(const ComparisonRow& row, const RowGroup& group) 
   RenderParameters parameters = group.parameters;
   parameters.everyEffect = row.everyEffect;
   parameters.vulkanPath = row.vulkanPath;
+  parameters.embreePath = row.embreePath;
   return parameters;
 }
 
@@ -52,6 +53,7 @@ RenderResult renderFirst(ComparisonRow& row, RowGroup& group) {
   row.compileMs = result.cost.compileMs;
   row.rays = result.cost.rays;
   row.vulkanPath = result.vulkanPath;
+  row.embreePath = result.embreePath;
   row.withoutRecursion = result.withoutRecursion;
   row.payloadBytes = payloadBytes(methodNamed(row.method), row.vulkanPath);
   return result;

@@ -64,7 +64,6 @@ std::vector<RenderParameters> views(const pack::Scene& scene, const ComparisonSe
     if (settings.polarizerDegrees) size.analyser = linearPolarizer(*settings.polarizerDegrees);
     for (const std::uint32_t depth : settings.depths.empty() ? std::vector{scene.depth} : settings.depths) {
       size.depth = depth;
-      size.embreePath = settings.embreePath;
       result.push_back(renderParameters(size, scene));
     }
   }
@@ -91,7 +90,8 @@ ComparisonRow makeRow(const RowGroup& group, Backend backend, const MethodVarian
   row.backend = backend;
   row.method = variant.method;
   row.everyEffect = variant.everyEffect;
-  row.vulkanPath = variant.vulkanPath;
+  row.vulkanPath = variant.path.vulkan;
+  row.embreePath = variant.path.embree;
   row.isSecondPath = variant.isSecondPath;
   row.width = group.parameters.width;
   row.height = group.parameters.height;
@@ -125,7 +125,7 @@ RenderResult renderRow(ComparisonRow& row, RowGroup& group, const Exact& exact, 
   const std::string backend = backendInfo(row.backend).name;
   output.progress(fmt::format("{}: {} {}{}{}", groupTitle(group), backend, row.method,
                               row.everyEffect ? ", all effects" : "",
-                              row.isSecondPath ? fmt::format(", {}", vulkanPathName(row.vulkanPath)) : ""));
+                              row.isSecondPath ? fmt::format(", {}", pathName(row)) : ""));
   RenderResult result = renderFirst(row, group);
   storeErrors(row, result, exact, pack.scene.exposureEv);
   if (!row.isMain()) return result;
@@ -143,7 +143,7 @@ void prepareRows(const RowGroup& group, Backend backend, std::span<const MethodV
   for (const MethodVariant& variant : variants) {
     Preparation& image = images.emplace_back(Preparation{variant.method, group.parameters, true});
     image.parameters.everyEffect = variant.everyEffect;
-    image.parameters.vulkanPath = variant.vulkanPath;
+    image.parameters.vulkanPath = variant.path.vulkan;
   }
   try {
     (*group.renderers)[backend].prepare(images);
@@ -152,7 +152,7 @@ void prepareRows(const RowGroup& group, Backend backend, std::span<const MethodV
 }
 
 // Renders the exact method before the others, whose errors relate to it. Its row is that of the list, if it is there.
-void renderExact(Exact& exact, RowGroup& group, Backend backend, VulkanPath path, const Output& output) {
+void renderExact(Exact& exact, RowGroup& group, Backend backend, const PathChoice& path, const Output& output) {
   ComparisonRow row = makeRow(group, backend, {completeRecursiveMethod().name, false, path});
   try {
     RenderResult image = renderRow(row, group, exact, output);
@@ -166,15 +166,18 @@ void renderExact(Exact& exact, RowGroup& group, Backend backend, VulkanPath path
   }
 }
 
-// The path that iterative methods do not take automatically; automatic: there is none, or the user chose a path.
-VulkanPath secondPath(RowGroup& group, Backend backend, VulkanPath chosen) {
-  if (chosen != VulkanPath::automatic) return VulkanPath::automatic;
+// The path that is not taken automatically; automatic: there is none, or the user chose a path.
+PathChoice secondPath(RowGroup& group, Backend backend, const PathChoice& chosen) {
+  PathChoice second;
   try {
-    const std::vector<VulkanPath> paths = (*group.renderers)[backend].vulkanPaths();
-    return paths.size() < 2 ? VulkanPath::automatic : paths[1];
+    const Renderer& renderer = (*group.renderers)[backend];
+    const std::vector<VulkanPath> vulkan = renderer.vulkanPaths();
+    const std::vector<EmbreePath> embree = renderer.embreePaths();
+    if (vulkan.size() > 1 && chosen.vulkan == VulkanPath::automatic) second.vulkan = vulkan[1];
+    if (embree.size() > 1 && chosen.embree == EmbreePath::automatic) second.embree = embree[1];
   } catch (const Error&) {  // every row reports it
-    return VulkanPath::automatic;
   }
+  return second;
 }
 
 // Renders every method on one backend.
@@ -186,8 +189,9 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
   EffectsTable effects(cheapest);
   PathsTable paths;
   Exact exact{reference};
+  const PathChoice path{settings.vulkanPath, settings.embreePath};
   const std::vector<MethodVariant> variants =
-      methodVariants(settings.methods, cheapest, settings.vulkanPath, secondPath(group, backend, settings.vulkanPath));
+      methodVariants(settings.methods, cheapest, backend, path, secondPath(group, backend, path));
   // Within a time limit only as many at once as there are threads to compile them: the limit may leave out the rest.
   const std::size_t atOnce = settings.minutes > 0 ? std::max(1u, std::thread::hardware_concurrency()) : variants.size();
   for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -197,7 +201,7 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
     ComparisonRow row = makeRow(group, backend, variants[i]);
     const std::size_t index = comparison.rows.size();
     try {
-      if (i == 0) renderExact(exact, group, backend, settings.vulkanPath, output);
+      if (i == 0) renderExact(exact, group, backend, path, output);
       const bool isExact = exact.row && row.method == exact.row->method && row.isMain();
       const RenderResult rendered = isExact ? *exact.image : renderRow(row, group, exact, output);
       if (isExact) row = *exact.row;

@@ -106,6 +106,11 @@ int Renderer::threads() const { return impl_->threads; }
 
 std::vector<std::string> Renderer::methods() const { return render::methodNames(); }
 
+std::vector<render::EmbreePath> Renderer::embreePaths() const {
+  if (!hasPacketInstructions()) return {render::EmbreePath::scalar};
+  return {render::EmbreePath::packet, render::EmbreePath::scalar};
+}
+
 namespace {
 // An image to render, with what its tiles need.
 struct PreparedImage {

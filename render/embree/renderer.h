@@ -25,6 +25,7 @@ class Renderer final : public render::Renderer {
   std::string device() const override;
   int threads() const;
   std::vector<std::string> methods() const override;
+  std::vector<render::EmbreePath> embreePaths() const override;
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
 
   // The rays that render() traces with the same arguments, tile by tile. Memory: 24 bytes per ray, twice.

@@ -69,23 +69,31 @@ TEST_F(Compare, EveryMethodOnBothRenderers) {
       EXPECT_EQ(row.at("ratioToSchlick").at("median"), 1);
     }
   }
-  // Iterative methods once more by pipelines, with the same rays and the same image.
-  ASSERT_EQ(document.at("rowsOnSecondPath").size(), 3u);
+  // Iterative methods once more by pipelines, and some by single rays, with the same rays and the same image.
+  std::multiset<std::string> secondPaths;
   for (const json& row : document.at("rowsOnSecondPath")) {
     EXPECT_EQ(row.at("status"), "ok");
-    EXPECT_EQ(row.at("vulkanPath"), "pipeline");
-    EXPECT_EQ(row.at("payloadBytes"), 16);
+    const bool isVulkan = row.at("renderer") == "vulkan";
+    EXPECT_EQ(row.at(isVulkan ? "embreePath" : "vulkanPath"), json());
+    secondPaths.insert(row.at(isVulkan ? "vulkanPath" : "embreePath").get<std::string>());
+    if (isVulkan) {
+      EXPECT_EQ(row.at("payloadBytes"), 16);
+    }
     EXPECT_EQ(row.at("samplesMs").size(), 2u);
-    rays["vulkan"].insert(row.at("rays").get<std::uint64_t>());
+    rays[row.at("renderer")].insert(row.at("rays").get<std::uint64_t>());
   }
-  ASSERT_EQ(document.at("paths").size(), 3u);
+  EXPECT_EQ(secondPaths,
+            (std::multiset<std::string>{"pipeline", "pipeline", "pipeline", "scalar", "scalar", "scalar"}));
+  ASSERT_EQ(document.at("paths").size(), 6u);
   for (const json& entry : document.at("paths")) {
-    EXPECT_GT(entry.at("query").at("medianMs"), 0);
-    EXPECT_GT(entry.at("pipeline").at("medianMs"), 0);
-    EXPECT_GT(entry.at("pipelineToQuery").at("median"), 0);
-    EXPECT_EQ(entry.at("largestDifference"), 0);
+    const bool isVulkan = entry.at("renderer") == "vulkan";
+    EXPECT_GT(entry.at(isVulkan ? "query" : "packet").at("medianMs"), 0);
+    EXPECT_GT(entry.at(isVulkan ? "pipeline" : "scalar").at("medianMs"), 0);
+    EXPECT_GT(entry.at(isVulkan ? "pipelineToQuery" : "scalarToPacket").at("median"), 0);
+    EXPECT_LE(entry.at("largestDifference"), isVulkan ? 0 : 1e-6);
   }
   EXPECT_TRUE(contains(finished.out, "pipeline / query"));
+  EXPECT_TRUE(contains(finished.out, "scalar / packet"));
   // Fairness: every method sends the same rays.
   for (const auto& [renderer, counts] : rays) EXPECT_EQ(counts.size(), 1u) << renderer;
   EXPECT_TRUE(contains(finished.out, "ratio to schlick"));
@@ -105,6 +113,17 @@ TEST_F(Compare, SizesAndDepths) {
   EXPECT_EQ(views, (std::set<std::string>{"16x10 0", "16x10 3", "20x30 0", "20x30 3"}));
   expectRefusal(malus({"compare", pack(), "-o", report(), "--width", "16,20", "--height", "10", "--no-report"}),
                 "--height");
+}
+
+TEST_F(Compare, OnePathOfEmbreeOnRequest) {
+  const Finished finished =
+      compare({"--rounds", "1", "--backends", "embree", "--methods", "fresnel", "--embree-path", "scalar"});
+  ASSERT_EQ(finished.exitCode, 0) << finished.err;
+  const json document = results();
+  ASSERT_EQ(document.at("rows").size(), 2u);
+  for (const json& row : document.at("rows")) EXPECT_EQ(row.at("embreePath"), "scalar");
+  EXPECT_TRUE(document.at("rowsOnSecondPath").empty());
+  EXPECT_TRUE(document.at("paths").empty());
 }
 
 TEST_F(Compare, OnePathOnRequest) {

@@ -338,10 +338,15 @@ class Report(unittest.TestCase):
             {"scene": "tiny", "renderer": "vulkan", "width": kWidth, "height": kHeight, "depth": 3,
              "method": "importance", "differs": True, "largestDifference": 0.0, "pipelineToQuery": ratio(1.371),
              "query": {"medianMs": 8.25, "ratioToSchlick": ratio(0.825), "payloadBytes": 0, "stateBytes": 388},
-             "pipeline": {"medianMs": 11.31, "ratioToSchlick": None, "payloadBytes": 16, "stateBytes": 388}}]
+             "pipeline": {"medianMs": 11.31, "ratioToSchlick": None, "payloadBytes": 16, "stateBytes": 388}},
+            {"scene": "tiny", "renderer": "embree", "width": kWidth, "height": kHeight, "depth": 3,
+             "method": "stokes", "differs": True, "largestDifference": 0.0, "scalarToPacket": ratio(6.512),
+             "packet": {"medianMs": 2.25, "ratioToSchlick": ratio(1.171), "payloadBytes": 48, "stateBytes": 0},
+             "scalar": {"medianMs": 14.63, "ratioToSchlick": ratio(7.6), "payloadBytes": 48, "stateBytes": 0}}]
         page = self.page()
         self.assertIn('id="paths"', page)
-        for text in ("1.371 (1.361 to 1.381)", "8.25", "11.3", "0.825 (0.815 to 0.835)"):
+        for text in ("1.371 (1.361 to 1.381)", "8.25", "11.3", "0.825 (0.815 to 0.835)", "6.512 (6.502 to 6.522)",
+                     "scalar / packet", "14.6"):
             self.assertIn(text, page)
 
     def test_methods_without_recursion_are_named(self):

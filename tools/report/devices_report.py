@@ -31,7 +31,8 @@ class Column:
             for row in of_scene(name):
                 if row["width"] * row["height"] == pixels:
                     self.view = f"{row['width']} × {row['height']}, depth {row['depth']}"
-                    self.rows[row["method"] if name == "rows" else f"{row['method']}, {row['vulkanPath']}"] = row
+                    path = row.get("embreePath") or row.get("vulkanPath")
+                    self.rows[row["method"] if name == "rows" else f"{row['method']}, {path}"] = row
 
     def cell(self, name: str) -> str:
         row = self.rows.get(name)

@@ -1,4 +1,4 @@
-"""The iterative methods by both paths of a Vulkan device, and the recursive methods that ran without recursion."""
+"""The methods by both paths of a renderer, and the recursive methods that ran without recursion."""
 from report_data import number
 from report_format import interval, listed, ratio
 

@@ -52,8 +52,8 @@ struct Image {
 // window does not store are 0, those outside the display window are left out. HDR values are divided by EXPOSURE and
 // COLORCORR. The orientation that HDR, TIFF and JPEG files state is applied. Colours are not multiplied by alpha:
 // integers that the file stores multiplied are divided by it; the floats of EXR stay as stored. Limits: 65536 pixels
-// per side, 64 channels, 2^30 values, 32768 values per byte of the file. They apply to tiles of EXR too, and an
-// attribute of EXR must be within the file.
+// per side, 64 channels, 2^30 values, 32768 values per byte of the file (image_size.h), checked by the header before
+// pixels are decoded. They apply to tiles too, and an attribute of EXR must be within the file.
 Image read(const std::filesystem::path& path);
 
 // Compression of an EXR file of 32-bit floats. zip and none are lossless. dwaa is lossy, at OpenEXR's level 45: it

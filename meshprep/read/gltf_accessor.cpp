@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/read/gltf_meshopt.h"
 
 namespace malus::prep {
 using gltf::ComponentType;
@@ -92,11 +93,18 @@ std::span<const std::byte> gltfViewBytes(const gltf::Document& document, GltfBuf
     throw Error(location, "does not exist", fmt::format("one of {} buffer views", document.bufferViews.size()));
   const gltf::BufferView& view = document.bufferViews[index];
   if (view.isInvalid) throw Error(location, "is invalid", "a valid buffer view");
-  const std::span<const std::byte> buffer = buffers.bytes(view.buffer);
-  if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
-    throw Error(location, "buffer view exceeds its buffer", fmt::format("at most {} bytes", buffer.size()),
-                fmt::format("{} bytes from byte {} on", view.byteLength, view.byteOffset));
-  return buffer.subspan(view.byteOffset, view.byteLength);
+  const auto part = [&](std::size_t bufferIndex, std::size_t offset, std::size_t length) {
+    const std::span<const std::byte> buffer = buffers.bytes(bufferIndex);
+    if (offset > buffer.size() || length > buffer.size() - offset)
+      throw Error(location, "buffer view exceeds its buffer", fmt::format("at most {} bytes", buffer.size()),
+                  fmt::format("{} bytes from byte {} on", length, offset));
+    return buffer.subspan(offset, length);
+  };
+  if (!view.meshopt) return part(view.buffer, view.byteOffset, view.byteLength);
+  return buffers.decodedView(index, [&] {
+    const gltf::MeshoptCompression& meshopt = *view.meshopt;
+    return decodeGltfMeshopt(part(meshopt.buffer, meshopt.byteOffset, meshopt.byteLength), meshopt, location);
+  });
 }
 
 GltfAccessor::GltfAccessor(const gltf::Document& document, GltfBuffers& buffers, std::size_t index,

@@ -127,6 +127,15 @@ GltfContainer::GltfContainer(const std::filesystem::path& path) : bytes_(readFil
 GltfBuffers::GltfBuffers(std::vector<gltf::Buffer> buffers, const GltfContainer& container, std::filesystem::path file)
     : container_(container), file_(std::move(file)), buffers_(std::move(buffers)), loaded_(buffers_.size()) {}
 
+std::span<const std::byte> GltfBuffers::decodedView(std::size_t view,
+                                                    const std::function<std::vector<std::byte>()>& decode) {
+  const auto found = decodedViews_.find(view);
+  if (found != decodedViews_.end()) return found->second;
+  const std::vector<std::byte>& decoded = decodedViews_.emplace(view, decode()).first->second;
+  bytesRead_ += decoded.size();
+  return decoded;
+}
+
 std::span<const std::byte> GltfBuffers::bytes(std::size_t index) {
   const std::string location = fmt::format("{}: buffers[{}]", file_.string(), index);
   if (index >= buffers_.size())

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -48,7 +49,10 @@ class GltfBuffers {
   // allowed, invalid base64, fewer bytes.
   std::span<const std::byte> bytes(std::size_t buffer);
 
-  std::size_t bytesRead() const { return bytesRead_; }  // of buffers outside the container
+  // The elements of a compressed buffer view, decoded by the first call. Throws Error as `decode`.
+  std::span<const std::byte> decodedView(std::size_t view, const std::function<std::vector<std::byte>()>& decode);
+
+  std::size_t bytesRead() const { return bytesRead_; }  // of buffers outside the container, and of decoded views
 
  private:
   std::shared_ptr<const std::vector<std::byte>> load(const std::string& uri, const std::string& location);
@@ -58,6 +62,7 @@ class GltfBuffers {
   std::vector<gltf::Buffer> buffers_;
   std::vector<std::shared_ptr<const std::vector<std::byte>>> loaded_;  // one per buffer; null until it is needed
   std::map<std::filesystem::path, std::shared_ptr<const std::vector<std::byte>>> files_;
+  std::map<std::size_t, std::vector<std::byte>> decodedViews_;
   std::size_t bytesRead_ = 0;
 };
 

@@ -94,6 +94,17 @@ BufferView toBufferView(const json& object, const std::string& location) {
   if (view.byteStride > kMaxStride || view.byteStride % 4 != 0)
     throw Error(location + ".byteStride", "invalid stride", fmt::format("a multiple of 4 up to {}", kMaxStride),
                 fmt::to_string(view.byteStride));
+  const json& extensions = child(object, "extensions");
+  if (const auto found = extensions.find("EXT_meshopt_compression"); found != extensions.end()) {
+    MeshoptCompression& meshopt = view.meshopt.emplace();
+    get(*found, "buffer", meshopt.buffer);
+    get(*found, "byteOffset", meshopt.byteOffset);
+    get(*found, "byteLength", meshopt.byteLength);
+    get(*found, "byteStride", meshopt.byteStride);
+    get(*found, "count", meshopt.count);
+    get(*found, "mode", meshopt.mode);
+    get(*found, "filter", meshopt.filter);
+  }
   return view;
 }
 

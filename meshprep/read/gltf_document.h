@@ -35,11 +35,23 @@ struct Buffer {
   bool isInvalid = false;
 };
 
+// EXT_meshopt_compression: the elements of a view, compressed in another buffer.
+struct MeshoptCompression {
+  std::size_t buffer = 0;
+  std::size_t byteOffset = 0;
+  std::size_t byteLength = 0;
+  std::size_t byteStride = 0;  // of the elements
+  std::size_t count = 0;       // of elements
+  std::string mode;            // "ATTRIBUTES", "TRIANGLES" or "INDICES"
+  std::string filter = "NONE";
+};
+
 struct BufferView {
   std::size_t buffer = 0;
   std::size_t byteOffset = 0;
   std::size_t byteLength = 0;
   std::size_t byteStride = 0;  // 0: tightly packed; else a multiple of 4 up to 252
+  std::optional<MeshoptCompression> meshopt;
   bool isInvalid = false;
 };
 

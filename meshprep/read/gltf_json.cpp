@@ -32,9 +32,9 @@ constexpr std::int64_t kMaxSize = std::int64_t{1} << 53;  // exact in every JSON
 constexpr auto kKnownExtensions = std::to_array<std::string_view>(
     {"KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_materials_ior", "KHR_materials_transmission",
      "KHR_materials_volume", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_texture_basisu",
-     "EXT_texture_webp", "EXT_texture_avif", "KHR_lights_punctual", "EXT_mesh_gpu_instancing", "KHR_materials_specular",
-     "KHR_materials_iridescence", "KHR_materials_clearcoat", "KHR_materials_pbrSpecularGlossiness",
-     "KHR_materials_variants"});
+     "EXT_texture_webp", "EXT_texture_avif", "KHR_lights_punctual", "EXT_mesh_gpu_instancing",
+     "EXT_meshopt_compression", "KHR_materials_specular", "KHR_materials_iridescence", "KHR_materials_clearcoat",
+     "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants"});
 
 // Builds the document of kept keys from the parser's events. nlohmann's filter by callback needs quadratic time,
 // because it searches the whole list at the end of each object.

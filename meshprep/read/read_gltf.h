@@ -1,4 +1,4 @@
-// glTF 2.0, as JSON (.gltf) or binary (.glb), with KHR_draco_mesh_compression, KHR_mesh_quantization,
+// glTF 2.0, as JSON (.gltf) or binary (.glb), with KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_mesh_quantization,
 // KHR_lights_punctual, EXT_mesh_gpu_instancing and KHR_materials_ior, _transmission, _volume and _emissive_strength.
 //
 // The JSON is parsed through a whitelist of keys and types (gltf_json.h) into structures (gltf_document.h). Buffers are

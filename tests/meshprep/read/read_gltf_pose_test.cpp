@@ -40,7 +40,7 @@ TEST(GltfPose, DefaultMorphWeightsAreApplied) {
   expectNear(scene.parts[0].polygons.positions[0], {2, 0, 0.5});
   expectNear(scene.parts[0].polygons.positions[2], {0, 1, 1.5});
   EXPECT_FALSE(hasNote(scene, "morph"));
-  // The weights of a node replace those of its mesh; each pose is a part of its own.
+  // The weights of a node replace those of its mesh; each pose is a part.
   gltf.addNode({{"mesh", 0}, {"weights", {-1, 0}}});
   gltf.addNode({{"mesh", 0}});
   scene = readGlb(gltf);

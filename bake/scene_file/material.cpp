@@ -21,6 +21,7 @@ pack::MaterialKind readKind(StrictObject& object) {
   const std::string type = object.text("type");
   if (const auto kind = pack::findMaterialKind(type)) return *kind;
   std::vector<std::string> names;
+  names.reserve(std::size(pack::kMaterialKinds));
   for (const pack::MaterialKindInfo& info : pack::kMaterialKinds) names.emplace_back(info.name);
   object.fail("type", fmt::format("unknown type of material{}", nearestClause(type, names)),
               fmt::format("{}", fmt::join(names, ", ")), fmt::format("'{}'", type));

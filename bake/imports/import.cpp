@@ -11,6 +11,7 @@
 #include "bake/imports/join_instances.h"
 #include "bake/imports/join_parts.h"
 #include "bake/materials/source_material.h"
+#include "bake/materials/texture_means.h"
 #include "bake/pack/format.h"
 #include "bake/placement/placement.h"
 #include "bake/scene_file/strict_object.h"
@@ -158,7 +159,8 @@ void finish(const ImportDescription& description, prep::SourceScene source, cons
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
                      UniqueNames& materialNames, UniqueNames& meshNames, bool strict) {
   Imported result;
-  prep::SourceScene source = prep::readSourceScene(description.file, strict);
+  prep::SourceScene source = prep::readSourceScene(description.file, strict, true);
+  applyTextureMeans(source, strict);
   std::vector<std::string>& notes = source.notes;
 
   // Find open surfaces by the name of a part or an instance.

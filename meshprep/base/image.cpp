@@ -1,7 +1,11 @@
 #include "meshprep/base/image.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <span>
 
@@ -50,6 +54,32 @@ const FormatsModule& formatsModule(const fs::path& path) {
   return *kModule;
 }
 
+// A file without a name in the file system.
+class MemoryFile {
+ public:
+  MemoryFile(std::span<const std::byte> bytes, std::string_view name) : file_(::memfd_create("image", MFD_CLOEXEC)) {
+    if (file_ < 0) throw Error(name, fmt::format("cannot make a file in memory: {}", std::strerror(errno)));
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+      if (written > 0) {
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+      } else if (errno != EINTR) {
+        const int error = errno;
+        ::close(file_);
+        throw Error(name, fmt::format("cannot write a file in memory: {}", std::strerror(error)));
+      }
+    }
+  }
+  ~MemoryFile() { ::close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  fs::path path() const { return fmt::format("/proc/self/fd/{}", file_); }
+
+ private:
+  int file_;
+};
+
 // By the first bytes of the file.
 bool isExrOrPng(const fs::path& path) {
   char start[8] = {};
@@ -59,6 +89,14 @@ bool isExrOrPng(const fs::path& path) {
 
 void checkResult(const fs::path& path, const char* problem, const std::string& message) {
   if (!message.empty()) throw Error(path.string(), fmt::format("{}: {}", problem, message));
+}
+
+// name: of the image, for errors.
+Image readAs(const fs::path& path, const fs::path& name) {
+  Image image;
+  checkResult(name, "cannot read the image",
+              (isExrOrPng(path) ? module().read : formatsModule(name).read)(path.string(), image));
+  return image;
 }
 
 }  // namespace
@@ -72,10 +110,13 @@ int Image::channel(std::string_view name) const {
 Image read(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) throw Error(path.string(), "cannot open: no such file", "an image file");
-  Image image;
-  checkResult(path, "cannot read the image",
-              (isExrOrPng(path) ? module().read : formatsModule(path).read)(path.string(), image));
-  return image;
+  return readAs(path, path);
+}
+
+Image readBytes(std::span<const std::byte> bytes, std::string_view name) {
+  // A file in memory: the libraries read files, some formats by their path alone.
+  const MemoryFile file(bytes, name);
+  return readAs(file.path(), fs::path(name));
 }
 
 void writeExr(const fs::path& path, const Image& image, ExrCompression compression) {

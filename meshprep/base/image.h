@@ -6,9 +6,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,6 +57,9 @@ struct Image {
 // per side, 64 channels, 2^30 values, 32768 values per byte of the file (image_size.h), checked by the header before
 // pixels are decoded. They apply to tiles too, and an attribute of EXR must be within the file.
 Image read(const std::filesystem::path& path);
+
+// The same for the bytes of a file. name: of the image, for errors.
+Image readBytes(std::span<const std::byte> bytes, std::string_view name);
 
 // Compression of an EXR file of 32-bit floats. zip and none are lossless. dwaa is lossy, at OpenEXR's level 45: it
 // keeps what is visible of channels whose name or part behind the last dot is R, G, B or Y, and is lossless for others.

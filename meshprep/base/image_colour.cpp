@@ -12,6 +12,10 @@
 
 namespace malus::image {
 
+double decodeSrgb(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -108,7 +112,7 @@ std::optional<std::array<std::size_t, 3>> findColours(const Image& image) {
 double decode(const Encoding& encoding, double v) {
   switch (encoding.transfer) {
     case Encoding::Transfer::sRgb:  // IEC 61966-2-1
-      return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+      return decodeSrgb(v);
     case Encoding::Transfer::power:
       return std::pow(std::max(v, 0.0), encoding.exponent);
     default:

@@ -41,6 +41,9 @@ class LinearColours {
   std::vector<std::string> notes_;
 };
 
+// Linear value of a number that is encoded by sRGB (IEC 61966-2-1).
+double decodeSrgb(double encoded);
+
 // Replaces the colours of an image by linear ones; images without colours are not changed. Returns the notes.
 std::vector<std::string> makeLinear(Image& image, std::string_view where, bool usesAlpha = false);
 

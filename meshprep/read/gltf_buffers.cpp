@@ -159,13 +159,7 @@ std::span<const std::byte> GltfBuffers::bytes(std::size_t index) {
 }
 
 std::shared_ptr<const std::vector<std::byte>> GltfBuffers::load(const std::string& uri, const std::string& location) {
-  if (isDataUri(uri)) {
-    const std::size_t comma = uri.find(',');
-    if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64"))
-      throw Error(location, "unsupported data URI", "data:application/octet-stream;base64,", uri.substr(0, 40));
-    const std::string_view text = std::string_view(uri).substr(comma + 1);
-    return std::make_shared<const std::vector<std::byte>>(decodeBase64(text, location));
-  }
+  if (isDataUri(uri)) return std::make_shared<const std::vector<std::byte>>(decodeDataUri(uri, location));
   const std::filesystem::path path = resolveGltfUri(file_, uri, location);
   std::shared_ptr<const std::vector<std::byte>>& data = files_[path];
   if (data == nullptr) {
@@ -178,6 +172,13 @@ std::shared_ptr<const std::vector<std::byte>> GltfBuffers::load(const std::strin
 bool hasBackslash(std::string_view uri) {
   return uri.find('\\') != std::string_view::npos || uri.find("%5C") != std::string_view::npos ||
          uri.find("%5c") != std::string_view::npos;
+}
+
+std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& location) {
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64"))
+    throw Error(location, "unsupported data URI", "data:application/octet-stream;base64,", uri.substr(0, 40));
+  return decodeBase64(uri.substr(comma + 1), location);
 }
 
 std::filesystem::path resolveGltfUri(const std::filesystem::path& file, std::string_view uri,

@@ -77,4 +77,7 @@ bool hasBackslash(std::string_view uri);
 
 inline bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
 
+// Bytes of a data URI. Throws Error unless it is base64.
+std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& location);
+
 }  // namespace malus::prep

@@ -195,12 +195,14 @@ Material toMaterial(const json& object) {
   get(object, "doubleSided", material.doubleSided);
   const json& pbr = child(object, "pbrMetallicRoughness");
   get(pbr, "baseColorFactor", material.baseColorFactor);
+  get(child(pbr, "baseColorTexture"), "index", material.baseColorTexture);
+  get(child(pbr, "metallicRoughnessTexture"), "index", material.metallicRoughnessTexture);
   get(pbr, "metallicFactor", material.metallicFactor);
   get(pbr, "roughnessFactor", material.roughnessFactor);
   const json& extensions = child(object, "extensions");
   get(child(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", material.emissiveStrength);
   get(child(extensions, "KHR_materials_ior"), "ior", material.ior);
-  material.hasEmissiveTexture = object.contains("emissiveTexture");
+  get(child(object, "emissiveTexture"), "index", material.emissiveTexture);
   const json& specular = child(extensions, "KHR_materials_specular");
   get(specular, "specularFactor", material.specularFactor);
   get(specular, "specularColorFactor", material.specularColorFactor);
@@ -216,6 +218,8 @@ Material toMaterial(const json& object) {
     get(*found, "diffuseFactor", values.diffuseFactor);
     get(*found, "specularFactor", values.specularFactor);
     get(*found, "glossinessFactor", values.glossinessFactor);
+    get(child(*found, "diffuseTexture"), "index", values.diffuseTexture);
+    get(child(*found, "specularGlossinessTexture"), "index", values.specularGlossinessTexture);
   }
   get(child(extensions, "KHR_materials_transmission"), "transmissionFactor", material.transmissionFactor);
   const json& volume = child(extensions, "KHR_materials_volume");
@@ -223,6 +227,14 @@ Material toMaterial(const json& object) {
   get(volume, "attenuationColor", material.attenuationColor);
   get(volume, "attenuationDistance", material.attenuationDistance);
   return material;
+}
+
+Image toImage(const json& object) {
+  Image image;
+  get(object, "name", image.name);
+  get(object, "uri", image.uri);
+  get(object, "bufferView", image.bufferView);
+  return image;
 }
 
 Camera toCamera(const json& object) {
@@ -306,6 +318,8 @@ Document toDocument(json document, const std::string& where, GltfLeftOut& leftOu
   lists.convert("bufferViews", result.bufferViews, toBufferView);
   lists.convert("buffers", result.buffers, [](json& buffer, const std::string&) { return toBuffer(buffer); });
   for (const json& material : lists.take("materials")) result.materials.push_back(toMaterial(material));
+  for (const json& texture : lists.take("textures")) get(texture, "source", result.textures.emplace_back());
+  for (const json& image : lists.take("images")) result.images.push_back(toImage(image));
   for (const json& camera : lists.take("cameras")) result.cameras.push_back(toCamera(camera));
   const json& punctual = child(child(document, "extensions"), "KHR_lights_punctual");
   if (const auto lights = punctual.find("lights"); lights != punctual.end())

@@ -124,11 +124,17 @@ struct Node {
   bool hasInvalidTransform = false, hasInvalidChildren = false, hasInvalidInstancing = false, hasInvalidSkin = false;
 };
 
+struct Image {
+  std::string name, uri;
+  std::optional<std::size_t> bufferView;  // in place of the URI
+};
+
 // KHR_materials_pbrSpecularGlossiness, in place of the metallic-roughness values.
 struct SpecularGlossiness {
   std::array<double, 4> diffuseFactor{1, 1, 1, 1};
   std::array<double, 3> specularFactor{1, 1, 1};
   double glossinessFactor = 1;
+  std::optional<std::size_t> diffuseTexture, specularGlossinessTexture;
 };
 
 struct Material {
@@ -140,7 +146,7 @@ struct Material {
   std::string alphaMode = "OPAQUE";
   bool doubleSided = false;
   double emissiveStrength = 1;  // KHR_materials_emissive_strength
-  bool hasEmissiveTexture = false;
+  std::optional<std::size_t> baseColorTexture, metallicRoughnessTexture, emissiveTexture;
   double ior = 1.5;           // KHR_materials_ior; 0: the reflectance is 1
   double specularFactor = 1;  // KHR_materials_specular
   std::array<double, 3> specularColorFactor{1, 1, 1};
@@ -183,6 +189,8 @@ struct Document {
   std::vector<BufferView> bufferViews;
   std::vector<Buffer> buffers;
   std::vector<Material> materials;
+  std::vector<std::optional<std::size_t>> textures;  // the image of each
+  std::vector<Image> images;
   std::vector<Camera> cameras;
   std::vector<Light> lights;
 };

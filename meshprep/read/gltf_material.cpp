@@ -75,6 +75,28 @@ void readBase(const gltf::Material& material, const BoundsCheck& checked, Source
         checked("specularColorFactor", material.specularColorFactor[i], 0, kMaxSpecularColour);
 }
 
+// Sets the images of the textures. Those of metallic-roughness do not apply to specular-glossiness.
+void readTextures(const gltf::Document& document, const gltf::Material& material, std::vector<std::string>& notes,
+                  SourceMaterial& result) {
+  const auto image = [&](std::optional<std::size_t> texture) -> std::optional<std::size_t> {
+    if (!texture || *texture >= document.textures.size()) return {};
+    const std::optional<std::size_t> source = document.textures[*texture];
+    return source && *source < document.images.size() ? source : std::nullopt;
+  };
+  result.emissiveImage = image(material.emissiveTexture);
+  if (material.specularGlossiness) {
+    result.baseColourImage = image(material.specularGlossiness->diffuseTexture);
+    result.specularGlossinessImage = image(material.specularGlossiness->specularGlossinessTexture);
+  } else {
+    result.baseColourImage = image(material.baseColorTexture);
+    result.metallicRoughnessImage = image(material.metallicRoughnessTexture);
+  }
+  // A texture without an image that can be read, such as KTX2: most of a mask of emission is black.
+  if (!material.emissiveTexture || result.emissiveImage || result.emissive == glm::dvec3(0.0)) return;
+  result.emissive = glm::dvec3(0.0);
+  addNote(notes, fmt::format("the emission of material '{}', whose emissive texture cannot be read", material.name));
+}
+
 void readEmission(const gltf::Material& material, const BoundsCheck& checked, std::vector<std::string>& notes,
                   SourceMaterial& result) {
   for (std::size_t i = 0; i < 3; ++i)
@@ -82,10 +104,6 @@ void readEmission(const gltf::Material& material, const BoundsCheck& checked, st
   if (result.emissive.x > 1 || result.emissive.y > 1 || result.emissive.z > 1)
     addNote(notes, std::string(kAcceptedNote) + "emissive factors above 1");
   result.emissive *= checked("emissiveStrength", material.emissiveStrength, 0, kMaxEmission);
-  // The factor is usually 1, and the texture mostly black.
-  if (!material.hasEmissiveTexture || result.emissive == glm::dvec3(0.0)) return;
-  result.emissive = glm::dvec3(0.0);
-  addNote(notes, fmt::format("the emission of material '{}', which has an emissive texture", material.name));
 }
 
 // Sets transmission, volume and layers.
@@ -106,7 +124,7 @@ void readDielectric(const gltf::Material& material, const BoundsCheck& checked, 
 
 }  // namespace
 
-SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& location,
+SourceMaterial gltfMaterial(const gltf::Document& document, const gltf::Material& material, const std::string& location,
                             std::vector<std::string>& notes, bool strict) {
   const BoundsCheck checked(location, notes, strict);
   SourceMaterial result;
@@ -115,6 +133,7 @@ SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& l
   readBase(material, checked, result);
   readEmission(material, checked, notes, result);
   readDielectric(material, checked, result);
+  readTextures(document, material, notes, result);
   result.isDoubleSided = material.doubleSided;
   if (material.alphaMode != "OPAQUE") addNote(notes, "alpha coverage");
   if (result.transmission > 0 && result.hasVolume && result.baseColour != glm::dvec3(1.0))

@@ -1,9 +1,8 @@
 // Materials of glTF 2.0: metallic-roughness, emission, and the extensions KHR_materials_ior, _transmission, _volume,
 // _specular, _iridescence, _clearcoat, _emissive_strength and _pbrSpecularGlossiness.
 //
-// An attenuation distance is used without a thickness too, because meshes are closed. The emission of a material with
-// an emissive texture, which is not read, is left out. Emissive factors above 1, which exporters wrote before
-// KHR_materials_emissive_strength, are accepted with a note. Ignored content leaves a note.
+// An attenuation distance is used without a thickness too, because meshes are closed. Emissive factors above 1, which
+// exporters wrote before KHR_materials_emissive_strength, are accepted with a note. Ignored content leaves a note.
 #pragma once
 
 #include <string>
@@ -16,7 +15,7 @@ namespace malus::prep {
 
 // location: "materials[0]". A number out of the range of glTF and its extensions is clamped with a note, or replaced by
 // the default if the range has no end; if `strict` it is an Error.
-SourceMaterial gltfMaterial(const gltf::Material& material, const std::string& location,
+SourceMaterial gltfMaterial(const gltf::Document& document, const gltf::Material& material, const std::string& location,
                             std::vector<std::string>& notes, bool strict = false);
 
 }  // namespace malus::prep

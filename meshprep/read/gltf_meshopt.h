@@ -12,7 +12,7 @@
 namespace malus::prep {
 
 // Returns the elements, `count` times `byteStride` bytes. location: the buffer view, for messages. Throws Error: an
-// unknown mode or filter, a stride or count that these do not have, more elements than the bytes can hold (64 times
+// unknown mode or filter, a stride or count that these do not have, more elements than the bytes can contain (64 times
 // their size), corrupt data.
 std::vector<std::byte> decodeGltfMeshopt(std::span<const std::byte> bytes, const gltf::MeshoptCompression& compression,
                                          const std::string& location);

@@ -151,19 +151,29 @@ constexpr std::array kRules = {
     optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", Type::numbers, 4),
     optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", Type::numbers, 3),
     optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", Type::number),
-    noted("materials/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture", "base colour textures"),
-    noted("materials/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture", "specular textures"),
+    optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture", Type::object),
+    Rule{"materials/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture/index", Type::index, 0, true},
+    optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture", Type::object),
+    Rule{"materials/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture/index", Type::index, 0,
+         true},
     noted("materials/extensions/KHR_materials_transmission/transmissionTexture", "transmission textures"),
     noted("materials/extensions/KHR_materials_volume/thicknessTexture", "thickness textures"),
     optionalValue("materials/emissiveTexture", Type::object),
+    Rule{"materials/emissiveTexture/index", Type::index, 0, true},
     optionalValue("materials/extensions/KHR_materials_emissive_strength", Type::object),
     optionalValue("materials/extensions/KHR_materials_emissive_strength/emissiveStrength", Type::number),
-    noted("materials/pbrMetallicRoughness/baseColorTexture", "base colour textures"),
-    noted("materials/pbrMetallicRoughness/metallicRoughnessTexture", "metallic-roughness textures"),
+    optionalValue("materials/pbrMetallicRoughness/baseColorTexture", Type::object),
+    Rule{"materials/pbrMetallicRoughness/baseColorTexture/index", Type::index, 0, true},
+    optionalValue("materials/pbrMetallicRoughness/metallicRoughnessTexture", Type::object),
+    Rule{"materials/pbrMetallicRoughness/metallicRoughnessTexture/index", Type::index, 0, true},
     noted("materials/normalTexture", "normal textures"),
     noted("materials/occlusionTexture", "occlusion textures"),
-    noted("textures", "textures"),
-    noted("images", "images"),
+    optionalValue("textures", Type::objects),
+    optionalValue("textures/source", Type::index),
+    optionalValue("images", Type::objects),
+    optionalValue("images/name", Type::text),
+    optionalValue("images/uri", Type::text),
+    optionalValue("images/bufferView", Type::index),
     noted("animations", "animations (the default pose is used)"),
     optionalValue("skins", Type::objects),
     Rule{"skins/joints", Type::indices, 0, true},
@@ -210,9 +220,13 @@ std::string unknownKeyNote(std::string_view path) {
   constexpr auto kHarmless = std::to_array<std::string_view>(
       {"accessors/min", "accessors/max", "bufferViews/target", "cameras/perspective/znear", "cameras/perspective/zfar",
        "cameras/orthographic/znear", "cameras/orthographic/zfar", "samplers", "skins/skeleton",
-       "materials/extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", "materials/emissiveTexture/index",
-       "materials/emissiveTexture/texCoord", "materials/emissiveTexture/extensions"});
+       "materials/extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", "textures/sampler",
+       "images/mimeType"});
   if (std::find(kHarmless.begin(), kHarmless.end(), path) != kHarmless.end()) return {};
+  // The coordinates of a texture.
+  if (path.find("Texture/texCoord") != std::string_view::npos ||
+      path.find("Texture/extensions") != std::string_view::npos)
+    return {};
   constexpr std::string_view kAttributes = "meshes/primitives/attributes/_";  // of the application
   if (path.starts_with(kAttributes)) return {};
   constexpr std::string_view kExtensions = "extensions/";

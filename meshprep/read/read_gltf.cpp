@@ -14,6 +14,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/read/gltf_buffers.h"
 #include "meshprep/read/gltf_document.h"
+#include "meshprep/read/gltf_images.h"
 #include "meshprep/read/gltf_json.h"
 #include "meshprep/read/gltf_left_out.h"
 #include "meshprep/read/gltf_material.h"
@@ -111,7 +112,7 @@ class PartReader {
 
 }  // namespace
 
-SourceScene readGltf(const std::filesystem::path& path, bool strict) {
+SourceScene readGltf(const std::filesystem::path& path, bool strict, bool withImages) {
   const std::string where = path.string();
   SourceScene scene;
   GltfLeftOut leftOut(strict, where, scene.notes);
@@ -127,10 +128,13 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
               fmt::format("{}backslashes in the file name {}", kAcceptedNote, buffer.uri.substr(0, kMaxShownUri)));
   GltfBuffers buffers(std::move(document.buffers), container, path);
 
+  scene.images = gltfImages(document, buffers, path, withImages, leftOut);
+
   // Convert the materials.
   for (std::size_t i = 0; i < document.materials.size(); ++i)
-    scene.materials.push_back(gltfMaterial(
-        document.materials[i], fmt::format("{}materials[{}]", strict ? where + ": " : "", i), scene.notes, strict));
+    scene.materials.push_back(gltfMaterial(document, document.materials[i],
+                                           fmt::format("{}materials[{}]", strict ? where + ": " : "", i), scene.notes,
+                                           strict));
 
   // Place the meshes. Meshes without a placement are not read.
   const GltfPlacements all = gltfPlacements(document, buffers, kMaxInstances, where, leftOut);
@@ -178,22 +182,23 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict) {
   return scene;
 }
 
-std::vector<std::filesystem::path> gltfBufferFiles(const std::filesystem::path& path) {
+std::vector<std::filesystem::path> gltfFiles(const std::filesystem::path& path) {
   const std::string where = path.string();
   std::vector<std::string> notes;
   GltfLeftOut leftOut(false, where, notes);
   const GltfContainer container(path);
   const gltf::Document document = gltf::toDocument(parseGltfJson(container.json(), where, leftOut), where, leftOut);
   std::set<std::filesystem::path> files;
-  for (std::size_t i = 0; i < document.buffers.size(); ++i) {
-    const std::string& uri = document.buffers[i].uri;
-    if (uri.empty() || isDataUri(uri)) continue;
+  const auto add = [&](const std::string& uri, const char* list, std::size_t i) {
+    if (uri.empty() || isDataUri(uri)) return;
     try {
-      files.insert(resolveGltfUri(path, uri, fmt::format("{}: buffers[{}].uri", where, i)));
+      files.insert(resolveGltfUri(path, uri, fmt::format("{}: {}[{}].uri", where, list, i)));
     } catch (const Error&) {  // readGltf() does not open it either
-      continue;
+      return;
     }
-  }
+  };
+  for (std::size_t i = 0; i < document.buffers.size(); ++i) add(document.buffers[i].uri, "buffers", i);
+  for (std::size_t i = 0; i < document.images.size(); ++i) add(document.images[i].uri, "images", i);
   return {files.begin(), files.end()};
 }
 

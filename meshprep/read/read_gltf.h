@@ -1,5 +1,6 @@
-// glTF 2.0, as JSON (.gltf) or binary (.glb), with KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_mesh_quantization,
-// KHR_lights_punctual, EXT_mesh_gpu_instancing and KHR_materials_ior, _transmission, _volume and _emissive_strength.
+// glTF 2.0, as JSON (.gltf) or binary (.glb), with KHR_draco_mesh_compression, EXT_meshopt_compression,
+// KHR_mesh_quantization, KHR_lights_punctual, EXT_mesh_gpu_instancing and KHR_materials_ior, _transmission, _volume and
+// _emissive_strength.
 //
 // The JSON is parsed through a whitelist of keys and types (gltf_json.h) into structures (gltf_document.h). Buffers are
 // data URIs, files in the folder of the glTF file or below it, or the chunk of a GLB; no other file is opened. Every
@@ -35,9 +36,10 @@ namespace malus::prep {
 //
 // Throws Error that names the file and the location in it ("meshes[0].primitives[1]", or a byte): not glTF 2.0, an
 // unknown required extension, a list of the wrong type, a limit exceeded, root nodes that are unknown (gltf_nodes.h).
-SourceScene readGltf(const std::filesystem::path& path, bool strict = false);
+// withImages: see readSourceScene().
+SourceScene readGltf(const std::filesystem::path& path, bool strict = false, bool withImages = false);
 
-// Files that contain the buffers, without those that must not be opened.
-std::vector<std::filesystem::path> gltfBufferFiles(const std::filesystem::path& path);
+// Files that contain the buffers and images, without those that must not be opened.
+std::vector<std::filesystem::path> gltfFiles(const std::filesystem::path& path);
 
 }  // namespace malus::prep

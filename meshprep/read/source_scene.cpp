@@ -113,8 +113,8 @@ SourceScene splitByMaterial(Polygons polygons) {
   return scene;
 }
 
-SourceScene readSourceScene(const std::filesystem::path& path, bool strict) {
-  if (isGltf(path)) return readGltf(path, strict);
+SourceScene readSourceScene(const std::filesystem::path& path, bool strict, bool withImages) {
+  if (isGltf(path)) return readGltf(path, strict, withImages);
   Polygons polygons = readMesh(path, strict);
   const std::vector<std::string> files = polygons.materialFiles;
   SourceScene scene = splitByMaterial(std::move(polygons));
@@ -188,7 +188,7 @@ Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> i
 }
 
 std::vector<std::filesystem::path> referencedFiles(const std::filesystem::path& path) {
-  if (isGltf(path)) return gltfBufferFiles(path);
+  if (isGltf(path)) return gltfFiles(path);
   if (lowerExtension(path) != ".obj") return {};
   return listMaterialFiles(path, listMtllibs(readTextFile(path), path.string()));
 }

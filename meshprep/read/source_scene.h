@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,7 +27,15 @@ namespace malus::prep {
 // Share of the light of a dielectric above which a material transmits; up to it, the material is opaque.
 inline constexpr double kTransmissive = 0.5;
 
-// Material as in glTF 2.0, with its defaults. Colours are linear. Textures are ignored.
+// Image that a material refers to.
+struct SourceImage {
+  std::string name;                                     // for messages
+  std::filesystem::path file;                           // or, if that is empty,
+  std::shared_ptr<const std::vector<std::byte>> bytes;  // the bytes of a file; null: the image cannot be found
+};
+
+// Material as in glTF 2.0, with its defaults. Colours are linear. Textures, indices into the images of the scene, are
+// multiplied by the factors; those with other roles are ignored.
 struct SourceMaterial {
   std::string name;  // empty if the file has none
   glm::dvec3 baseColour{1.0};
@@ -44,8 +53,12 @@ struct SourceMaterial {
   double film = 0;                 // 0 to 1: share of the surface with a thin film
   double filmIor = 1.3;            // 1 or more
   double filmThicknessNm = 400;
-  bool hasVolume = false;                                                // the interior absorbs light:
-  glm::dvec3 attenuationColour{1};                                       // transmittance of
+  std::optional<std::size_t> baseColourImage;          // sRGB
+  std::optional<std::size_t> metallicRoughnessImage;   // linear: roughness is green, metallic blue
+  std::optional<std::size_t> emissiveImage;            // sRGB
+  std::optional<std::size_t> specularGlossinessImage;  // sRGB and linear alpha, of specularColour and 1 - roughness
+  bool hasVolume = false;                              // the interior absorbs light:
+  glm::dvec3 attenuationColour{1};                     // transmittance of
   double attenuationDistance = std::numeric_limits<double>::infinity();  // this distance, metres
 };
 
@@ -72,6 +85,7 @@ struct SourceInstance {
 
 struct SourceScene {
   std::vector<SourceMaterial> materials;
+  std::vector<SourceImage> images;
   std::vector<SourcePart> parts;
   std::vector<SourceInstance> instances;
   std::vector<SourceCamera> cameras;  // of glTF, in the order of the nodes, depth-first
@@ -86,7 +100,8 @@ void addNote(std::vector<std::string>& notes, std::string note);
 
 // Reads a file by its extension: .gltf, .glb, .obj, .ply, .stl, .off. strict: as readGltf(). Throws Error as the reader
 // of the format (read_gltf.h, read_mtl.h, read_mesh.h).
-SourceScene readSourceScene(const std::filesystem::path& path, bool strict = false);
+// withImages: the bytes of images in buffers are copied; without it they are null.
+SourceScene readSourceScene(const std::filesystem::path& path, bool strict = false, bool withImages = false);
 
 // Groups faces by material: one part per material, in the order of their first faces, with the vertices that its faces
 // use, in the order of the file. Of the materials only the names are set. Without materials there is one part.
@@ -97,7 +112,8 @@ inline glm::dvec3 toWorld(const SourceInstance& instance, const glm::dvec3& p) {
   return glm::dmat3(instance.worldFromObject) * p + glm::dvec3(instance.worldFromObject[3]);
 }
 
-// Returns the notes for a use of the meshes alone: those of the scene, and of its cameras and lights, which are left out.
+// Returns the notes for a use of the meshes alone: those of the scene, and of its cameras and lights, which are left
+// out.
 std::vector<std::string> notesOfMeshes(const SourceScene& scene);
 
 // Merges all instances in world space; the parts of the result are the instances. Faces of mirrored instances are

@@ -284,7 +284,7 @@ TEST(ReadGltf, ListsBufferFilesThatMayBeOpened) {
   gltf.document["buffers"] = json::parse(R"([{"uri": "a.bin", "byteLength": 44}, {"uri": "../b.bin", "byteLength": 4},
                                              {"uri": 3, "byteLength": 4}, "x"])");
   const TemporaryFile file(".gltf", gltf.document.dump());
-  EXPECT_EQ(gltfBufferFiles(file.path()), std::vector{file.path().parent_path() / "a.bin"});
+  EXPECT_EQ(gltfFiles(file.path()), std::vector{file.path().parent_path() / "a.bin"});
 }
 
 }  // namespace

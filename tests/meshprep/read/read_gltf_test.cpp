@@ -55,7 +55,7 @@ TEST(ReadGltf, ReadsFilesInTheFolderOnly) {
   const std::filesystem::path bin = text.path().parent_path() / name;
   std::ofstream(bin, std::ios::binary) << gltf.bin;
   EXPECT_EQ(readGltf(text.path()).parts.size(), 1u);
-  EXPECT_EQ(gltfBufferFiles(text.path()), std::vector{bin});
+  EXPECT_EQ(gltfFiles(text.path()), std::vector{bin});
   std::filesystem::remove(bin);
   EXPECT_CONTAINS(errorMessage([&] { readGltf(text.path()); }), name + ": cannot open");
   for (const char* uri : {"/etc/passwd", "../x.bin", "a/../../x.bin", "http://a.b/c.bin", "file:x.bin", "%2e%2e/x.bin"})
@@ -348,7 +348,7 @@ TEST(ReadGltf, AcceptsBackslashesInFileNames) {
     EXPECT_EQ(std::count_if(scene.notes.begin(), scene.notes.end(),
                             [](const std::string& note) { return note.find("backslashes") != std::string::npos; }),
               1);
-    EXPECT_EQ(gltfBufferFiles(folder / "a.gltf").at(0).lexically_normal(), folder / "sub" / "a.bin");
+    EXPECT_EQ(gltfFiles(folder / "a.gltf").at(0).lexically_normal(), folder / "sub" / "a.bin");
   }
   std::ofstream(folder / "a.gltf") << gltf.gltf("..\\a.bin");
   EXPECT_CONTAINS(errorMessage([&] { readGltf(folder / "a.gltf"); }), "not allowed");

@@ -1,0 +1,104 @@
+#include "bake/materials/texture_means.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+#include "meshprep/base/image.h"
+#include "meshprep/base/image_colour.h"
+
+namespace malus::bake {
+
+namespace {
+
+enum class Role { colour, numbers };  // encoded by sRGB, or linear; alpha always is linear
+
+using Mean = std::array<double, 4>;  // red, green, blue, alpha
+
+Mean computeMean(const image::Image& image, Role role, const std::string& name) {
+  const image::LinearColours colours(image, name, true);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const int alpha = image.channel("A");
+  Mean sum{};
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const std::array<double, 3> stored = colours.stored(i);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += role == Role::colour ? image::decodeSrgb(stored[c]) : stored[c];
+    sum[3] +=
+        alpha < 0 ? 1 : static_cast<double>(image.pixels[i * image.channels.size() + static_cast<std::size_t>(alpha)]);
+  }
+  for (double& value : sum) value /= static_cast<double>(pixels);
+  return sum;
+}
+
+// Means of the images of a file, each read once.
+class TextureMeans {
+ public:
+  TextureMeans(prep::SourceScene& scene, bool strict) : scene_(scene), strict_(strict) {}
+
+  // Returns nothing if the image cannot be read.
+  std::optional<Mean> operator()(std::size_t image, Role role) {
+    const auto [found, isNew] = means_.try_emplace({image, role});
+    if (isNew) found->second = read(scene_.images[image], role);
+    return found->second;
+  }
+
+ private:
+  std::optional<Mean> read(const prep::SourceImage& source, Role role) {
+    try {
+      if (source.file.empty() && !source.bytes) return {};  // noted by the reader of the file
+      const std::string name = source.bytes ? source.name : source.file.string();
+      return computeMean(source.bytes ? image::readBytes(*source.bytes, name) : image::read(source.file), role, name);
+    } catch (const Error& error) {
+      if (strict_) throw;
+      prep::addNote(scene_.notes, error.what());
+      return {};
+    }
+  }
+
+  prep::SourceScene& scene_;
+  bool strict_;
+  std::map<std::pair<std::size_t, Role>, std::optional<Mean>> means_;
+};
+
+glm::dvec3 toColour(const Mean& mean) { return {mean[0], mean[1], mean[2]}; }
+
+}  // namespace
+
+void applyTextureMeans(prep::SourceScene& scene, bool strict) {
+  TextureMeans means(scene, strict);
+  std::size_t applied = 0;
+  const auto take = [&](std::optional<std::size_t>& image, Role role) -> std::optional<Mean> {
+    const std::optional<std::size_t> index = std::exchange(image, std::nullopt);
+    const std::optional<Mean> mean = index ? means(*index, role) : std::nullopt;
+    applied += mean ? 1 : 0;
+    return mean;
+  };
+  for (prep::SourceMaterial& m : scene.materials) {
+    const bool hasEmissiveImage = m.emissiveImage.has_value() && m.emissive != glm::dvec3(0.0);
+    if (const auto mean = take(m.baseColourImage, Role::colour)) m.baseColour *= toColour(*mean);
+    if (const auto mean = take(m.metallicRoughnessImage, Role::numbers)) {
+      m.roughness *= std::clamp((*mean)[1], 0.0, 1.0);
+      m.metallic *= std::clamp((*mean)[2], 0.0, 1.0);
+    }
+    if (const auto mean = take(m.specularGlossinessImage, Role::colour)) {
+      m.specularColour *= toColour(*mean);
+      m.roughness = 1 - (1 - m.roughness) * std::clamp((*mean)[3], 0.0, 1.0);
+    }
+    const auto emission = take(m.emissiveImage, Role::colour);
+    if (emission) {
+      m.emissive *= toColour(*emission);
+    } else if (hasEmissiveImage) {
+      m.emissive = glm::dvec3(0.0);
+      prep::addNote(scene.notes,
+                    fmt::format("the emission of material '{}', whose emissive texture cannot be read", m.name));
+    }
+  }
+  if (applied > 0) prep::addNote(scene.notes, fmt::format("variation of textures ({}; their means are used)", applied));
+}
+
+}  // namespace malus::bake

@@ -51,6 +51,15 @@ class Scaling(unittest.TestCase):
             first, last = self.series[name]
             self.assertLess(first["rays"], last["rays"], name)
 
+    def test_vulkan(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            done = run("--malus", os.environ["MALUS"], "--backend", "vulkan", "--series", "resolution=8,16", "--methods",
+                       "schlick", "--rounds", 1, "--packs", self.folder / "packs", temporary)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            found = json.loads((pathlib.Path(temporary) / "scaling.json").read_text(encoding="utf-8"))
+        self.assertNotIn("Embree", found["device"])
+        self.assertEqual([len(p["rows"]) for p in found["series"][0]["points"]], [1, 1])
+
     def test_rows_have_times_and_memory(self):
         self.assertRegex(self.results["date"], r"^\d{4}-\d\d-\d\d \d\d:\d\d UTC$")
         self.assertIn("Embree", self.results["device"])

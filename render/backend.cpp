@@ -17,6 +17,7 @@ Backend backendNamed(std::string_view name) {
 
 std::vector<std::string> backendNames() {
   std::vector<std::string> names;
+  names.reserve(std::size(kBackends));
   for (const BackendInfo& b : kBackends) names.emplace_back(b.name);
   return names;
 }

@@ -92,6 +92,22 @@ class MaterialIndices {
   std::map<std::size_t, std::uint32_t> made_;
 };
 
+// Removes the instances of parts whose material is not drawn, unless the scene replaces it. Throws Error if none is
+// left.
+void removeInvisible(const ImportDescription& description, prep::SourceScene& source) {
+  const auto isHidden = [&](const prep::SourceInstance& instance) {
+    const std::optional<std::size_t> material = source.parts[instance.part].material;
+    return material && isInvisible(source.materials[*material]) &&
+           !description.materials.contains(source.materials[*material].name);
+  };
+  const std::size_t removed = std::erase_if(source.instances, isHidden);
+  if (removed == 0) return;
+  if (source.instances.empty())
+    throw Error(description.file.string(), "every surface is invisible by the alpha of its material",
+                "a material with more alpha, or one of the scene in 'materials'");
+  prep::addNote(source.notes, fmt::format("surfaces that are invisible by the alpha of their material ({})", removed));
+}
+
 // Returns the uses of the parts. Makes the materials in the order of the instances.
 std::vector<PartUse> findUses(const prep::SourceScene& source, const std::set<std::string>& openSurfaces,
                               MaterialIndices& indices, const std::vector<pack::Material>& materials) {
@@ -161,6 +177,7 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
   Imported result;
   prep::SourceScene source = prep::readSourceScene(description.file, strict, true);
   applyTextureMeans(source, strict);
+  removeInvisible(description, source);
   std::vector<std::string>& notes = source.notes;
 
   // Find open surfaces by the name of a part or an instance.

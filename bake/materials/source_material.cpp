@@ -18,6 +18,7 @@ constexpr double kMattAlpha = 0.3;    // rougher is matt
 constexpr double kLeastColour = 1e-6;
 constexpr double kMostDielectricReflectance = 0.25;  // of an index of 3, above that of every clear solid
 constexpr double kCoatIor = 1.5;                     // of KHR_materials_clearcoat
+constexpr double kOpaqueAlpha = 0.5;                 // coverage from which a blended material is opaque
 constexpr double kLeastEmission = 0.1;               // of the colour; less emission gives way to the reflection
 constexpr double kMostRadiance = 1e9;
 
@@ -118,6 +119,11 @@ void addLayers(const prep::SourceMaterial& source, pack::Material& result, std::
 
 }  // namespace
 
+bool isInvisible(const prep::SourceMaterial& source) {
+  if (source.alphaMode == prep::AlphaMode::mask) return source.alpha < source.alphaCutoff;
+  return source.alphaMode == prep::AlphaMode::blend && source.alpha == 0;
+}
+
 pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<std::string>& notes) {
   using Kind = pack::MaterialKind;
   pack::Material result;
@@ -141,7 +147,16 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
     result.twoSided = source.isDoubleSided;
     return result;
   }
-  if (transmission > prep::kTransmissive) {
+  const bool isPane =
+      source.alphaMode == prep::AlphaMode::blend && source.alpha < kOpaqueAlpha && transmission <= prep::kTransmissive;
+  if (source.alphaMode != prep::AlphaMode::opaque)
+    prep::addNote(notes, fmt::format("the alpha of material '{}', which is drawn as {}", source.name,
+                                     isPane ? "thin glass" : "opaque"));
+  if (isPane) {
+    result.kind = Kind::thinGlass;
+    result.eta = dielectricIndex(source);
+    result.transmittanceParallel = 1.0 - source.alpha * (1.0 - colour);
+  } else if (transmission > prep::kTransmissive) {
     result.kind = source.isThinWalled ? Kind::thinGlass : Kind::glass;
     result.eta = dielectricIndex(source);
     if (source.isThinWalled) result.transmittanceParallel = colour;  // of thin glass: internal transmittance

@@ -3,7 +3,9 @@
 //
 //   emissive over 0.1 of    emitter: radiance = emissive, whose cd/m^2 are taken as the scene's unit; twoSided if the
 //   the base colour         material is double-sided. Fainter emission is left out, with a note
-//   transmission over 0.5   transmission x (1 - metallic), as metals are opaque. Thin-walled (glTF without a volume, or
+//   blended alpha a under   thin-glass: eta of the dielectric below, internal transmittance 1 - a (1 - base colour),
+//   for 0.5, transmission at    panes of exporters without transmission most 0.5 transmission over 0.5   transmission x
+//   (1 - metallic), as metals are opaque. Thin-walled (glTF without a volume, or
 //                           with one of thickness 0): thin-glass, eta = ior, internal transmittance at normal incidence
 //                           = base colour. Otherwise glass: eta = ior; with a volume, absorption = -ln(attenuation
 //                           colour) / attenuation distance per metre, a colour under 1e-6 counting as 1e-6, at most
@@ -39,6 +41,10 @@
 #include "meshprep/read/source_scene.h"
 
 namespace malus::bake {
+
+// Whether the surface is not drawn: the alpha of a mask is under its cutoff, or that of a blended material is 0. Other
+// alpha of masks is left out, with a note.
+bool isInvisible(const prep::SourceMaterial& source);
 
 // Keeps the name; values are within the bounds of a pack. Adds a note for everything that is left out.
 pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<std::string>& notes);

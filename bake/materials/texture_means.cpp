@@ -80,7 +80,10 @@ void applyTextureMeans(prep::SourceScene& scene, bool strict) {
   };
   for (prep::SourceMaterial& m : scene.materials) {
     const bool hasEmissiveImage = m.emissiveImage.has_value() && m.emissive != glm::dvec3(0.0);
-    if (const auto mean = take(m.baseColourImage, Role::colour)) m.baseColour *= toColour(*mean);
+    if (const auto mean = take(m.baseColourImage, Role::colour)) {
+      m.baseColour *= toColour(*mean);
+      if (m.alphaMode == prep::AlphaMode::blend) m.alpha *= std::clamp((*mean)[3], 0.0, 1.0);
+    }
     if (const auto mean = take(m.metallicRoughnessImage, Role::numbers)) {
       m.roughness *= std::clamp((*mean)[1], 0.0, 1.0);
       m.metallic *= std::clamp((*mean)[2], 0.0, 1.0);

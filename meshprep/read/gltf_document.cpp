@@ -192,6 +192,7 @@ Material toMaterial(const json& object) {
   get(object, "name", material.name);
   get(object, "emissiveFactor", material.emissiveFactor);
   get(object, "alphaMode", material.alphaMode);
+  get(object, "alphaCutoff", material.alphaCutoff);
   get(object, "doubleSided", material.doubleSided);
   const json& pbr = child(object, "pbrMetallicRoughness");
   get(pbr, "baseColorFactor", material.baseColorFactor);

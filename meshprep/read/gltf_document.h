@@ -143,7 +143,8 @@ struct Material {
   double metallicFactor = 1;
   double roughnessFactor = 1;
   std::array<double, 3> emissiveFactor{0, 0, 0};
-  std::string alphaMode = "OPAQUE";
+  std::string alphaMode = "OPAQUE";  // or "MASK", "BLEND"
+  double alphaCutoff = 0.5;
   bool doubleSided = false;
   double emissiveStrength = 1;  // KHR_materials_emissive_strength
   std::optional<std::size_t> baseColorTexture, metallicRoughnessTexture, emissiveTexture;

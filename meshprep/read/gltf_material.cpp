@@ -41,6 +41,13 @@ class BoundsCheck {
     return replaced(key, value, low, high, std::clamp(value, low, high));
   }
 
+  // Reports a text that is replaced by the default.
+  void unknown(std::string_view key, const std::string& value, std::string_view expected) const {
+    const Error error(fmt::format("{}.{}", location_, key), "is unknown", expected, "'" + value.substr(0, 40) + "'");
+    if (strict_) throw Error(error);
+    addNote(notes_, error.what());
+  }
+
   // Red, green and blue from 0 to 1.
   template <std::size_t n>
   glm::dvec3 operator()(std::string_view key, const std::array<double, n>& color) const {
@@ -106,6 +113,19 @@ void readEmission(const gltf::Material& material, const BoundsCheck& checked, st
   result.emissive *= checked("emissiveStrength", material.emissiveStrength, 0, kMaxEmission);
 }
 
+void readAlpha(const gltf::Material& material, const BoundsCheck& checked, SourceMaterial& result) {
+  const double alpha =
+      material.specularGlossiness ? material.specularGlossiness->diffuseFactor[3] : material.baseColorFactor[3];
+  result.alpha = checked("alpha", alpha, 0, 1);
+  result.alphaCutoff = checked.replaced("alphaCutoff", material.alphaCutoff, 0, kInfinity, 0.5);
+  if (material.alphaMode == "MASK")
+    result.alphaMode = AlphaMode::mask;
+  else if (material.alphaMode == "BLEND")
+    result.alphaMode = AlphaMode::blend;
+  else if (material.alphaMode != "OPAQUE")
+    checked.unknown("alphaMode", material.alphaMode, "OPAQUE, MASK or BLEND");
+}
+
 // Sets transmission, volume and layers.
 void readDielectric(const gltf::Material& material, const BoundsCheck& checked, SourceMaterial& result) {
   result.transmission = checked("transmissionFactor", material.transmissionFactor, 0, 1);
@@ -135,7 +155,7 @@ SourceMaterial gltfMaterial(const gltf::Document& document, const gltf::Material
   readDielectric(material, checked, result);
   readTextures(document, material, notes, result);
   result.isDoubleSided = material.doubleSided;
-  if (material.alphaMode != "OPAQUE") addNote(notes, "alpha coverage");
+  readAlpha(material, checked, result);
   if (result.transmission > 0 && result.hasVolume && result.baseColour != glm::dvec3(1.0))
     addNote(notes, "base colours of transmissive materials with a volume");
   return result;

@@ -120,6 +120,7 @@ constexpr std::array kRules = {
     optionalValue("materials/pbrMetallicRoughness/roughnessFactor", Type::number),
     optionalValue("materials/emissiveFactor", Type::numbers, 3),
     optionalValue("materials/alphaMode", Type::text),
+    optionalValue("materials/alphaCutoff", Type::number),
     optionalValue("materials/doubleSided", Type::flag),
     optionalValue("materials/extensions", Type::object),
     optionalValue("materials/extensions/KHR_materials_ior", Type::object),

@@ -34,11 +34,16 @@ struct SourceImage {
   std::shared_ptr<const std::vector<std::byte>> bytes;  // the bytes of a file; null: the image cannot be found
 };
 
+enum class AlphaMode { opaque, mask, blend };
+
 // Material as in glTF 2.0, with its defaults. Colours are linear. Textures, indices into the images of the scene, are
 // multiplied by the factors; those with other roles are ignored.
 struct SourceMaterial {
   std::string name;  // empty if the file has none
   glm::dvec3 baseColour{1.0};
+  AlphaMode alphaMode = AlphaMode::opaque;
+  double alpha = 1;                // 0 to 1, of the base colour; not used if opaque
+  double alphaCutoff = 0.5;        // of a mask: alpha below it is no surface
   double metallic = 1;             // 0 to 1
   double roughness = 1;            // 0 to 1; the square root of GGX's alpha
   glm::dvec3 emissive{0.0};        // radiance, W / (m^2 sr) or relative, including the strength

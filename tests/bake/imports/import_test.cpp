@@ -119,6 +119,25 @@ TEST_F(Import, InstancesAndMaterials) {
   EXPECT_EQ(again.scene.meshes.size(), 4u);
 }
 
+TEST_F(Import, SurfacesWithoutAlphaAreNotDrawn) {
+  json& steel = gltf_.document["materials"][0];
+  steel["alphaMode"] = "MASK";
+  steel["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.5, 0.5, 0.25};
+  folder_.write("model.glb", gltf_.glb());
+  const Baked result = baked();
+  EXPECT_EQ(result.scene.meshes.size(), 2u);
+  EXPECT_TRUE(std::any_of(result.notes.begin(), result.notes.end(),
+                          [](const std::string& note) { return contains(note, "invisible", "(2)"); }));
+  // The scene's own material is drawn.
+  scene_["imports"][0]["materials"] = {{"steel", "gold"}};
+  EXPECT_EQ(baked().scene.meshes.size(), 4u);
+  scene_["imports"][0].erase("materials");
+  for (json& material : gltf_.document["materials"])
+    material.update({{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0}}}}});
+  folder_.write("model.glb", gltf_.glb());
+  EXPECT_CONTAINS(error(), "model.glb", "invisible");
+}
+
 TEST_F(Import, AppliesMaterialsAndTransformOfTheScene) {
   scene_["imports"][0]["materials"] = {{"steel", "gold"}};
   scene_["imports"][0]["transform"] = {{"scale", 2}, {"translate", {0, 0, 1}}};

@@ -145,6 +145,32 @@ TEST(SourceMaterial, IridescenceIsAThinFilm) {
   for (const std::string& note : notes) EXPECT_CONTAINS(note, "'plastic'", "film");
 }
 
+TEST(SourceMaterial, BlendedPanesAreThinGlass) {
+  prep::SourceMaterial source = dielectric(0);
+  source.alphaMode = prep::AlphaMode::blend;
+  source.alpha = 0.25;
+  std::vector<std::string> notes;
+  const pack::Material pane = convertMaterial(source, notes);
+  EXPECT_EQ(pane.kind, Kind::thinGlass);
+  EXPECT_EQ(pane.eta, glm::dvec3(1.5));
+  EXPECT_NEAR(pane.transmittanceParallel.x, 0.8, 1e-12);  // a quarter absorbs 0.8 of the light
+  EXPECT_NEAR(pane.transmittanceParallel.z, 0.9, 1e-12);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_CONTAINS(notes[0], "alpha", "'plastic'", "thin glass");
+  source.alpha = 0.75;
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::paint);
+  EXPECT_CONTAINS(notes.back(), "opaque");
+  EXPECT_FALSE(isInvisible(source));
+  source.alpha = 0;
+  EXPECT_TRUE(isInvisible(source));
+  source.alphaMode = prep::AlphaMode::opaque;
+  EXPECT_FALSE(isInvisible(source));
+  source.alphaMode = prep::AlphaMode::mask;
+  EXPECT_TRUE(isInvisible(source));
+  source.alpha = source.alphaCutoff;
+  EXPECT_FALSE(isInvisible(source));
+}
+
 TEST(SourceMaterial, FaintEmissionGivesWayToTheReflection) {
   prep::SourceMaterial source = dielectric(1);
   source.emissive = {0.05, 0.05, 0.05};

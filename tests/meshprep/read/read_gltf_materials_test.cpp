@@ -132,7 +132,7 @@ TEST(ReadGltf, ReadsMaterials) {
   gltf.document["materials"][1]["extensions"].erase("KHR_materials_volume");
   EXPECT_TRUE(readGlb(gltf).materials[1].isThinWalled);
 
-  // Left out: coverage, and the texture of the transmission as every texture.
+  // Left out: the texture of the transmission.
   gltf.document["materials"][1]["alphaMode"] = "BLEND";
   gltf.document["materials"][1]["doubleSided"] = true;
   gltf.document["materials"][1]["extensions"]["KHR_materials_transmission"]["transmissionTexture"] = {{"index", 0}};
@@ -142,8 +142,9 @@ TEST(ReadGltf, ReadsMaterials) {
   EXPECT_TRUE(noted.materials[1].isThinWalled);
   EXPECT_TRUE(noted.materials[1].isDoubleSided);
   EXPECT_FALSE(noted.materials[0].isDoubleSided);
-  EXPECT_TRUE(hasNote(noted, "alpha coverage"));
-  EXPECT_TRUE(hasNote(noted, "textures"));
+  EXPECT_EQ(noted.materials[1].alphaMode, AlphaMode::blend);
+  EXPECT_EQ(noted.materials[0].alphaMode, AlphaMode::opaque);
+  EXPECT_TRUE(hasNote(noted, "transmission textures (1"));
 }
 
 TEST(ReadGltf, LeavesOutKeysOfMaterialsWithAWrongType) {

@@ -127,13 +127,11 @@ TEST(ReadGltfViews, CountsContentThatIsLeftOut) {
   GltfFile gltf = triangleFile();
   gltf.document["animations"] = {
       {{"name", "walk"}, {"channels", {{{"name", "inner"}}}}}, {{"name", "run"}}, {{"x", 1}}};
-  gltf.document["textures"] = {{{"source", 0}}, {{"source", 0}}};
-  for (int i = 0; i < 12; ++i) gltf.add("images", {{"name", "image" + std::to_string(i)}});
+  for (int i = 0; i < 12; ++i) gltf.add("gizmos", {{"name", "gizmo" + std::to_string(i)}});
   const SourceScene scene = readGlb(gltf);
   EXPECT_TRUE(hasNote(scene, "animations (3: 'walk', 'run'; the default pose is used)"));
-  EXPECT_TRUE(hasNote(scene, "textures (2)"));
-  EXPECT_TRUE(hasNote(scene, "images (12: 'image0', "));
-  EXPECT_TRUE(hasNote(scene, "'image7', ...)"));
+  EXPECT_TRUE(hasNote(scene, "key 'gizmos' (12: 'gizmo0', "));
+  EXPECT_TRUE(hasNote(scene, "'gizmo7', ...)"));
 }
 
 }  // namespace

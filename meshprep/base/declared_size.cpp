@@ -21,15 +21,15 @@ std::string bytesAt(std::istream& file, std::uint64_t offset, std::size_t count)
   return bytes;
 }
 
-std::uint32_t byteOf(std::string_view bytes, std::size_t at) { return static_cast<unsigned char>(bytes[at]); }
+std::uint32_t byteAt(std::string_view bytes, std::size_t at) { return static_cast<unsigned char>(bytes[at]); }
 std::uint32_t little(std::string_view bytes, std::size_t at, std::size_t count) {
   std::uint32_t value = 0;
-  for (std::size_t i = count; i-- > 0;) value = value << 8u | byteOf(bytes, at + i);
+  for (std::size_t i = count; i-- > 0;) value = value << 8u | byteAt(bytes, at + i);
   return value;
 }
 std::uint32_t big(std::string_view bytes, std::size_t at, std::size_t count) {
   std::uint32_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) value = value << 8u | byteOf(bytes, at + i);
+  for (std::size_t i = 0; i < count; ++i) value = value << 8u | byteAt(bytes, at + i);
   return value;
 }
 
@@ -78,7 +78,7 @@ std::optional<ImageSize> sizeOfJpeg(std::istream& file) {
     if (segment.size() < 8) return std::nullopt;
     if (marker >= kFirstFrame && marker <= kLastFrame && marker != kHuffmanTables && marker != kExtension &&
         marker != kArithmeticTables)
-      return ImageSize{big(segment, 5, 2), big(segment, 3, 2), byteOf(segment, 7)};
+      return ImageSize{big(segment, 5, 2), big(segment, 3, 2), byteAt(segment, 7)};
     at += big(segment, 0, 2);
   }
 }

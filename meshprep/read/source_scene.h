@@ -43,7 +43,7 @@ struct SourceMaterial {
   glm::dvec3 baseColour{1.0};
   AlphaMode alphaMode = AlphaMode::opaque;
   double alpha = 1;                // 0 to 1, of the base colour; not used if opaque
-  double alphaCutoff = 0.5;        // of a mask: alpha below it is no surface
+  double alphaCutoff = 0.5;        // of a mask: smaller alpha is not drawn
   double metallic = 1;             // 0 to 1
   double roughness = 1;            // 0 to 1; the square root of GGX's alpha
   glm::dvec3 emissive{0.0};        // radiance, W / (m^2 sr) or relative, including the strength

@@ -46,15 +46,14 @@ class ChunkEncoder {
   std::vector<std::uint8_t> encode(int row) {
     const int rows = std::min(kChunkRows, image_.height - row);
     const std::size_t count = order_.size() * static_cast<std::size_t>(rows) * static_cast<std::size_t>(image_.width);
-    std::vector<std::uint8_t> chunk(kHeader + count * sizeof(float));
+    encoded_.resize(kHeader + count * sizeof(float));
     splitBytes(row, rows, count);
     takeDifferences();
-    std::size_t size = compress(chunk.data() + kHeader, count * sizeof(float));
-    if (size == 0) size = storeValues(row, rows, chunk.data() + kHeader);
+    std::size_t size = compress(encoded_.data() + kHeader, count * sizeof(float));
+    if (size == 0) size = storeValues(row, rows, encoded_.data() + kHeader);
     const std::array<std::int32_t, 2> head = {row, static_cast<std::int32_t>(size)};
-    std::memcpy(chunk.data(), head.data(), kHeader);
-    chunk.resize(kHeader + size);
-    return chunk;
+    std::memcpy(encoded_.data(), head.data(), kHeader);
+    return {encoded_.data(), encoded_.data() + kHeader + size};
   }
 
  private:
@@ -127,6 +126,7 @@ class ChunkEncoder {
   std::span<const std::size_t> order_;
   std::vector<std::uint16_t> split_;
   std::vector<std::uint8_t> differences_;
+  std::vector<std::uint8_t> encoded_;
   std::vector<std::uint8_t> buffer_ = std::vector<std::uint8_t>(ISAL_DEF_LVL1_DEFAULT);
   std::unique_ptr<isal_zstream> stream_ = std::make_unique<isal_zstream>();
 };

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "meshprep/base/error.h"
 
@@ -126,10 +128,13 @@ std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureE
   const DisplayBytes encode(std::exp2(exposureEv));
   const std::size_t channels = image.channels.size(), count = image.pixels.size() / channels;
   std::vector<std::uint8_t> bytes(count * 3);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* p = image.pixels.data() + i * channels;
-    bytes[3 * i] = encode(p[r]), bytes[3 * i + 1] = encode(p[g]), bytes[3 * i + 2] = encode(p[b]);
-  }
+  namespace tbb = oneapi::tbb;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const tbb::blocked_range<std::size_t>& pixels) {
+    for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
+      const float* p = image.pixels.data() + i * channels;
+      bytes[3 * i] = encode(p[r]), bytes[3 * i + 1] = encode(p[g]), bytes[3 * i + 2] = encode(p[b]);
+    }
+  });
   return bytes;
 }
 

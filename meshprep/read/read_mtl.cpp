@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -34,12 +35,39 @@ struct Statements {
   std::optional<glm::dvec3> kd, ks, ke, tf;
   std::optional<double> ns, ni, d, tr, pm, pr;
   int illum = 2;
+  std::string colourMap;  // file of map_Kd; empty: none
 };
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 glm::dvec3 clampToUnit(const glm::dvec3& v) { return glm::clamp(v, 0.0, 1.0); }
 
-SourceMaterial convertMaterial(const Statements& from, std::vector<std::string>& notes) {
+// Returns the file name of a map statement, after its options: words with '-' and the words that are their values.
+std::string_view mapFile(std::string_view rest) {
+  constexpr std::array<std::string_view, 3> kVectors = {"-o", "-s", "-t"};  // one to three numbers
+  const auto isNumber = [](std::string_view word) {
+    double value = 0;
+    return !word.empty() &&
+           std::from_chars(word.data(), word.data() + word.size(), value).ptr == word.data() + word.size();
+  };
+  const auto skipBlanks = [&] { rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size())); };
+  skipBlanks();
+  while (rest.starts_with('-')) {
+    const std::string_view option = takeWord(rest);
+    std::size_t values = option == "-mm" ? 2 : 1;
+    if (std::find(kVectors.begin(), kVectors.end(), option) != kVectors.end()) {
+      std::string_view ahead = rest;
+      for (values = 0; values < 3 && isNumber(takeWord(ahead)); ++values) {
+      }
+    }
+    for (; values > 0; --values) takeWord(rest);
+    skipBlanks();
+  }
+  const std::size_t last = rest.find_last_not_of(" \t");
+  return rest.substr(0, last == std::string_view::npos ? 0 : last + 1);
+}
+
+SourceMaterial convertMaterial(const Statements& from, std::vector<SourceImage>& images,
+                               std::vector<std::string>& notes) {
   SourceMaterial result;
   result.name = from.name;
   const glm::dvec3 kd = clampToUnit(from.kd.value_or(glm::dvec3(kDefaultColour))),
@@ -50,6 +78,10 @@ SourceMaterial convertMaterial(const Statements& from, std::vector<std::string>&
   const bool metal = from.pm ? *from.pm >= 0.5 : largest(ks) > 0.5 && largest(kd) < 0.1;
   result.metallic = from.pm ? std::clamp(*from.pm, 0.0, 1.0) : metal ? 1 : 0;
   result.baseColour = metal && !from.pm ? ks : kd;
+  if (!from.colourMap.empty() && (!metal || from.pm)) {
+    result.baseColourImage = images.size();
+    images.push_back({from.colourMap, from.colourMap, nullptr});
+  }
   if (from.pr) {
     result.roughness = std::clamp(*from.pr, 0.0, 1.0);
   } else if (shines || metal) {
@@ -146,6 +178,8 @@ void parseStatement(std::string_view keyword, std::string_view rest, const Lines
     if (model < 0 || model > 10)
       at.fail("unknown illumination model", "an integer from 0 to 10", fmt::to_string(model));
     material.illum = static_cast<int>(model);
+  } else if (keyword == "map_Kd") {
+    material.colourMap = mapFile(rest);
   } else if (keyword.starts_with("map_") || std::find(kTextures.begin(), kTextures.end(), keyword) != kTextures.end()) {
     note("textures");
   } else if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end()) {
@@ -156,7 +190,7 @@ void parseStatement(std::string_view keyword, std::string_view rest, const Lines
 }  // namespace
 
 std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, std::vector<std::string>& notes,
-                                     bool strict) {
+                                     std::vector<SourceImage>& images, bool strict) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw Error(where, "file is UTF-16 text", "ASCII or UTF-8");
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
@@ -197,15 +231,11 @@ std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, s
   invalid.addNotes(notes);
   std::vector<SourceMaterial> materials;
   materials.reserve(statements.size());
-  for (const Statements& material : statements) materials.push_back(convertMaterial(material, notes));
+  for (const Statements& material : statements) materials.push_back(convertMaterial(material, images, notes));
   if (lines.hasCrLineEnds()) addNote(notes, std::string(kAcceptedNote) + "CR line ends");
   if (lines.hasCutComments()) addNote(notes, std::string(kAcceptedNote) + "comments at line ends");
   if (padded) addNote(notes, std::string(kPaddingNote));
   return materials;
-}
-
-std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notes, bool strict) {
-  return parseMtl(readTextFile(path), path.string(), notes, strict);
 }
 
 namespace {
@@ -216,9 +246,9 @@ std::string withSlashes(std::string_view name) {
   return result;
 }
 
-// Returns the file that a name with backslashes, in quotes or with a comment refers to, if it exists. A file with
-// exactly this name comes first.
-std::optional<std::filesystem::path> findMaterialFile(const std::filesystem::path& obj, std::string_view name) {
+// Returns the file that a name in another one, with backslashes, in quotes or with a comment refers to, if it exists. A
+// file with exactly this name comes first.
+std::optional<std::filesystem::path> findMaterialFile(const std::filesystem::path& from, std::string_view name) {
   std::vector<std::string> candidates = {std::string(name), withSlashes(name)};
   const auto addWithSlashes = [&](std::string_view part) {
     candidates.emplace_back(part);
@@ -234,7 +264,7 @@ std::optional<std::filesystem::path> findMaterialFile(const std::filesystem::pat
     addWithSlashes(shown.substr(1, shown.size() - 2));
   for (const std::string& candidate : candidates) {
     std::error_code ignored;
-    std::filesystem::path file = obj.parent_path() / std::filesystem::path(candidate);
+    std::filesystem::path file = from.parent_path() / std::filesystem::path(candidate);
     if (!candidate.empty() && std::filesystem::is_regular_file(file, ignored)) return file;
   }
   return std::nullopt;
@@ -248,6 +278,15 @@ std::string withoutHash(std::string_view name) {
 }
 
 }  // namespace
+
+std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notes,
+                                    std::vector<SourceImage>& images, bool strict) {
+  const std::size_t first = images.size();
+  std::vector<SourceMaterial> materials = parseMtl(readTextFile(path), path.string(), notes, images, strict);
+  for (std::size_t i = first; i < images.size(); ++i)
+    images[i].file = findMaterialFile(path, images[i].name).value_or(path.parent_path() / withSlashes(images[i].name));
+  return materials;
+}
 
 std::vector<std::filesystem::path> listMaterialFiles(const std::filesystem::path& obj,
                                                      const std::vector<std::string>& statements) {
@@ -283,7 +322,7 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
     }
     std::vector<SourceMaterial> materials;
     try {
-      materials = readMtl(path, scene.notes, strict);
+      materials = readMtl(path, scene.notes, scene.images, strict);
     } catch (const Error& error) {
       if (strict) throw;
       addNote(scene.notes, fmt::format("a material file: {}", error.what()));

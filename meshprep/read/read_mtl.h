@@ -14,7 +14,8 @@
 //                   component is also the transmission
 //   illum n         see above
 //   Ka, sharpness   ignored
-//   map_*, bump, disp, decal, refl, norm and unknown statements leave a note.
+//   map_Kd          sRGB image that Kd is multiplied by; its options are ignored
+//   other map_*, bump, disp, decal, refl, norm and unknown statements leave a note.
 //
 // Comments after a statement are accepted with a note; in a newmtl statement, blanks must enclose their '#'.
 //
@@ -38,10 +39,12 @@ namespace malus::prep {
 // Returns the materials in the order of the file, including duplicate names. `where` is the path for messages. Throws
 // Error at "WHERE:LINE": bytes that are not text, too many materials or invalid statements; and if `strict`, an invalid
 // statement (a number that is missing, not finite or out of range, a statement before the first newmtl).
+//
+// images: those of map_Kd, as SourceMaterial::baseColourImage; parseMtl gives their names in the file.
 std::vector<SourceMaterial> parseMtl(std::string text, std::string_view where, std::vector<std::string>& notes,
-                                     bool strict = false);
+                                     std::vector<SourceImage>& images, bool strict = false);
 std::vector<SourceMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notes,
-                                    bool strict = false);
+                                    std::vector<SourceImage>& images, bool strict = false);
 
 // Sets the scene's materials, which must have names, by the files of the mtllib statements. The first description of a
 // name is used; others leave a note. A material without description leaves a note, with the missing files, and becomes

@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "meshprep/base/atomic_file.h"
+#include "meshprep/base/error.h"
 #include "meshprep/read/counted_note.h"
 #include "meshprep/read/read_gltf.h"
 #include "meshprep/read/read_mesh.h"
@@ -190,7 +191,20 @@ Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> i
 std::vector<std::filesystem::path> referencedFiles(const std::filesystem::path& path) {
   if (isGltf(path)) return gltfFiles(path);
   if (lowerExtension(path) != ".obj") return {};
-  return listMaterialFiles(path, listMtllibs(readTextFile(path), path.string()));
+  std::vector<std::filesystem::path> files = listMaterialFiles(path, listMtllibs(readTextFile(path), path.string()));
+  std::vector<SourceImage> images;
+  for (const std::filesystem::path& file : files) {
+    std::error_code ignored;
+    std::vector<std::string> notes;
+    try {
+      if (std::filesystem::is_regular_file(file, ignored)) readMtl(file, notes, images);
+    } catch (const Error&) {  // its materials are not read either
+      continue;
+    }
+  }
+  for (const SourceImage& image : images)
+    if (std::find(files.begin(), files.end(), image.file) == files.end()) files.push_back(image.file);
+  return files;
 }
 
 }  // namespace malus::prep

@@ -8,7 +8,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     std::vector<std::string> notes;
-    malus::prep::parseMtl(std::string(reinterpret_cast<const char*>(data), size), "fuzz.mtl", notes);
+    std::vector<malus::prep::SourceImage> images;
+    malus::prep::parseMtl(std::string(reinterpret_cast<const char*>(data), size), "fuzz.mtl", notes, images);
   } catch (const malus::Error&) {
   }
   return 0;

@@ -14,15 +14,17 @@ using test::contains;
 using test::errorMessage;
 
 std::vector<std::string> notes;
+std::vector<SourceImage> images;
 
 SourceMaterial one(const std::string& statements) {
   notes.clear();
-  return parseMtl("newmtl m\n" + statements, "a.mtl", notes).at(0);
+  images.clear();
+  return parseMtl("newmtl m\n" + statements, "a.mtl", notes, images).at(0);
 }
 std::string errorIn(const std::string& text) {
   return errorMessage([&] {
     std::vector<std::string> ignored;
-    parseMtl(text, "a.mtl", ignored, true);
+    parseMtl(text, "a.mtl", ignored, images, true);
   });
 }
 
@@ -105,7 +107,7 @@ TEST(ReadMtl, AcceptsCommentsAndCrLineEnds) {
   std::vector<std::string> found;
   const auto materials =
       parseMtl("newmtl red # the first\rKd 0.5 # grey\rd 0.25#x\rillum 2 #\rnewmtl Material #25\rKe 1 2 3 # lamp\r\0",
-               "a.mtl", found);
+               "a.mtl", found, images);
   ASSERT_EQ(materials.size(), 2u);
   EXPECT_EQ(materials[0].name, "red");
   EXPECT_EQ(materials[0].baseColour, glm::dvec3(0.5));
@@ -158,8 +160,28 @@ TEST(ReadMtl, FindsNamesWithComments) {
   EXPECT_CONTAINS(scene.notes[0], "accepted", "\"red\"");
 }
 
+TEST(ReadMtl, ReadsTheImageOfTheColour) {
+  const std::pair<const char*, const char*> kStatements[] = {
+      {"map_Kd an image.png", "an image.png"},
+      {"map_Kd -s 2 2 2 -o 0.5 -blendu on -clamp off -mm 0 1 wood.png ", "wood.png"},
+      {"map_Kd -bm 0.5 a\\b.png", "a\\b.png"}};
+  for (const auto& [statement, file] : kStatements) {
+    const SourceMaterial material = one(std::string("Kd 0.5 0.5 0.5\n") + statement + "\n");
+    ASSERT_EQ(images.size(), 1u) << statement;
+    EXPECT_EQ(material.baseColourImage, 0u);
+    EXPECT_EQ(images[0].name, file);
+  }
+  EXPECT_FALSE(one("Kd 0 0 0\nKs 1 1 1\nNs 100\nmap_Kd a.png\n").baseColourImage);  // a metal of colour Ks
+  EXPECT_FALSE(one("map_Kd\n").baseColourImage);
+  const test::TemporaryFile file(".mtl", "newmtl a\nmap_Kd textures\\wood.png\n");
+  std::vector<SourceImage> found;
+  readMtl(file.path(), notes, found);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].file, file.path().parent_path() / "textures" / "wood.png");
+}
+
 TEST(ReadMtl, NotesIgnoredStatementsOnce) {
-  one("map_Kd an image.png\nmap_Ks b.png\nbump c.png\nfancy 1 2\nfancy 3\nKd spectral a.rfl\nKs xyz 1 1 1\n");
+  one("map_Ks b.png\nbump c.png\nfancy 1 2\nfancy 3\nKd spectral a.rfl\nKs xyz 1 1 1\n");
   ASSERT_EQ(notes.size(), 4u);
   EXPECT_CONTAINS(notes[0], "textures");
   EXPECT_CONTAINS(notes[1], "\"fancy\"");
@@ -184,8 +206,9 @@ TEST(ReadMtl, ReportsTheLineOfInvalidStatements) {
 
 TEST(ReadMtl, LeavesOutInvalidStatements) {
   std::vector<std::string> found;
-  const std::vector<SourceMaterial> materials = parseMtl(
-      "Kd 1 1 1\nnewmtl a\nKd 0.5 nan 0.5\nillum 99\nd 0.25\nnewmtl\nKd 0 0 0\nnewmtl b\nKd 0.5\n", "a.mtl", found);
+  const std::vector<SourceMaterial> materials =
+      parseMtl("Kd 1 1 1\nnewmtl a\nKd 0.5 nan 0.5\nillum 99\nd 0.25\nnewmtl\nKd 0 0 0\nnewmtl b\nKd 0.5\n", "a.mtl",
+               found, images);
   ASSERT_EQ(materials.size(), 2u);
   EXPECT_EQ(materials[0].baseColour, glm::dvec3(0.8));
   EXPECT_EQ(materials[0].transmission, 0.75);
@@ -221,7 +244,7 @@ TEST(ReadMtl, AMaterialFileThatIsUnreadableIsLeftOut) {
 
 TEST(ReadMtl, AcceptsBlanksInNames) {
   std::vector<std::string> ignored;
-  const auto materials = parseMtl("newmtl red  paint \nnewmtl b\xc3\xa4\n", "a.mtl", ignored);
+  const auto materials = parseMtl("newmtl red  paint \nnewmtl b\xc3\xa4\n", "a.mtl", ignored, images);
   ASSERT_EQ(materials.size(), 2u);
   EXPECT_EQ(materials[0].name, "red  paint");
   EXPECT_EQ(materials[1].name, "b\xc3\xa4");

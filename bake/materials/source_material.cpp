@@ -19,6 +19,7 @@ constexpr double kLeastColour = 1e-6;
 constexpr double kMostDielectricReflectance = 0.25;  // of an index of 3, above that of every clear solid
 constexpr double kCoatIor = 1.5;                     // of KHR_materials_clearcoat
 constexpr double kOpaqueAlpha = 0.5;                 // coverage from which a blended material is opaque
+constexpr double kBrightEmission = 100;              // of the colour; beside more the reflection is not missed
 constexpr double kLeastEmission = 0.1;               // of the colour; less emission gives way to the reflection
 constexpr double kMostRadiance = 1e9;
 
@@ -145,6 +146,8 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
     result.kind = Kind::emitter;
     result.radiance = glm::clamp(source.emissive, 0.0, kMostRadiance);
     result.twoSided = source.isDoubleSided;
+    if (largest(source.emissive) < kBrightEmission * largest(colour))
+      prep::addNote(notes, fmt::format("the reflection of material '{}', which emits light", source.name));
     return result;
   }
   const bool isPane =

@@ -2,10 +2,11 @@
 // by the first of these rules that fits:
 //
 //   emissive over 0.1 of    emitter: radiance = emissive, whose cd/m^2 are taken as the scene's unit; twoSided if the
-//   the base colour         material is double-sided. Fainter emission is left out, with a note
+//   the base colour         material is double-sided. Fainter emission is left out, with a note, and so is the
+//                           reflection beside less than 100 times the base colour
 //   blended alpha a under   thin-glass: eta of the dielectric below, internal transmittance 1 - a (1 - base colour),
-//   for 0.5, transmission at    panes of exporters without transmission most 0.5 transmission over 0.5   transmission x
-//   (1 - metallic), as metals are opaque. Thin-walled (glTF without a volume, or
+//   0.5, no transmission    for panes of exporters without transmission
+//   transmission over 0.5   transmission x (1 - metallic), as metals are opaque. Thin-walled (glTF without a volume, or
 //                           with one of thickness 0): thin-glass, eta = ior, internal transmittance at normal incidence
 //                           = base colour. Otherwise glass: eta = ior; with a volume, absorption = -ln(attenuation
 //                           colour) / attenuation distance per metre, a colour under 1e-6 counting as 1e-6, at most

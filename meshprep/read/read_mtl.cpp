@@ -70,7 +70,8 @@ SourceMaterial convertMaterial(const Statements& from, std::vector<SourceImage>&
                                std::vector<std::string>& notes) {
   SourceMaterial result;
   result.name = from.name;
-  const glm::dvec3 kd = clampToUnit(from.kd.value_or(glm::dvec3(kDefaultColour))),
+  const bool isLamp = from.ke && largest(*from.ke) > 0;
+  const glm::dvec3 kd = clampToUnit(from.kd.value_or(glm::dvec3(isLamp ? 0 : kDefaultColour))),
                    ks = clampToUnit(from.ks.value_or(glm::dvec3(0)));
 
   // Set metallic, base colour and roughness.

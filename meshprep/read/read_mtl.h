@@ -1,6 +1,6 @@
 // Material files of OBJ, converted to the terms of glTF by these rules:
 //
-//   Kd r g b        base colour of a dielectric
+//   Kd r g b        base colour of a dielectric; 0.8 without Kd, 0 if the material emits
 //   Ks r g b, Ns n  roughness^4 = 2 / (n + 2), with which GGX's lobe is as wide as Phong's; roughness 1 without Ks,
 //   with
 //                   Ks 0, and with illum 0 or 1

@@ -46,6 +46,7 @@ class Import : public testing::Test {
            {"KHR_materials_volume",
             {{"thicknessFactor", 1.0}, {"attenuationDistance", 2.0}, {"attenuationColor", {0.25, 1, 1}}}}}}},
         {{"name", "lamp"},
+         {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}},
          {"emissiveFactor", {1, 0.5, 0}},
          {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8.0}}}}}}};
     gltf_.document["extensionsUsed"] = {"KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume",

@@ -182,7 +182,12 @@ TEST(SourceMaterial, FaintEmissionGivesWayToTheReflection) {
   EXPECT_EQ(made(source).kind, Kind::emitter);
   source.baseColour = {0.2, 0.4, 0.6};
   source.emissive = {1, 1, 1};
-  EXPECT_EQ(made(source).kind, Kind::emitter);
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::emitter);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_CONTAINS(notes[1], "reflection of material", "'plastic'");
+  source.emissive = {100, 100, 100};
+  convertMaterial(source, notes);
+  EXPECT_EQ(notes.size(), 2u);
 }
 
 TEST(SourceMaterial, GlassAbsorbsByItsVolume) {

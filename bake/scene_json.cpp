@@ -42,6 +42,9 @@ class JsonWriter {
     return result;
   }
   static json valueJson(const pack::Field&, pack::MaterialKind kind) { return pack::materialKindName(kind); }
+  static json valueJson(const pack::Field&, pack::LightKind kind) {
+    return pack::kLightKindNames[static_cast<std::size_t>(kind)];
+  }
   static json valueJson(const pack::Field& field, std::int32_t value) {
     return field.isTexture && value < 0 ? json() : json(value);
   }
@@ -127,11 +130,11 @@ json sceneJson(const pack::Pack& pack) {
   document.erase("height");
   document["resolution"] = {scene.width, scene.height};
   document["packHash"] = fmt::format("{:016x}", pack.hash);
-  pack::visitCamera(JsonWriter(document["camera"]), scene.camera);
+  pack::visitCamera(JsonWriter(document["camera"], {nullptr, pack::cameraVersion(scene.camera)}), scene.camera);
   document["environment"] = environmentJson(scene.environment);
-  for (const pack::PointLight& light : scene.lights) {
+  for (const pack::LightSource& light : scene.lights) {
     lights.push_back({{"type", "point"}});
-    pack::visitLight(JsonWriter(lights.back()), light);
+    pack::visitLight(JsonWriter(lights.back(), {nullptr, pack::lightsVersion(scene.lights)}), light);
   }
   for (const pack::Material& m : scene.materials) materials.push_back(materialJson(m));
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {

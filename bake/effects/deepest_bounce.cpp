@@ -89,7 +89,8 @@ std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, doubl
   // Step 1: from the camera. Step 2: for each bounce, the largest product of reflectances to each face.
   const std::size_t count = faces.size();
   std::vector<double> share(count);
-  for (std::size_t j = 0; j < count; ++j) share[j] = largestReflectance(faces[j], std::array{scene.camera.position}, 0);
+  for (std::size_t j = 0; j < count; ++j)
+    share[j] = scene.camera.isOrthographic() ? 1 : largestReflectance(faces[j], std::array{scene.camera.position}, 0);
   std::vector<double> between;
   for (std::uint32_t bounce = 1; bounce <= depth; ++bounce) {
     if (*std::max_element(share.begin(), share.end()) <= tolerance) return bounce - 1;

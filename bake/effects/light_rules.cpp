@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -53,6 +54,15 @@ std::vector<EffectRule> lightRules() {
        [](pack::Scene& scene) {
          for (Material& m : scene.materials) m.highlightStrength = 0;
        }},
+      {Effect::kLightShapes,
+       [](const EffectQuery& q) {
+         return isLitByPointLights(q) && std::ranges::any_of(q.scene.lights, [](const pack::LightSource& light) {
+                  return light.kind != pack::LightKind::point;
+                });
+       },
+       {},
+       {}},
+      {Effect::kOrthographic, [](const EffectQuery& q) { return q.scene.camera.isOrthographic(); }, {}, {}},
       {Effect::kAmbient,
        [](const EffectQuery& q) { return isDiffuse(q) && q.scene.environment.ambientIrradiance > 0; },
        {},

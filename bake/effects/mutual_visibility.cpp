@@ -87,9 +87,11 @@ bool interfacesMutuallyVisible(const pack::Scene& scene) {
   if (before) return true;
   // Convex. A flat mirror has no inside; light reaches the inside of a body from a camera in it, and that of a shell
   // through its open sides.
-  const bool cameraInside = std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
-    return glm::dot(scene.camera.position - face.point, face.normal) <= tolerance;
-  });
+  // The rays of an orthographic camera start all over its image.
+  const bool cameraInside =
+      scene.camera.isOrthographic() || std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
+        return glm::dot(scene.camera.position - face.point, face.normal) <= tolerance;
+      });
   return behind && (cameraInside || !allClosed(scene));
 }
 

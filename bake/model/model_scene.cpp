@@ -64,10 +64,8 @@ void setSize(SceneDescription& d, double aspect) {
 
 void useCamera(SceneDescription& d, const prep::SourceCamera& camera, const glm::dvec3& centre) {
   const std::string location = fmt::format("{}: camera '{}'", d.file.string(), camera.name);
-  if (camera.isOrthographic)
-    throw Error(location, "is orthographic", fmt::format("a perspective camera, or --camera {}", kFramingCamera));
   const double fov = camera.verticalFov * 180 / std::numbers::pi;
-  if (!(fov >= kLeastFovDegrees && fov <= kMostFovDegrees))
+  if (!camera.isOrthographic && !(fov >= kLeastFovDegrees && fov <= kMostFovDegrees))
     throw Error(location, "has a vertical field of view out of range",
                 fmt::format("{:g} to {:g} degrees; choose another camera, or --camera {}", kLeastFovDegrees,
                             kMostFovDegrees, kFramingCamera),
@@ -76,7 +74,10 @@ void useCamera(SceneDescription& d, const prep::SourceCamera& camera, const glm:
     if (!(std::abs(camera.position[i]) <= kMaxSceneLength / 2))
       throw Error(location, "is out of range", fmt::format("coordinates up to {:g} m", kMaxSceneLength / 2),
                   fmt::format("{:g}", camera.position[i]));
-  d.verticalFovDegrees = fov;
+  if (camera.isOrthographic)
+    d.orthographicHeight = camera.height;
+  else
+    d.verticalFovDegrees = fov;
   d.cameraPosition = camera.position;
   d.cameraUp = camera.up;
   // A target at the depth of the model is easier to edit than one near the camera.
@@ -108,27 +109,33 @@ void setCamera(SceneDescription& d, const ModelContents& contents, std::vector<s
                                                       prep::countedNote("those of the file", cameras.size(), names)));
 }
 
-// Point lights; others are left out with a note. Photometric units are those of the scene: candela become W/sr as the
-// cd/m^2 of emissive materials become W/(m^2 sr), so that the ratios of all lights are those of the file.
+// Photometric units are those of the scene: candela become W/sr and lux W/m^2 as the cd/m^2 of emissive materials
+// become W/(m^2 sr), so that the ratios of all lights are those of the file.
 void setLights(SceneDescription& d, const ModelContents& contents, std::vector<std::string>& notes) {
-  std::vector<std::string> others, outOfRange;
-  for (const prep::SourceLight& light : contents.lights) {
-    const double largest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
-    const bool isInRange = largest <= kMaxSceneLight && d.lights.size() < pack::kMaxLights;
-    if (light.kind != prep::SourceLight::Kind::point)
-      others.push_back(light.name);
-    else if (!isInRange)
-      outOfRange.push_back(light.name);
-    else
-      d.lights.push_back({light.position, light.intensity});
+  using Kind = prep::SourceLight::Kind;
+  std::vector<std::string> outOfRange;
+  for (const prep::SourceLight& source : contents.lights) {
+    const double largest = std::max({source.intensity.x, source.intensity.y, source.intensity.z});
+    if (largest > kMaxSceneLight || d.lights.size() == pack::kMaxLights) {
+      outOfRange.push_back(source.name);
+      continue;
+    }
+    pack::LightSource& light = d.lights.emplace_back();
+    light.kind = source.kind == Kind::point  ? pack::LightKind::point
+                 : source.kind == Kind::spot ? pack::LightKind::spot
+                                             : pack::LightKind::directional;
+    light.intensity = source.intensity;
+    if (source.kind != Kind::directional) light.position = source.position;
+    if (source.kind != Kind::point) light.direction = source.direction;
+    if (source.kind == Kind::spot) {
+      light.innerConeDegrees = source.innerConeAngle * 180 / std::numbers::pi;
+      light.outerConeDegrees = std::min(source.outerConeAngle * 180 / std::numbers::pi, 90.0);
+    }
   }
-  const auto note = [&](const char* content, const std::vector<std::string>& names) {
-    if (!names.empty())
-      notes.push_back(
-          fmt::format("{}: left out: {}", d.file.string(), prep::countedNote(content, names.size(), names)));
-  };
-  note("spot and directional lights", others);
-  note("lights beyond the limits of a scene", outOfRange);
+  if (!outOfRange.empty())
+    notes.push_back(
+        fmt::format("{}: left out: {}", d.file.string(),
+                    prep::countedNote("lights beyond the limits of a scene", outOfRange.size(), outOfRange)));
 }
 
 void setEnvironment(SceneDescription& d, std::vector<std::string>& choices) {

@@ -25,6 +25,7 @@ inline constexpr std::uint32_t kOptional = 1;  // flag: a reader that does not k
 inline constexpr double kMaxLength = 1e15;          // metres
 inline constexpr double kMaxLight = 1e15;           // radiance, intensity
 inline constexpr double kMaxIrradiance = 4e15;      // of an environment of kMaxLight: pi times that
+inline constexpr double kMaxImageShift = 100;       // of the middle of an image from the axis, in its heights
 inline constexpr double kMaxUnitComponent = 1.001;  // of a unit vector before its length is checked
 inline constexpr std::uint32_t kMaxMeshes = 65536;
 inline constexpr std::uint32_t kMaxMaterials = 4096;
@@ -85,7 +86,7 @@ inline constexpr auto kKnownSections = std::to_array<SectionInfo>({
     {kMeta, true, 0, "names, image size, depth, exposure"},
     {kCamera, true, 0, "camera"},
     {kEnvironment, true, 0, "light from infinity"},
-    {kLights, true, 0, "point lights"},
+    {kLights, true, 0, "point, spot and directional lights"},
     {kMaterials, true, 0, "materials"},
     {kSurfaces, false, 0, "properties that few materials have; written if a material has one"},
     {kTextures, false, 0, "textures; written if a material has one"},

@@ -26,8 +26,8 @@ void readMeta(ByteReader r, Scene& scene) {
   r.end();
 }
 
-void readCamera(ByteReader r, Camera& camera) {
-  visitCamera(FieldReader(r), camera);
+void readCamera(ByteReader r, std::uint32_t version, Camera& camera) {
+  visitCamera(FieldReader(r, {nullptr, version}), camera);
   const glm::dvec3 axes[3] = {camera.right, camera.up, camera.forward};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j)
@@ -73,12 +73,19 @@ void readWavelengths(ByteReader r, Scene& scene) {
   r.end();
 }
 
-void readLights(ByteReader r, std::vector<PointLight>& lights) {
-  FieldSizes sizes;
-  const PointLight any{};
+void readLights(ByteReader r, std::uint32_t version, std::vector<LightSource>& lights) {
+  const FieldFilter filter{nullptr, version};
+  FieldSizes sizes(filter);
+  const LightSource any{};
   visitLight(sizes, any);
   lights.resize(r.count(sizes.bytes(), kMaxLights, "number of lights"));
-  for (PointLight& light : lights) visitLight(FieldReader(r), light);
+  for (LightSource& light : lights) {
+    visitLight(FieldReader(r, filter), light);
+    if (light.kind != LightKind::point) r.requireUnit(light.direction, "direction of a light");
+    if (light.kind == LightKind::spot && !(light.innerConeDegrees < light.outerConeDegrees))
+      r.fail("innerConeDegrees", fmt::format("below outerConeDegrees, {:g}", light.outerConeDegrees),
+             fmt::format("{:g}", light.innerConeDegrees));
+  }
   r.end();
 }
 
@@ -149,10 +156,12 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
     return ByteReader(body(section), section.offset, fmt::format("{}, section {}", where, section.id));
   };
   readMeta(reader(*find(kMeta)), scene);
-  readCamera(reader(*find(kCamera)), scene.camera);
+  const Section& camera = *find(kCamera);
+  readCamera(reader(camera), camera.version, scene.camera);
   const Section& environment = *find(kEnvironment);
   readEnvironment(reader(environment), environment.version, scene.environment);
-  readLights(reader(*find(kLights)), scene.lights);
+  const Section& lights = *find(kLights);
+  readLights(reader(lights), lights.version, scene.lights);
   readMaterials(reader(*find(kMaterials)), scene.materials);
   // Textures come before the surfaces, which bound their values.
   if (const Section* at = find(kTextures)) readTextures(reader(*at), scene.textures);

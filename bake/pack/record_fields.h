@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "bake/pack/encodings.h"
 #include "bake/pack/field.h"
@@ -56,7 +57,32 @@ void visitCamera(Visitor&& visit, Cameras&... c) {
   visit(
       Field{.name = "mediumEta", .low = kMinEta, .high = kMaxEta, .text = "index of the medium that the camera is in"},
       c.mediumEta...);
+  visit(Field{.name = "orthographicHeight",
+              .high = kMaxLength,
+              .unit = "m",
+              .text = "height of the image of an orthographic camera; 0: perspective",
+              .since = 2},
+        c.orthographicHeight...);
+  visit(Field{.name = "pixelAspect", .low = 1e-3, .high = 1e3, .text = "width of a pixel over its height", .since = 2},
+        c.pixelAspect...);
+  visit(Field{.name = "middleX",
+              .low = -kMaxImageShift,
+              .high = kMaxImageShift,
+              .unit = "image heights",
+              .text = "middle of the image to the right of the axis",
+              .since = 2},
+        c.middleX...);
+  visit(Field{.name = "middleY",
+              .low = -kMaxImageShift,
+              .high = kMaxImageShift,
+              .unit = "image heights",
+              .text = "middle of the image above the axis",
+              .since = 2},
+        c.middleY...);
 }
+
+inline constexpr std::uint32_t kNewestCamera = 2;
+inline std::uint32_t cameraVersion(const Camera& camera) { return camera.isPlain() ? 1 : kNewestCamera; }
 
 // ENVR, then the texels of the map
 template <class Visitor, class... Environments>
@@ -121,7 +147,36 @@ template <class Visitor, class... Lights>
 void visitLight(Visitor&& visit, Lights&... l) {
   visit(Field{.name = "position", .low = -kMaxLength, .high = kMaxLength, .unit = "m", .text = "position"},
         l.position...);
-  visit(Field{.name = "intensity", .high = kMaxLight, .unit = "W/sr", .text = "radiant intensity"}, l.intensity...);
+  visit(Field{.name = "intensity",
+              .high = kMaxLight,
+              .unit = "W/sr",
+              .text = "radiant intensity; of a directional light the irradiance in W/m^2"},
+        l.intensity...);
+  visit(Field{.name = "type", .high = 2, .text = "0 point, 1 spot, 2 directional", .since = 2}, l.kind...);
+  visit(Field{.name = "direction",
+              .low = -kMaxUnitComponent,
+              .high = kMaxUnitComponent,
+              .text = "unit vector in which the light travels; 0 of a point light",
+              .since = 2},
+        l.direction...);
+  visit(Field{.name = "innerConeDegrees",
+              .high = 90,
+              .unit = "degrees",
+              .text = "of a spot light: full intensity up to this angle from the direction",
+              .since = 2},
+        l.innerConeDegrees...);
+  visit(Field{.name = "outerConeDegrees",
+              .high = 90,
+              .unit = "degrees",
+              .text = "none from this angle on, which is larger",
+              .since = 2},
+        l.outerConeDegrees...);
+}
+inline constexpr std::uint32_t kNewestLights = 2;
+inline std::uint32_t lightsVersion(const std::vector<LightSource>& lights) {
+  for (const LightSource& light : lights)
+    if (light.kind != LightKind::point) return kNewestLights;
+  return 1;
 }
 
 // TEXR, per texture, then its texels

@@ -1,6 +1,17 @@
 #include "bake/pack/scene.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace malus::pack {
+
+SpotFalloff spotFalloff(const LightSource& light) {
+  if (light.kind != LightKind::spot) return {};
+  const double outer = std::cos(light.outerConeDegrees * std::numbers::pi / 180),
+               scale = 1 / std::max(0.001, std::cos(light.innerConeDegrees * std::numbers::pi / 180) - outer);
+  return {scale, -outer * scale};
+}
 
 std::uint64_t Scene::vertexCount() const {
   std::uint64_t count = 0;

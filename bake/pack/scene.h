@@ -72,19 +72,43 @@ struct Texture {
   std::vector<glm::vec3> texels;
 };
 
-struct PointLight {
-  glm::dvec3 position;
-  glm::dvec3 intensity;  // W/sr
+enum class LightKind : std::uint32_t { point, spot, directional };
+inline constexpr std::array<const char*, 3> kLightKindNames = {"point", "spot", "directional"};
+
+// A light without a surface. That of a spot falls off between its cones by the formula of KHR_lights_punctual: with the
+// cosine c of the angle to the direction, its intensity is multiplied by
+//   clamp((c - cos outer) / max(0.001, cos inner - cos outer))^2
+struct LightSource {
+  glm::dvec3 position;   // of a point or a spot light
+  glm::dvec3 intensity;  // W/sr; of a directional light the irradiance at normal incidence, W/m^2
+  LightKind kind = LightKind::point;
+  glm::dvec3 direction{0.0};    // unit, in which the light of a spot or a directional light travels
+  double innerConeDegrees = 0;  // of a spot: angles from the direction, inner < outer <= 90
+  double outerConeDegrees = 0;
 };
 
-// Orthonormal axes; forward looks into the scene, up is up in the image.
+// Factors of the fall-off of a spot light: clamp(c scale + offset)^2. 0 and 1 of other lights.
+struct SpotFalloff {
+  double scale = 0, offset = 1;
+};
+SpotFalloff spotFalloff(const LightSource& light);
+
+// Orthonormal axes; forward looks into the scene, up is up in the image. A perspective camera has its position as
+// pinhole and the image at distance 1 along forward; the rays of an orthographic one start at the image, which is at
+// its position, and are parallel to forward.
 struct Camera {
   glm::dvec3 position{0.0};
   glm::dvec3 right{1.0, 0.0, 0.0};
   glm::dvec3 up{0.0, 1.0, 0.0};
   glm::dvec3 forward{0.0, 0.0, -1.0};
   double verticalFovDegrees = 40.0;
-  double mediumEta = 1.0;  // index of the medium that the camera is in
+  double mediumEta = 1.0;         // index of the medium that the camera is in
+  double orthographicHeight = 0;  // of the image of an orthographic camera, in metres; 0: perspective
+  double pixelAspect = 1;         // width of a pixel over its height
+  double middleX = 0;             // middle of the image to the right of the axis and above it, in heights of the image
+  double middleY = 0;
+  bool isOrthographic() const { return orthographicHeight > 0; }
+  bool isPlain() const { return !isOrthographic() && pixelAspect == 1 && middleX == 0 && middleY == 0; }
 };
 
 // Light from infinity: a constant radiance, or an octahedral map with a border of one texel all around that repeats the
@@ -134,7 +158,7 @@ struct Scene {
   glm::dvec3 wavelengthsNm = kDefaultWavelengthsNm;  // in vacuum, of red, green and blue
   Camera camera;
   Environment environment;
-  std::vector<PointLight> lights;
+  std::vector<LightSource> lights;
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Mesh> meshes;

@@ -29,6 +29,8 @@ std::uint32_t newestVersion(std::string_view id) {
   const MeshEntry mesh;
   const MeshEncoding encoding;
   if (id == kEnvironment) visitEnvironment(newest, environment);
+  if (id == kCamera) return kNewestCamera;
+  if (id == kLights) return kNewestLights;
   if (id == kMeshes) visitMeshEntry(newest, mesh);
   if (id == kEncodings) visitMeshEncoding(newest, encoding);
   return newest.version;

@@ -35,7 +35,7 @@ std::vector<std::byte> metaBytes(const Scene& scene) {
 
 std::vector<std::byte> cameraBytes(const Camera& camera) {
   ByteWriter w;
-  visitCamera(FieldWriter(w), camera);
+  visitCamera(FieldWriter(w, {nullptr, cameraVersion(camera)}), camera);
   return w.take();
 }
 
@@ -68,10 +68,10 @@ std::vector<std::byte> wavelengthBytes(const Scene& scene) {
   return w.take();
 }
 
-std::vector<std::byte> lightBytes(const std::vector<PointLight>& lights) {
+std::vector<std::byte> lightBytes(const std::vector<LightSource>& lights) {
   ByteWriter w;
   w.u32(static_cast<std::uint32_t>(lights.size()));
-  for (const PointLight& light : lights) visitLight(FieldWriter(w), light);
+  for (const LightSource& light : lights) visitLight(FieldWriter(w, {nullptr, lightsVersion(lights)}), light);
   return w.take();
 }
 
@@ -158,9 +158,9 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
   written.fullRebakeReason = std::move(encoded.fullRebakeReason);
   std::vector<Body> bodies;
   bodies.push_back({kMeta, metaBytes(scene)});
-  bodies.push_back({kCamera, cameraBytes(scene.camera)});
+  bodies.push_back({kCamera, cameraBytes(scene.camera), cameraVersion(scene.camera)});
   bodies.push_back({kEnvironment, environmentBytes(scene.environment), environmentVersion(scene.environment)});
-  bodies.push_back({kLights, lightBytes(scene.lights)});
+  bodies.push_back({kLights, lightBytes(scene.lights), lightsVersion(scene.lights)});
   bodies.push_back({kMaterials, materialBytes(scene.materials, {kMaterials})});
   // Written only if needed, in the lowest version that suffices: a pack that needs none of it keeps the bytes that it
   // had before these sections and versions existed.

@@ -13,6 +13,7 @@
 #include "bake/scene_file/scene_keys.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
+#include "meshprep/base/nearest_name.h"
 
 namespace malus::bake {
 using nlohmann::json;
@@ -50,6 +51,19 @@ json parseJson(const std::filesystem::path& path) {
 
 void readCamera(StrictObject object, SceneDescription& scene) {
   visitCameraKeys(KeyReader(object), scene);
+  const bool fov = object.has("verticalFovDegrees"), orthographic = object.has("orthographicHeight"),
+             intrinsics = object.has("intrinsics");
+  if ((fov ? 1 : 0) + (orthographic ? 1 : 0) + (intrinsics ? 1 : 0) > 1)
+    object.fail("verticalFovDegrees", "orthographicHeight and intrinsics exclude each other", "one of the three");
+  if (orthographic) {
+    visitOrthographicKeys(KeyReader(object), scene);
+  } else if (intrinsics) {
+    StrictObject keys = object.object("intrinsics");
+    visitIntrinsicsKeys(KeyReader(keys), scene.intrinsics.emplace());
+    keys.finish();
+  } else {
+    visitFovKeys(KeyReader(object), scene);
+  }
   object.finish();
 }
 
@@ -73,11 +87,28 @@ void readEnvironment(StrictObject object, SceneDescription& scene) {
   object.finish();
 }
 
-pack::PointLight readLight(StrictObject object) {
-  if (const std::string type = object.text("type"); type != "point")
-    object.fail("type", "unknown type of light", "'point'", fmt::format("'{}'", type));
-  pack::PointLight light{};
-  visitLightKeys(KeyReader(object), light);
+pack::LightSource readLight(StrictObject object) {
+  const std::string type = object.text("type");
+  const auto* const found = std::ranges::find(pack::kLightKindNames, type);
+  if (found == pack::kLightKindNames.end())
+    object.fail("type",
+                fmt::format("unknown type of light{}",
+                            nearestClause(type, {pack::kLightKindNames.begin(), pack::kLightKindNames.end()})),
+                "'point', 'spot' or 'directional'", fmt::format("'{}'", type));
+  pack::LightSource light{};
+  light.kind = static_cast<pack::LightKind>(found - pack::kLightKindNames.begin());
+  KeyReader keys(object);
+  if (light.kind == pack::LightKind::directional)
+    visitDirectionalKeys(keys, light);
+  else
+    visitLightKeys(keys, light);
+  if (light.kind != pack::LightKind::point) visitDirectionKeys(keys, light);
+  if (light.kind == pack::LightKind::spot) {
+    visitSpotKeys(keys, light);
+    if (!(light.innerConeDegrees < light.outerConeDegrees))
+      object.fail("innerConeDegrees", "is not below outerConeDegrees",
+                  fmt::format("below {:g}", light.outerConeDegrees), fmt::format("{:g}", light.innerConeDegrees));
+  }
   object.finish();
   return light;
 }

@@ -51,6 +51,11 @@ struct TextureDescription {
   friend bool operator==(const TextureDescription&, const TextureDescription&) = default;
 };
 
+// Of a pinhole camera, in pixels of the image (bake/SCENE.md).
+struct Intrinsics {
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+};
+
 // The request of a scene that is made of a model file alone (bake/model/model_scene.h).
 struct ModelRequest {
   std::string camera;  // as ModelOptions::camera
@@ -68,6 +73,8 @@ struct SceneDescription {
   glm::dvec3 cameraTarget{0.0};
   glm::dvec3 cameraUp{0.0, 1.0, 0.0};
   double verticalFovDegrees = 40;
+  double orthographicHeight = 0;         // metres; 0: perspective
+  std::optional<Intrinsics> intrinsics;  // in place of the field of view
   double mediumEta = 1;
   std::uint32_t width = 0, height = 0, depth = 0;
   double exposureEv = 0;
@@ -82,7 +89,7 @@ struct SceneDescription {
   double skyDegree = 0;
   std::vector<TextureDescription> textures;         // indexed by the materials' maps
   std::vector<std::filesystem::path> opticalFiles;  // whose optical constants the materials have
-  std::vector<pack::PointLight> lights;             // in world space
+  std::vector<pack::LightSource> lights;            // in world space
   std::vector<pack::Material> materials;
   std::vector<MeshDescription> meshes;
   std::vector<ImportDescription> imports;

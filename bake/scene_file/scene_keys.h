@@ -51,14 +51,14 @@ void visitCameraKeys(Visitor&& visit, Scenes&... s) {
               .low = -kMaxSceneLength,
               .high = kMaxSceneLength,
               .unit = "m",
-              .text = "pinhole",
+              .text = "pinhole; of an orthographic camera the middle of the image",
               .key = Key::required},
         s.cameraPosition...);
   visit(Field{.name = "target",
               .low = -kMaxSceneLength,
               .high = kMaxSceneLength,
               .unit = "m",
-              .text = "point in the middle of the image",
+              .text = "point that the camera looks at",
               .key = Key::required},
         s.cameraTarget...);
   visit(Field{.name = "up",
@@ -67,6 +67,18 @@ void visitCameraKeys(Visitor&& visit, Scenes&... s) {
               .text = "direction that is up in the image",
               .key = Key::optional},
         s.cameraUp...);
+  visit(Field{.name = "mediumEta",
+              .low = pack::kMinEta,
+              .high = pack::kMaxEta,
+              .text = "index of the medium that the camera is in",
+              .key = Key::optional},
+        s.mediumEta...);
+}
+
+// A camera has the keys of one of these three.
+template <class Visitor, class... Scenes>
+void visitFovKeys(Visitor&& visit, Scenes&... s) {
+  using pack::Field, pack::Key;
   visit(Field{.name = "verticalFovDegrees",
               .low = kLeastFovDegrees,
               .high = kMostFovDegrees,
@@ -74,12 +86,53 @@ void visitCameraKeys(Visitor&& visit, Scenes&... s) {
               .text = "vertical field of view",
               .key = Key::required},
         s.verticalFovDegrees...);
-  visit(Field{.name = "mediumEta",
-              .low = pack::kMinEta,
-              .high = pack::kMaxEta,
-              .text = "index of the medium that the camera is in",
-              .key = Key::optional},
-        s.mediumEta...);
+}
+
+template <class Visitor, class... Scenes>
+void visitOrthographicKeys(Visitor&& visit, Scenes&... s) {
+  using pack::Field, pack::Key;
+  visit(Field{.name = "orthographicHeight",
+              .high = kMaxSceneLength,
+              .unit = "m",
+              .text = "height of the image of an orthographic camera, whose rays start at the image and are parallel",
+              .key = Key::required,
+              .excludesLow = true},
+        s.orthographicHeight...);
+}
+
+template <class Visitor, class... Intrinsics>
+void visitIntrinsicsKeys(Visitor&& visit, Intrinsics&... i) {
+  using pack::Field, pack::Key;
+  constexpr double kMostPixels = 1e6;
+  visit(Field{.name = "fx",
+              .high = kMostPixels,
+              .unit = "pixels",
+              .text = "focal length over the width of a pixel",
+              .key = Key::required,
+              .excludesLow = true},
+        i.fx...);
+  visit(Field{.name = "fy",
+              .high = kMostPixels,
+              .unit = "pixels",
+              .text = "focal length over the height of a pixel",
+              .key = Key::required,
+              .excludesLow = true},
+        i.fy...);
+  visit(Field{.name = "cx",
+              .low = -kMostPixels,
+              .high = kMostPixels,
+              .unit = "pixels",
+              .text = "principal point, the image of `target`, from the left edge of the image of `resolution`; where "
+                      "pixels are counted by their centres, as OpenCV does, 0.5 more than its number",
+              .key = Key::required},
+        i.cx...);
+  visit(Field{.name = "cy",
+              .low = -kMostPixels,
+              .high = kMostPixels,
+              .unit = "pixels",
+              .text = "and from the upper edge",
+              .key = Key::required},
+        i.cy...);
 }
 
 template <class Visitor, class... Scenes>
@@ -132,6 +185,7 @@ void visitImageKeys(Visitor&& visit, Scenes&... s) {
         s.environmentRotationDegrees...);
 }
 
+// Keys of point and spot lights.
 template <class Visitor, class... Lights>
 void visitLightKeys(Visitor&& visit, Lights&... l) {
   using pack::Field, pack::Key;
@@ -146,6 +200,48 @@ void visitLightKeys(Visitor&& visit, Lights&... l) {
               .high = kMaxSceneLight,
               .unit = "W/sr",
               .text = "irradiance at distance d and normal incidence is intensity / d^2",
+              .key = Key::required},
+        l.intensity...);
+}
+
+// Key of spot and directional lights.
+template <class Visitor, class... Lights>
+void visitDirectionKeys(Visitor&& visit, Lights&... l) {
+  using pack::Field, pack::Key;
+  visit(Field{.name = "direction",
+              .text = "in which the light travels",
+              .key = Key::required,
+              .shape = pack::Shape::direction},
+        l.direction...);
+}
+
+template <class Visitor, class... Lights>
+void visitSpotKeys(Visitor&& visit, Lights&... l) {
+  using pack::Field, pack::Key;
+  visit(Field{.name = "innerConeDegrees",
+              .high = 90,
+              .unit = "degrees",
+              .text = "up to this angle from the direction the light has its intensity",
+              .key = Key::optional},
+        l.innerConeDegrees...);
+  visit(Field{.name = "outerConeDegrees",
+              .high = 90,
+              .unit = "degrees",
+              .text = "from this angle on, which is larger, it is dark; between them it is multiplied by the square of "
+                      "(c - cos outer) / (cos inner - cos outer), c the cosine of the angle (KHR_lights_punctual)",
+              .key = Key::optional,
+              .fallback = 45},
+        l.outerConeDegrees...);
+}
+
+// Keys of directional lights.
+template <class Visitor, class... Lights>
+void visitDirectionalKeys(Visitor&& visit, Lights&... l) {
+  using pack::Field, pack::Key;
+  visit(Field{.name = "irradiance",
+              .high = kMaxSceneLight,
+              .unit = "W/m^2",
+              .text = "on a surface at normal incidence; the light comes from infinity",
               .key = Key::required},
         l.intensity...);
 }

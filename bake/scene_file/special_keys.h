@@ -25,10 +25,14 @@ inline constexpr SpecialKey kSceneSpecialKeys[] = {
     {"camera", "object", "required", "see below"},
     {"resolution", "[width, height], 1 to 16384 pixels", "required", "size of the image"},
     {"environment", "object", "black", "see below"},
-    {"lights", "list of at most 4096", "`[]`", "point lights"},
+    {"lights", "list of at most 4096", "`[]`", "point, spot and directional lights"},
     {"materials", "object of at most 4096", "required", "name to material"},
     {"meshes", "list", "required without `imports`", "see below"},
     {"imports", "list", "`[]`", "whole files, see below"},
+};
+
+inline constexpr SpecialKey kCameraSpecialKeys[] = {
+    {"intrinsics", "object", "none", "in place of `verticalFovDegrees`, see below"},
 };
 
 inline constexpr SpecialKey kImageSpecialKeys[] = {
@@ -42,7 +46,7 @@ inline constexpr SpecialKey kPresetSpecialKeys[] = {
 };
 
 inline constexpr SpecialKey kLightSpecialKeys[] = {
-    {"type", "`point`", "required", "kind of light"},
+    {"type", "`point`, `spot` or `directional`", "required", "kind of light"},
 };
 
 inline constexpr SpecialKey kMaterialSpecialKeys[] = {

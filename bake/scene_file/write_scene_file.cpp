@@ -46,6 +46,33 @@ std::string fileName(const std::filesystem::path& file, const std::filesystem::p
   return (relative.empty() ? target : relative).generic_string();
 }
 
+Json cameraJson(const SceneDescription& d, const SceneDescription& defaults) {
+  Json camera = Json::object();
+  visitCameraKeys(KeyWriter(camera), d, defaults);
+  if (d.orthographicHeight > 0) {
+    visitOrthographicKeys(KeyWriter(camera), d, defaults);
+  } else if (d.intrinsics) {
+    const Intrinsics none;
+    visitIntrinsicsKeys(KeyWriter(camera["intrinsics"]), *d.intrinsics, none);
+  } else {
+    visitFovKeys(KeyWriter(camera), d, defaults);
+  }
+  return camera;
+}
+
+Json lightJson(const pack::LightSource& light) {
+  const pack::LightSource none{};
+  Json object = {{"type", pack::kLightKindNames[static_cast<std::size_t>(light.kind)]}};
+  KeyWriter keys(object);
+  if (light.kind == pack::LightKind::directional)
+    visitDirectionalKeys(keys, light, none);
+  else
+    visitLightKeys(keys, light, none);
+  if (light.kind != pack::LightKind::point) visitDirectionKeys(keys, light, none);
+  if (light.kind == pack::LightKind::spot) visitSpotKeys(keys, light, none);
+  return object;
+}
+
 Json environmentJson(const SceneDescription& d, const SceneDescription& defaults, const std::filesystem::path& path) {
   Json environment;
   if (!d.environmentPreset.empty()) environment["preset"] = d.environmentPreset;
@@ -65,16 +92,9 @@ std::string sceneFileText(const SceneDescription& d, const std::filesystem::path
   Json document = {{"malus", 1}};
   visitSceneKeys(KeyWriter(document), d, defaults);
   document["resolution"] = {d.width, d.height};
-  document["camera"] = Json::object();
-  visitCameraKeys(KeyWriter(document["camera"]), d, defaults);
+  document["camera"] = cameraJson(d, defaults);
   document["environment"] = environmentJson(d, defaults, path);
-  if (!d.lights.empty()) {
-    const pack::PointLight none{};
-    for (const pack::PointLight& light : d.lights) {
-      Json& object = document["lights"].emplace_back(Json{{"type", "point"}});
-      visitLightKeys(KeyWriter(object), light, none);
-    }
-  }
+  for (const pack::LightSource& light : d.lights) document["lights"].push_back(lightJson(light));
   document["materials"] = Json::object();
   const prep::Options uncleaned;
   for (const ImportDescription& import : d.imports) {

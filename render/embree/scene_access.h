@@ -15,6 +15,7 @@ struct SceneAccess {
         camera(*tile.camera),
         materials(scene.materials.data()),
         lights(scene.lights.data()),
+        lightShapes(scene.lightShapes.data()),
         extras(scene.extras.data()),
         textures(scene.textures.data()),
         textureTexels(scene.textureTexels.data()),
@@ -26,6 +27,7 @@ struct SceneAccess {
   const gpu::CameraParameters& camera;
   const gpu::Material* materials;
   const gpu::PointLight* lights;
+  const gpu::LightShape* lightShapes;
   const gpu::MaterialExtra* extras;
   const gpu::Texture* textures;
   const glm::vec3* textureTexels;
@@ -37,6 +39,8 @@ struct SceneAccess {
   render::Faults faults;
 
   const gpu::MaterialExtra& materialExtra(gpu::uint material) const { return extras[material]; }
+
+  const gpu::LightShape& lightShape(int index) const { return lightShapes[index]; }
 
   glm::vec3 environmentTexel(float x, float y) const {
     return environmentTexels[static_cast<int>(y) * (camera.environmentSize + 2) + static_cast<int>(x)];

@@ -124,7 +124,7 @@ class DepthPaths {
 
   DirectLight directLightAt(const Hit& h, const dvec3& mirror) {
     arrivals_.clear(), ways_.clear(), visible_.clear();
-    findArrivals(access_.scene, h, true, mirror, arrivals_, ways_);
+    findArrivals(access_, h, true, mirror, arrivals_, ways_);
     for (const ShadowRay& way : ways_)
       visible_.push_back(access_.bvh.visible(way.origin, way.direction, way.length) ? 1 : 0);
     rays += ways_.size();

@@ -26,6 +26,7 @@ struct SceneAccess {
   const std::vector<std::uint32_t>& sourceMeshes;     // per mesh of bvh
   const std::vector<std::vector<Face>>& faces;        // per triangle of each mesh of scene
   const std::vector<dvec3>& hemisphereTransmittance;  // per material
+  double lightReach;                                  // render::lightReach
 };
 
 // A ray and its query in single precision, which starts off the surface that the ray leaves.

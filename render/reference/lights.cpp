@@ -63,14 +63,15 @@ Light emittedLight(const Hit& h) {
   return rotated(transposed(toSurface(h.d, s)), polarized(radiance, m.polarization));
 }
 
-void findArrivals(const pack::Scene& scene, const Hit& h, bool hasHighlight, const dvec3& mirror,
+void findArrivals(const SceneAccess& access, const Hit& h, bool hasHighlight, const dvec3& mirror,
                   std::vector<Arrival>& arrivals, std::vector<ShadowRay>& ways) {
   const pack::Material& m = *h.surface.material;
   const bool diffuse = isDiffuse(h), glossy = m.highlightStrength > 0 && hasHighlight;
-  if (scene.lights.empty() || (!diffuse && !glossy)) return;
+  if (access.scene.lights.empty() || (!diffuse && !glossy)) return;
   const dvec3 origin = queryAbove(h);
-  for (const pack::PointLight& light : scene.lights) {
-    const dvec3 toLight = light.position - h.position;
+  for (const pack::LightSource& light : access.scene.lights) {
+    const bool isFar = light.kind == pack::LightKind::directional;
+    const dvec3 toLight = isFar ? -light.direction * access.lightReach : light.position - h.position;
     const double distance = glm::length(toLight);
     if (!(distance > 0)) continue;  // a light in the hit has no direction
     const dvec3 l = toLight / distance;
@@ -78,7 +79,11 @@ void findArrivals(const pack::Scene& scene, const Hit& h, bool hasHighlight, con
     if (cosine <= 0 || glm::dot(h.face, l) <= 0) continue;
     const double lobe = glossy ? m.highlightStrength * f64::phongLobe(mirror, l, m.highlightExponent) : 0;
     if (!diffuse && lobe <= 0) continue;
-    arrivals.push_back({cosine, distance, lobe, &light});
+    const pack::SpotFalloff falloff = pack::spotFalloff(light);
+    const double cone = std::clamp(-glm::dot(light.direction, l) * falloff.scale + falloff.offset, 0.0, 1.0);
+    if (cone == 0) continue;
+    arrivals.push_back(
+        {cosine, lobe, light.intensity * (isFar ? 1 : cone * cone / (distance * distance)), isFar ? 0 : distance});
     ways.push_back(wayTo(h, origin, toLight));
   }
 }
@@ -93,8 +98,7 @@ DirectLight directLight(const SceneAccess& access, const Hit& h, std::span<const
   for (std::size_t i = 0; i < arrivals.size(); ++i) {
     if (visible[i] == 0) continue;
     const Arrival& a = arrivals[i];
-    const dvec3 arriving =
-        a.light->intensity / (a.distance * a.distance) * transmittanceOver(absorptionAt(h), a.distance);
+    const dvec3 arriving = a.irradiance * transmittanceOver(absorptionAt(h), a.absorbedOver);
     if (diffuse) {
       const dvec3 entering = pack::hasIndex(m.kind)
                                  ? meanTransmittance(h.surface, std::min(a.cosine, 1.0), m.outsideEta, h.surface.eta.y)

@@ -1,4 +1,5 @@
-// Light of the reference that starts at a source: the environment, emitters, and point lights at a surface.
+// Light of the reference that starts at a source: the environment, emitters, and point, spot and directional lights at
+// a surface.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +17,17 @@ Light environmentLight(const pack::Environment& environment, const dvec3& d);
 // Light of the emitter at a hit along -d, as basic radiance.
 Light emittedLight(const Hit& hit);
 
-// A point light in front of a hit, which arrives unless a surface is in the way.
+// A light in front of a hit, which arrives unless a surface is in the way.
 struct Arrival {
-  double cosine, distance;  // cosine: with the shading normal
-  double lobe;              // of the highlight
-  const pack::PointLight* light;
+  double cosine;        // with the shading normal
+  double lobe;          // of the highlight
+  dvec3 irradiance;     // at normal incidence, without absorption on the way
+  double absorbedOver;  // length of the way through the medium; 0 of a light at infinity, as of the environment
 };
 
-// Appends the point lights that a hit reflects, and the ways to them. hasHighlight: highlights are seen at the mirror
+// Appends the lights that a hit reflects, and the ways to them. hasHighlight: highlights are seen at the mirror
 // direction.
-void findArrivals(const pack::Scene& scene, const Hit& hit, bool hasHighlight, const dvec3& mirror,
+void findArrivals(const SceneAccess& access, const Hit& hit, bool hasHighlight, const dvec3& mirror,
                   std::vector<Arrival>& arrivals, std::vector<ShadowRay>& ways);
 
 // Diffuse radiance below the interface, and highlight radiance along the mirror direction.

@@ -14,6 +14,7 @@
 #include "render/embree/embree.h"
 #include "render/reference/depth_paths.h"
 #include "render/reference/tracer.h"
+#include "render/scene/image_plane.h"
 #include "render/scene/render_scene.h"
 #include "shaders/optics/optics.h"
 
@@ -31,15 +32,24 @@ double sinceMs(Clock::time_point start) {
 constexpr std::uint32_t kTileWidth = 16, kTileHeight = 16;
 static_assert(kTileWidth * kTileHeight == kBatch);
 
-// The image plane at distance 1.
-struct ImagePlane {
-  ImagePlane(const pack::Camera& camera, double width, double height)
-      : tanY(std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi)), tanX(tanY * width / height) {}
-  double tanY, tanX;
-  // x, y: from 0 to 1 over the image.
-  dvec3 direction(const pack::Camera& camera, double x, double y) const {
-    return f64::cameraDirection(camera.right, camera.up, camera.forward, tanX, tanY, x, y);
+// Rays of the camera. x, y: from 0 to 1 over the image.
+class CameraRays {
+ public:
+  CameraRays(const pack::Camera& camera, double width, double height)
+      : camera_(camera), plane_(render::makeImagePlane(camera, width, height)) {}
+  dvec3 direction(double x, double y) const {
+    if (camera_.isOrthographic()) return camera_.forward;
+    return f64::cameraDirection(camera_.right, camera_.up, plane_.middle, plane_.halfWidth, plane_.halfHeight, x, y);
   }
+  dvec3 origin(double x, double y) const {
+    if (!camera_.isOrthographic()) return camera_.position;
+    return camera_.position + plane_.middle + camera_.right * ((2 * x - 1) * plane_.halfWidth) +
+           camera_.up * ((1 - 2 * y) * plane_.halfHeight);
+  }
+
+ private:
+  const pack::Camera& camera_;
+  render::ImagePlane plane_;
 };
 
 // Writes the channels of a pixel.
@@ -60,7 +70,7 @@ struct Worker {
 };
 
 // Renders the tile that begins at pixel (beginX, beginY) of the region.
-void renderTile(const pack::Camera& camera, const render::RenderParameters& parameters, const ImagePlane& plane,
+void renderTile(const pack::Camera& camera, const render::RenderParameters& parameters, const CameraRays& rays,
                 std::uint32_t beginX, std::uint32_t beginY, Worker& worker, render::RenderResult& result) {
   const render::Region& region = parameters.region;
   const std::uint32_t endX = std::min(beginX + kTileWidth, region.width),
@@ -75,9 +85,10 @@ void renderTile(const pack::Camera& camera, const render::RenderParameters& para
     for (std::uint32_t y = beginY; y < endY; ++y)
       for (std::uint32_t x = beginX; x < endX; ++x) {
         const std::uint32_t pixelX = region.x + x, pixelY = region.y + y;
-        const dvec3 d = plane.direction(camera, (pixelX + (column + 0.5) / samples) / parameters.width,
-                                        (pixelY + (row + 0.5) / samples) / parameters.height);
-        worker.rays.push_back({camera.position, d, glm::vec3(camera.position), pixelX, pixelY, false});
+        const double imageX = (pixelX + (column + 0.5) / samples) / parameters.width,
+                     imageY = (pixelY + (row + 0.5) / samples) / parameters.height;
+        const dvec3 origin = rays.origin(imageX, imageY);
+        worker.rays.push_back({origin, rays.direction(imageX, imageY), glm::vec3(origin), pixelX, pixelY, false});
       }
     worker.tracer.trace(worker.rays, parameters.depth, worker.light);
     // The camera frame of a ray: x is the s direction of a surface whose normal is `up`.
@@ -107,6 +118,7 @@ struct Renderer::Impl {
     for (const pack::Material& m : source.materials)
       hemisphereTransmittance.push_back(render::hemisphereTransmittance(m, scene.wavelengthsNm));
     for (const pack::Mesh& mesh : source.meshes) faces.push_back(computeFaces(mesh));
+    lightReach = render::lightReach(source);
   }
 
   const pack::Scene& scene;
@@ -115,9 +127,10 @@ struct Renderer::Impl {
   std::vector<std::uint32_t> sourceMeshes;
   std::vector<std::vector<Face>> faces;        // per triangle of each mesh
   std::vector<dvec3> hemisphereTransmittance;  // per material
+  double lightReach = 0;
   double buildMs = 0;
 
-  SceneAccess access() const { return {scene, bvh, sourceMeshes, faces, hemisphereTransmittance}; }
+  SceneAccess access() const { return {scene, bvh, sourceMeshes, faces, hemisphereTransmittance, lightReach}; }
 };
 
 Renderer::Renderer(const pack::Scene& scene, unsigned threads) {
@@ -140,13 +153,13 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
   result.pixels.resize(result.channels * result.width * result.height);
   result.device = device();
   const SceneAccess access = impl_->access();
-  const ImagePlane plane(scene.camera, parameters.width, parameters.height);
+  const CameraRays cameraRays(scene.camera, parameters.width, parameters.height);
   const std::uint32_t columns = (result.width + kTileWidth - 1) / kTileWidth,
                       rows = (result.height + kTileHeight - 1) / kTileHeight;
   tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(access, parameters); });
   const auto traceAll = [&] {
     tbb::parallel_for(std::uint32_t{0}, columns * rows, [&](std::uint32_t tile) {
-      renderTile(scene.camera, parameters, plane, tile % columns * kTileWidth, tile / columns * kTileHeight,
+      renderTile(scene.camera, parameters, cameraRays, tile % columns * kTileWidth, tile / columns * kTileHeight,
                  workers.local(), result);
     });
   };
@@ -170,7 +183,7 @@ bake::DepthProbe Renderer::probeDepth() {
   const pack::Scene& scene = impl_->scene;
   const SceneAccess access = impl_->access();
   const std::uint32_t height = std::clamp(kSide * scene.height / scene.width, 1u, kSide);
-  const ImagePlane plane(scene.camera, scene.width, scene.height);
+  const CameraRays cameraRays(scene.camera, scene.width, scene.height);
   struct Row {
     std::vector<double> energy;
     std::vector<bool> darkBacks;
@@ -182,10 +195,11 @@ bake::DepthProbe Renderer::probeDepth() {
     DepthPaths paths(access);
     std::vector<double> pixels(kSide);
     const double basicToRadiance = scene.camera.mediumEta * scene.camera.mediumEta;
-    for (std::uint32_t x = 0; x < kSide; ++x)
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      const double imageX = (x + 0.5) / kSide, imageY = (y + 0.5) / height;
       pixels[x] =
-          basicToRadiance * paths.followPixel(scene.camera.position,
-                                              plane.direction(scene.camera, (x + 0.5) / kSide, (y + 0.5) / height));
+          basicToRadiance * paths.followPixel(cameraRays.origin(imageX, imageY), cameraRays.direction(imageX, imageY));
+    }
     rows[y] = {paths.energy, paths.darkBacks, paths.rays, paths.unfollowed, std::move(pixels)};
   });
 

@@ -126,7 +126,7 @@ void Tracer::beginFacets(const Ray& ray, const dvec3& above, Level& level, Node&
 
 void Tracer::addArrivals(std::uint32_t depth, const dvec3& mirror, Level& level, Node& node) const {
   node.firstArrival = count(level.arrivals.size());
-  findArrivals(access_.scene, node.hit, depth > 0, mirror, level.arrivals, level.ways);
+  findArrivals(access_, node.hit, depth > 0, mirror, level.arrivals, level.ways);
   node.arrivals = count(level.arrivals.size()) - node.firstArrival;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <tuple>
@@ -10,6 +11,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "bake/effects/effects.h"
+#include "render/scene/image_plane.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::render {
@@ -111,6 +113,24 @@ glm::dvec3 hemisphereTransmittance(const pack::Material& m, const glm::dvec3& wa
   return sum;
 }
 
+namespace {
+
+void addLights(const pack::Scene& scene, RenderScene& result) {
+  const bool hasFar = std::ranges::any_of(
+      scene.lights, [](const pack::LightSource& light) { return light.kind == pack::LightKind::directional; });
+  const auto reach = static_cast<float>(hasFar ? lightReach(scene) : 0);
+  for (const pack::LightSource& light : scene.lights) {
+    result.lights.push_back({glm::vec3(light.position), glm::vec3(light.intensity)});
+    const pack::SpotFalloff falloff = pack::spotFalloff(light);
+    result.lightShapes.push_back({glm::vec3(light.direction), static_cast<float>(falloff.scale),
+                                  static_cast<float>(falloff.offset),
+                                  light.kind == pack::LightKind::directional ? reach : 0});
+  }
+  if (result.lightShapes.empty()) result.lightShapes.push_back({glm::vec3(0), 0, 1, 0});
+}
+
+}  // namespace
+
 RenderScene makeRenderScene(const pack::Scene& scene) {
   RenderScene result;
   for (const pack::Material& m : scene.materials) {
@@ -130,8 +150,7 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     result.materials.push_back(g);
     result.extras.push_back(makeExtra(m, scene.wavelengthsNm));
   }
-  for (const pack::PointLight& light : scene.lights)
-    result.lights.push_back({glm::vec3(light.position), glm::vec3(light.intensity)});
+  addLights(scene, result);
   result.sourceMeshes = sortByOrigin(scene.meshes);
   for (const std::uint32_t source : result.sourceMeshes) {
     const pack::Mesh& mesh = scene.meshes[source];
@@ -159,6 +178,13 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
   return result;
 }
 
+double lightReach(const pack::Scene& scene) {
+  glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+  for (const pack::Mesh& mesh : scene.meshes)
+    for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  return low.x <= high.x ? std::max(2 * glm::length(high - low), 1e-3) : 1;
+}
+
 glm::dvec2 facetPoint(std::size_t i) {
   // Vogel's spiral: equal areas, each point rotated by the golden angle.
   const double radius = std::sqrt((static_cast<double>(i) + 0.5) / gpu::kFacets),
@@ -175,15 +201,15 @@ void split(const glm::dvec3& v, double unit, glm::vec3& coarse, glm::vec3& fine)
   fine = glm::vec3(v - rounded);
 }
 
-// The directions of cameraSampleDirection: forward + (2 px - 1) tanX right + (1 - 2 py) tanY up, at the centres of the
-// samples.
-void setSampleDirections(gpu::CameraParameters& f, const pack::Camera& camera, double tanY,
-                         const RenderParameters& parameters) {
+// The points of cameraSampleDirection and cameraSampleOffset: middle + (2 px - 1) halfWidth right + (1 - 2 py)
+// halfHeight up of the image plane, at the centres of the samples.
+void setSamples(gpu::CameraParameters& f, const pack::Camera& camera, const RenderParameters& parameters) {
   const double columns = static_cast<double>(parameters.width) * parameters.samples,
                rows = static_cast<double>(parameters.height) * parameters.samples;
-  const glm::dvec3 right = camera.right * (tanY * parameters.width / parameters.height), up = camera.up * tanY,
+  const ImagePlane plane = makeImagePlane(camera, parameters.width, parameters.height);
+  const glm::dvec3 right = camera.right * plane.halfWidth, up = camera.up * plane.halfHeight,
                    columnStep = right * (2 / columns), rowStep = up * (-2 / rows),
-                   first = camera.forward - right + up + 0.5 * (columnStep + rowStep);
+                   first = plane.middle - right + up + 0.5 * (columnStep + rowStep);
   // No partial sum of coarse parts exceeds 2^24 units, so that float represents it.
   const glm::dvec3 sizes = glm::abs(first) + 2.0 * (glm::abs(right) + glm::abs(up));
   const double unit = std::exp2(std::ceil(std::log2(std::max({sizes.x, sizes.y, sizes.z}))) - 23);
@@ -197,10 +223,11 @@ void setSampleDirections(gpu::CameraParameters& f, const pack::Camera& camera, d
 gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const RenderParameters& parameters) {
   gpu::CameraParameters f{};
   const pack::Camera& camera = scene.camera;
-  const double tanY = std::tan(camera.verticalFovDegrees / 360 * std::numbers::pi);
   f.position = glm::vec3(camera.position);
   f.up = glm::vec3(camera.up);
-  setSampleDirections(f, camera, tanY, parameters);
+  f.forward = glm::vec3(camera.forward);
+  f.orthographic = camera.isOrthographic() ? 1 : 0;
+  setSamples(f, camera, parameters);
   f.basicToRadiance = static_cast<float>(camera.mediumEta * camera.mediumEta);
   for (int i = 0; i < 4; ++i) f.analyser[i] = static_cast<float>(parameters.analyser[static_cast<std::size_t>(i)]);
   f.width = parameters.width;

@@ -12,6 +12,7 @@ namespace malus::render {
 struct RenderScene {
   std::vector<gpu::Material> materials;
   std::vector<gpu::PointLight> lights;
+  std::vector<gpu::LightShape> lightShapes;  // one per light, at least one
   // Meshes of equal origin follow each other, those of origin 0 first: each run is one instance of the acceleration
   // structures.
   std::vector<gpu::Mesh> meshes;
@@ -46,6 +47,9 @@ glm::dvec3 roundTripPhase(const pack::Coating& coating, const glm::dvec3& wavele
 
 // Point i of the unit disk that chooses facet i of a rough surface (shaders/optics/facets.h).
 glm::dvec2 facetPoint(std::size_t i);
+
+// A distance from any surface that is beyond all of them: that of shadow rays toward a light at infinity.
+double lightReach(const pack::Scene& scene);
 
 // Kind of surface, hence hit group, of a material.
 gpu::SurfaceKind surfaceKind(pack::MaterialKind kind);

@@ -45,3 +45,12 @@ struct PointLight {
   real3 position;
   real3 intensity;  // W/sr
 };
+
+// Shape of a spot light or of one at infinity, one struct per light. Read only by variants with
+// MALUS_EFFECT_LIGHT_SHAPES.
+struct LightShape {
+  real3 axis;       // unit vector in which the light travels; 0 of a point light
+  real coneScale;   // with the cosine c of the angle from the axis, the intensity is multiplied by
+  real coneOffset;  // clamp(c coneScale + coneOffset)^2
+  real reach;       // of a light at infinity: a distance beyond all surfaces; 0: the light has a position
+};

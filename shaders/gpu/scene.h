@@ -39,6 +39,7 @@ enum SurfaceKind : uint {
 MALUS_SIZE(Material, 92);
 MALUS_SIZE(MaterialExtra, 204);
 MALUS_SIZE(PointLight, 24);
+MALUS_SIZE(LightShape, 24);
 
 struct Texture {
   uint first;  // of its texels, row by row from the top
@@ -59,7 +60,7 @@ MALUS_SIZE(Mesh, 28);
 struct CameraParameters {
   vec3 position;
   vec3 up;           // unit vector
-  vec3 firstSample;  // cameraSampleDirection (optics/camera.h)
+  vec3 firstSample;  // cameraSampleDirection, or cameraSampleOffset of an orthographic camera (optics/camera.h)
   vec3 firstSampleFine;
   vec3 columnStep;
   vec3 columnStepFine;
@@ -85,8 +86,10 @@ struct CameraParameters {
   float skyDegree;          // largest degree of linear polarization of the sky
   vec2 facets[kFacets];     // points of the unit disk (optics/facets.h)
   float tolerance;          // iterative methods: fraction of a source's radiance that a path may lose
+  vec3 forward;             // unit vector; that of the rays of an orthographic camera
+  uint orthographic;        // not 0: the samples are points of the image, from which parallel rays start
 };
-MALUS_SIZE(CameraParameters, 432);
+MALUS_SIZE(CameraParameters, 448);
 
 #ifdef __cplusplus
 }  // namespace malus::gpu

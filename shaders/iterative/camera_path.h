@@ -10,9 +10,9 @@
 #include "shaders/iterative/path_light.h"
 // clang-format on
 
-FN CameraPath startPath(real3 direction, real behind0, real behind1, real behind2, real behind3) {
+FN CameraPath startPath(real3 origin, real3 direction, real behind0, real behind1, real behind2, real behind3) {
   CameraPath p;
-  p.ray = makeRay(camera.position, direction, real(camera.depth), R(0.0));
+  p.ray = makeRay(origin, direction, real(camera.depth), R(0.0));
   p.throughput = startThroughput(direction, camera.up, behind0, behind1, behind2, behind3);
   return p;
 }
@@ -30,11 +30,11 @@ FN void checkPath(IN(Hit) h, IN(Throughput) c, IN(PathLight) light, real behind0
 
 // Radiance that the camera records along a ray, per colour, behind an analyser: behind0 to behind3 is the first row of
 // its Mueller matrix.
-FN real3 traceCameraPath(real3 direction, real behind0, real behind1, real behind2, real behind3) {
+FN real3 traceCameraPath(real3 origin, real3 direction, real behind0, real behind1, real behind2, real behind3) {
   CameraPath stack[kPathStackSize];
   int count = 0;
   real3 sum = splat3(R(0.0));
-  CameraPath p = startPath(direction, behind0, behind1, behind2, behind3);
+  CameraPath p = startPath(origin, direction, behind0, behind1, behind2, behind3);
   real threshold = camera.tolerance * behind0;  // paths with a smaller throughput end
   bool follows = true;
   while (follows) {
@@ -98,9 +98,12 @@ FN real3 traceCameraPath(real3 direction, real behind0, real behind1, real behin
 FN real3 cameraPathPixel(uint x, uint y, real behind0, real behind1, real behind2, real behind3) {
   real3 sum = splat3(R(0.0));
   for (uint j = 0u; j < camera.samples; ++j)
-    for (uint i = 0u; i < camera.samples; ++i)
-      sum = sum + traceCameraPath(sampleDirection(real(x * camera.samples + i), real(y * camera.samples + j)), behind0,
-                                  behind1, behind2, behind3);
+    for (uint i = 0u; i < camera.samples; ++i) {
+      real column = real(x * camera.samples + i);
+      real row = real(y * camera.samples + j);
+      sum = sum + traceCameraPath(sampleOrigin(column, row), sampleDirection(column, row), behind0, behind1, behind2,
+                                  behind3);
+    }
   return sum * (camera.basicToRadiance / real(camera.samples * camera.samples));
 }
 

@@ -7,12 +7,18 @@ FN real3 cameraDirection(real3 right, real3 up, real3 forward, real tanX, real t
 // Unit direction of the ray through one sample of a camera that has columns and rows of samples. The direction before
 // its normalization is first + column * columnStep + row * rowStep, each vector the sum of a coarse part and of a fine
 // remainder. The coarse parts are multiples of one power of two, so that their sum is exact in float up to 2^24 samples
-// per axis: the rounding of a camera axis alone would move every ray by a distance that curved mirrors magnify.
-FN real3 cameraSampleDirection(real3 first, real3 firstFine, real3 columnStep, real3 columnFine, real3 rowStep,
-                               real3 rowFine, real column, real row) {
+// per axis: the rounding of a camera axis alone would move every ray by a distance that curved mirrors magnify. Of an
+// orthographic camera the same sum is the offset of the sample's ray from the camera's position.
+FN real3 cameraSampleOffset(real3 first, real3 firstFine, real3 columnStep, real3 columnFine, real3 rowStep,
+                            real3 rowFine, real column, real row) {
   real3 coarse = first + columnStep * column + rowStep * row;
   real3 fine = firstFine + columnFine * column + rowFine * row;
-  return normalize3(coarse + fine);
+  return coarse + fine;
+}
+
+FN real3 cameraSampleDirection(real3 first, real3 firstFine, real3 columnStep, real3 columnFine, real3 rowStep,
+                               real3 rowFine, real column, real row) {
+  return normalize3(cameraSampleOffset(first, firstFine, columnStep, columnFine, rowStep, rowFine, column, row));
 }
 
 // Rotation from the canonical frame of a ray in direction d to its camera frame, whose x is cross(d, up): cosine and

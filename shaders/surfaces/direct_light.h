@@ -1,5 +1,5 @@
-// Light of the point lights and of the environment's ambient irradiance that a surface scatters toward the camera,
-// before the interface that it leaves through. Every surface blocks a point light.
+// Light of the point, spot and directional lights and of the environment's ambient irradiance that a surface scatters
+// toward the camera, before the interface that it leaves through. Every surface blocks a point light.
 
 struct DirectLight {
   real3 diffuse;    // radiance of the Lambert layer
@@ -27,9 +27,9 @@ FN real3 environmentIrradiance(real3 n) {
   return e;
 }
 
-// Adds one point light, by a shadow ray if it can contribute.
-FN void addPointLight(INOUT(DirectLight) sum, IN(Hit) h, IN(Material) m, IN(PointLight) light, real3 reflected,
-                      mask diffuse, mask glossy) {
+// Adds one point light, by a shadow ray if it can contribute. isFar: it stands for a light at infinity.
+FN void addPointLight(INOUT(DirectLight) sum, IN(Hit) h, IN(Material) m, IN(PointLight) light, mask isFar,
+                      real3 reflected, mask diffuse, mask glossy) {
   LightSample s = sampleLight(h, m, light, reflected, diffuse, glossy);
   mask lit = s.lit;
   if (!anyM(lit)) return;
@@ -41,6 +41,7 @@ FN void addPointLight(INOUT(DirectLight) sum, IN(Hit) h, IN(Material) m, IN(Poin
     }
   }
   real3 none = splat3(R(0.0));
+  if (kEffectLightShapes) s.distance = selectR(isFar, R(0.0), s.distance);  // absorbs as the environment does: nothing
   real3 irradiance = lightIrradiance(h, light, s);
   if (anyM(diffuse)) {
     real3 radiance =
@@ -57,7 +58,16 @@ FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 reflected) {
   if (kEffectPointLights) {
     mask glossy = andM(lessR(R(0.0), m.highlightStrength), lessR(R(0.5), h.depth));
     if (anyM(orM(diffuse, glossy)))
-      for (int i = 0; i < camera.lightCount; ++i) addPointLight(sum, h, m, lights[i], reflected, diffuse, glossy);
+      for (int i = 0; i < camera.lightCount; ++i) {
+        PointLight light = lights[i];
+        mask isFar = lessR(R(1.0), R(0.0));
+        if (kEffectLightShapes) {
+          LightShape shape = lightShape(i);
+          isFar = lessR(R(0.0), shape.reach);
+          light = shapedLight(light, shape, isFar, h.position);
+        }
+        addPointLight(sum, h, m, light, isFar, reflected, diffuse, glossy);
+      }
   }
   if (kEffectAmbient) {
     if (anyM(andM(diffuse, lessR(R(0.0), camera.ambientIrradiance))))

@@ -4,7 +4,7 @@
 // Data, as described in shaders/gpu/scene.h:
 //   camera               camera, analyser, lights and environment of the image
 //   materials[]          by Hit.material
-//   lights[]             camera.lightCount point lights
+//   lights[]             camera.lightCount lights
 //   environmentTexels[]  octahedral map with a border of one texel
 //   textures[], textureTexels[]  only with MALUS_EFFECT_TEXTURES
 //   kCheckNumerics       compile-time constant: whether to check every value (check.h)
@@ -12,6 +12,8 @@
 // Functions:
 //   MaterialExtra materialExtra(material)
 //     Returns the rarer properties of a material. Called only if an effect of the build needs them.
+//   LightShape lightShape(index)
+//     Returns the shape of a light. Called only with MALUS_EFFECT_LIGHT_SHAPES.
 //   Payload traceRay(ray)
 //     Traces one ray and shades what it meets. Recursive methods with recursion only.
 //   bool findHit(ray, out hit)
@@ -42,6 +44,15 @@ MaterialExtra materialExtra(word material) {
   return extras[material];
 #else
   MaterialExtra unused;
+  return unused;
+#endif
+}
+
+LightShape lightShape(int index) {
+#if MALUS_EFFECT_LIGHT_SHAPES
+  return lightShapes[index];
+#else
+  LightShape unused;
   return unused;
 #endif
 }

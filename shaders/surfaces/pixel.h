@@ -4,7 +4,9 @@ FN Stokes cameraSample(real column, real row) {
   real cos2;
   real sin2;
   cameraFrameRotation(d, camera.up, cos2, sin2);
-  Stokes s = payloadStokes(traceRay(makeRay(camera.position, d, real(camera.depth), R(0.0))), d);
+  Ray ray = makeRay(camera.position, d, real(camera.depth), R(0.0));
+  if (kEffectOrthographic) ray.origin = sampleOrigin(column, row);
+  Stokes s = payloadStokes(traceRay(ray), d);
   return rotateStokes(s, cos2, sin2);
 }
 

@@ -10,6 +10,19 @@ struct LightSample {
   mask lit;     // the light is in front of the face and shows in the diffuse light or the highlight
 };
 
+// The point light that a spot light is to a point, or that stands for a light at infinity: at the distance `reach` of
+// the shape, with the intensity that gives the same irradiance there. Source of the cone: KHR_lights_punctual, "Inner
+// and Outer Cone Angles".
+FN PointLight shapedLight(IN(PointLight) light, LightShape shape, mask isFar, real3 point) {
+  real3 fromLight = point - light.position;
+  real c = dot3(shape.axis, fromLight) * (R(1.0) / divisor(sqrtR(dot3(fromLight, fromLight))));
+  real cone = minR(maxR(c * shape.coneScale + shape.coneOffset, R(0.0)), R(1.0));
+  PointLight result;
+  result.position = select3(isFar, point - shape.axis * shape.reach, light.position);
+  result.intensity = light.intensity * selectR(isFar, shape.reach * shape.reach, cone * cone);
+  return result;
+}
+
 // reflected: direction of the mirror ray. diffuse, glossy: whether the material scatters so.
 FN LightSample sampleLight(IN(Hit) h, IN(Material) m, IN(PointLight) light, real3 reflected, mask diffuse,
                            mask glossy) {

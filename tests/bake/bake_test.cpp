@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <glm/geometric.hpp>
@@ -160,6 +161,22 @@ TEST_F(Bake, TheOriginIsTheCentreUnlessGiven) {
   scene = baked();
   EXPECT_EQ(centre(scene.meshes[0]), glm::dvec3(0, 0, 1));
   EXPECT_EQ(scene.lights.at(0).position, glm::dvec3(0, 1, 0));
+}
+
+TEST_F(Bake, CamerasByIntrinsics) {
+  scene_["camera"].erase("verticalFovDegrees");
+  scene_["camera"]["intrinsics"] = {{"fx", 80}, {"fy", 60}, {"cx", 20}, {"cy", 30}};
+  const pack::Camera camera = baked().camera;
+  // The direction of the point (52, 6) of the image is ((52 - 20) / 80, (30 - 6) / 60, 1) along right, up and forward.
+  const double tanY = std::tan(camera.verticalFovDegrees * std::numbers::pi / 360);
+  const double x = tanY * (2 * camera.middleX + (2 * 52 / 64.0 - 1) * camera.pixelAspect * 64 / 48),
+               y = tanY * (2 * camera.middleY + (1 - 2 * 6 / 48.0));
+  EXPECT_NEAR(x, 0.4, 1e-12);
+  EXPECT_NEAR(y, 0.4, 1e-12);
+  scene_["camera"]["intrinsics"]["fy"] = 1e-3;
+  EXPECT_CONTAINS(error(), "camera.intrinsics.fy", "field of view");
+  scene_["camera"]["intrinsics"] = {{"fx", 1e5}, {"fy", 60}, {"cx", 0}, {"cy", 0}};
+  EXPECT_CONTAINS(error(), "camera.intrinsics.fx");
 }
 
 TEST_F(Bake, LargeTranslationsKeepPrecision) {

@@ -124,11 +124,18 @@ def bsdf(m: dict, colour: int) -> dict:
 
 
 def require_exportable(scene: Unpacked) -> None:
-    """Raises ValueError that names every material without an equivalent in Mitsuba."""
+    """Raises ValueError that names every material, light or camera without an equivalent in Mitsuba."""
     others = [f"'{m['name']}' ({m['type']})" for m in scene.materials.values() if m["type"] not in BSDFS]
     if others:
         raise ValueError(f"{scene.folder / 'scene.json'}: Mitsuba has no equivalent of material {', '.join(others)}; "
                          f"expected materials of type {', '.join(BSDFS)}")
+    kinds = {light["type"] for light in scene.json["lights"]} - {"point"}
+    if kinds:
+        raise ValueError(f"{scene.folder / 'scene.json'}: {', '.join(sorted(kinds))} lights are not exported; "
+                         "expected point lights")
+    if "pixelAspect" in scene.json["camera"]:  # written for cameras that are not plain (bake/FORMAT.md)
+        raise ValueError(f"{scene.folder / 'scene.json'}: orthographic cameras and cameras by intrinsics are not "
+                         "exported; expected verticalFovDegrees")
 
 
 # Optional keys of materials (bake/unpack.cpp).

@@ -140,6 +140,7 @@ struct MeshRow {
 };
 static_assert(kFields<MeshRow> * 4 == sizeof(gpu::Mesh) && kFields<Material> * 4 == sizeof(gpu::Material));
 static_assert(kFields<MaterialExtra> * 4 == sizeof(gpu::MaterialExtra));
+static_assert(kFields<LightShape> * 4 == sizeof(gpu::LightShape));
 
 struct PacketAccess {
   const render::RenderScene* scene;
@@ -173,6 +174,10 @@ struct PacketAccess {
   }
 
   const MaterialExtra& materialExtra(word) { return extra; }
+
+  LightShape lightShape(int index) {
+    return gatherRow<LightShape>(scene->lightShapes.data(), static_cast<std::uint32_t>(index));
+  }
 
   real3 environmentTexel(real x, real y) {
     const word row = timesW(wordOfReal(y), static_cast<std::uint32_t>(camera.environmentSize + 2));

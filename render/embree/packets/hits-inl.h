@@ -106,7 +106,6 @@ std::uint32_t addRays(Rays& batch, mask chosen, const Ray& ray) {
 void cameraRays(const embree::TileInput& tile, std::uint32_t column, std::uint32_t row, Rays& batch) {
   const std::uint32_t width = tile.endX - tile.beginX;
   batch.count = width * (tile.endY - tile.beginY);
-  const real3 from(camera.position);
   std::uint32_t pixelX = 0, pixelY = 0;
   for (std::uint32_t at = 0; at < batch.count; at += static_cast<std::uint32_t>(kLanes)) {
     HWY_ALIGN float x[kLanes], y[kLanes];
@@ -115,7 +114,7 @@ void cameraRays(const embree::TileInput& tile, std::uint32_t column, std::uint32
       y[i] = static_cast<float>((tile.beginY + camera.regionY + pixelY) * camera.samples + row);
       if (++pixelX == width) pixelX = 0, ++pixelY;
     }
-    const real3 d = sampleDirection(loadR(x), loadR(y));
+    const real3 d = sampleDirection(loadR(x), loadR(y)), from = sampleOrigin(loadR(x), loadR(y));
     storeR(from.x, batch.origin[0] + at), storeR(d.x, batch.direction[0] + at);
     storeR(from.y, batch.origin[1] + at), storeR(d.y, batch.direction[1] + at);
     storeR(from.z, batch.origin[2] + at), storeR(d.z, batch.direction[2] + at);

@@ -48,10 +48,16 @@ class Model : public testing::Test {
   }
   void addLights() {
     gltf_.document["extensions"] = {
-        {"KHR_lights_punctual", {{"lights", {{{"type", "point"}, {"color", {1, 0.5, 0.25}}, {"intensity", 8}}}}}}};
+        {"KHR_lights_punctual",
+         {{"lights",
+           {{{"type", "point"}, {"color", {1, 0.5, 0.25}}, {"intensity", 8}},
+            {{"type", "spot"}, {"intensity", 3}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
+            {{"type", "directional"}, {"intensity", 5}}}}}}};
     gltf_.document["extensionsUsed"] = {"KHR_lights_punctual"};
     gltf_.addNode(
         {{"name", "bulb"}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {1, 5, 2}}});
+    gltf_.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}, {"translation", {0, 0, 7}}});
+    gltf_.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 2}}}}}});
   }
   std::filesystem::path file() const { return folder_.write("a model.glb", gltf_.glb()); }
   Baked baked(const ModelOptions& options = {}) const { return bake(describeModel(file(), options), {}, kSilent); }
@@ -127,16 +133,33 @@ TEST_F(Model, RefusesCamerasThatASceneCannotHave) {
   EXPECT_EQ(errorWith("frame"), "");
 }
 
-TEST_F(Model, UsesThePointLightsOfTheFile) {
+TEST_F(Model, UsesOrthographicCameras) {
+  gltf_.add("cameras", {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}}}});
+  gltf_.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
+  const Baked result = baked();
+  EXPECT_EQ(result.scene.camera.orthographicHeight, 4);
+  EXPECT_EQ(result.scene.width, 1280u);
+  EXPECT_EQ(result.scene.height, 853u);
+}
+
+TEST_F(Model, UsesTheLightsOfTheFile) {
   addLights();
   const Baked result = baked();
-  ASSERT_EQ(result.scene.lights.size(), 1u);
+  ASSERT_EQ(result.scene.lights.size(), 3u);
+  const pack::LightSource &spot = result.scene.lights[1], &sun = result.scene.lights[2];
+  EXPECT_EQ(spot.kind, pack::LightKind::spot);
+  EXPECT_EQ(spot.direction, glm::dvec3(0, 0, -1));
+  EXPECT_DOUBLE_EQ(spot.innerConeDegrees, 0.25 * 180 / std::numbers::pi);
+  EXPECT_DOUBLE_EQ(spot.outerConeDegrees, 0.5 * 180 / std::numbers::pi);
+  EXPECT_EQ(sun.kind, pack::LightKind::directional);
+  EXPECT_EQ(sun.position, glm::dvec3(0));
+  EXPECT_EQ(sun.intensity, glm::dvec3(5));  // lux as W/m^2
   EXPECT_EQ(result.scene.lights[0].position + result.scene.origin, glm::dvec3(1, 5, 2));
   EXPECT_EQ(result.scene.lights[0].intensity, glm::dvec3(8, 4, 2));  // candela as W/sr
   EXPECT_EQ(result.scene.environment.size, 0u);
   EXPECT_EQ(result.scene.environment.radiance, glm::dvec3(0));
   const Baked both = baked({"", environmentFile()});
-  EXPECT_EQ(both.scene.lights.size(), 1u);
+  EXPECT_EQ(both.scene.lights.size(), 3u);
   EXPECT_GT(both.scene.environment.size, 0u);
 }
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "bake/pack/reader.h"
+#include "bake/pack/record_fields.h"
 #include "bake/pack/texel_storage.h"
 #include "bake/pack/writer.h"
 #include "tests/bake/fixtures.h"
@@ -75,6 +76,55 @@ TEST(PackRoundTrip, EveryField) {
     EXPECT_EQ(s.effects[i].reason, scene.effects[i].reason);
   }
   EXPECT_EQ(s.provenance, scene.provenance);
+}
+
+TEST(PackRoundTrip, LightsOfEveryKind) {
+  Scene scene = smallScene();
+  const auto version = [](const Scene& written, const char* id) {
+    for (const Section& section : parse(serialize(written, {}).bytes, "test").sections)
+      if (section.id == id) return section.version;
+    return 0u;
+  };
+  EXPECT_EQ(version(scene, kLights), 1u);  // the bytes of earlier versions
+  LightSource spot{{1, 2, 3}, {4, 5, 6}, LightKind::spot, {0, 0.6, -0.8}, 12.5, 33};
+  LightSource sun{{0, 0, 0}, {7, 8, 9}, LightKind::directional, {0, -1, 0}};
+  scene.lights.push_back(spot);
+  scene.lights.push_back(sun);
+  EXPECT_EQ(version(scene, kLights), kNewestLights);
+  const Scene s = parse(serialize(scene, {}).bytes, "test").scene;
+  ASSERT_EQ(s.lights.size(), 4u);
+  EXPECT_EQ(s.lights[0].kind, LightKind::point);
+  EXPECT_EQ(s.lights[2].kind, LightKind::spot);
+  EXPECT_EQ(s.lights[2].direction, spot.direction);
+  EXPECT_EQ(s.lights[2].innerConeDegrees, 12.5);
+  EXPECT_EQ(s.lights[2].outerConeDegrees, 33);
+  EXPECT_EQ(s.lights[3].kind, LightKind::directional);
+  EXPECT_EQ(s.lights[3].intensity, sun.intensity);
+  // Values that a renderer could not use.
+  const auto errorWith = [&](const LightSource& light) {
+    Scene wrong = smallScene();
+    wrong.lights = {light};
+    return malus::test::errorMessage([&] { parse(serialize(wrong, {}).bytes, "test"); });
+  };
+  spot.innerConeDegrees = 33;
+  EXPECT_CONTAINS(errorWith(spot), "LGHT", "innerConeDegrees");
+  sun.direction = {0, -0.5, 0};
+  EXPECT_CONTAINS(errorWith(sun), "LGHT", "direction");
+}
+
+TEST(PackRoundTrip, CamerasOfEveryKind) {
+  Scene scene = smallScene();
+  const auto camera = [&] { return parse(serialize(scene, {}).bytes, "test").scene.camera; };
+  EXPECT_TRUE(camera().isPlain());
+  scene.camera.orthographicHeight = 2.5;
+  EXPECT_EQ(camera().orthographicHeight, 2.5);
+  scene.camera.orthographicHeight = 0;
+  scene.camera.pixelAspect = 0.75;
+  scene.camera.middleX = -0.25;
+  scene.camera.middleY = 1.5;
+  EXPECT_EQ(camera().pixelAspect, 0.75);
+  EXPECT_EQ(camera().middleX, -0.25);
+  EXPECT_EQ(camera().middleY, 1.5);
 }
 
 TEST(PackRoundTrip, OptionalSections) {

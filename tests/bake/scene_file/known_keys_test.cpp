@@ -85,9 +85,29 @@ TEST(KnownKeys, AreThoseOfTheTables) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(test::errorMessage([&] { readSceneFile(folder.write("scene.json", scene.dump())); }), "");
   EXPECT_EQ(knownKeys(scene, ""), with<SceneDescription>(special({kSceneSpecialKeys}), MALUS_KEYS(visitSceneKeys)));
-  EXPECT_EQ(knownKeys(scene, "/camera"), with<SceneDescription>({}, MALUS_KEYS(visitCameraKeys)));
+  const Names camera =
+      with<SceneDescription>({"verticalFovDegrees", "orthographicHeight", "intrinsics"}, MALUS_KEYS(visitCameraKeys));
+  EXPECT_EQ(knownKeys(scene, "/camera"), camera);
+  json other = scene;
+  other["camera"].erase("verticalFovDegrees");
+  other["camera"]["orthographicHeight"] = 2;
+  EXPECT_EQ(knownKeys(other, "/camera"), camera);
+  other["camera"].erase("orthographicHeight");
+  other["camera"]["intrinsics"] = {{"fx", 100}, {"fy", 100}, {"cx", 32}, {"cy", 24}};
+  EXPECT_EQ(knownKeys(other, "/camera"), camera);
+  EXPECT_EQ(knownKeys(other, "/camera/intrinsics"), with<Intrinsics>({}, MALUS_KEYS(visitIntrinsicsKeys)));
   EXPECT_EQ(knownKeys(scene, "/lights/0"),
-            with<pack::PointLight>(special({kLightSpecialKeys}), MALUS_KEYS(visitLightKeys)));
+            with<pack::LightSource>(special({kLightSpecialKeys}), MALUS_KEYS(visitLightKeys)));
+  other["lights"][0] = {{"type", "spot"}, {"position", {0, 0, 0}}, {"intensity", {1, 1, 1}}, {"direction", {0, 0, 1}}};
+  Names spot = with<pack::LightSource>(special({kLightSpecialKeys}), MALUS_KEYS(visitLightKeys));
+  spot =
+      with<pack::LightSource>(with<pack::LightSource>(spot, MALUS_KEYS(visitDirectionKeys)), MALUS_KEYS(visitSpotKeys));
+  EXPECT_EQ(knownKeys(other, "/lights/0"), spot);
+  other["lights"][0] = {{"type", "directional"}, {"irradiance", {1, 1, 1}}, {"direction", {0, 0, 1}}};
+  EXPECT_EQ(
+      knownKeys(other, "/lights/0"),
+      with<pack::LightSource>(with<pack::LightSource>(special({kLightSpecialKeys}), MALUS_KEYS(visitDirectionKeys)),
+                              MALUS_KEYS(visitDirectionalKeys)));
   EXPECT_EQ(knownKeys(scene, "/materials/lambert/albedoMap"),
             with<TextureDescription>(special({kMapSpecialKeys}), MALUS_KEYS(visitMapKeys)));
   EXPECT_EQ(knownKeys(scene, "/materials/lambert/projection"), with<pack::Maps>({}, MALUS_KEYS(visitProjectionKeys)));

@@ -485,5 +485,50 @@ TEST(SceneFile, MissingFile) {
   EXPECT_TRUE(contains(errorMessage([] { readSceneFile("/nowhere/scene.json"); }), "/nowhere/scene.json: cannot open"));
 }
 
+TEST(SceneFile, CamerasOfEveryKind) {
+  json scene = minimal();
+  json& camera = scene["camera"];
+  camera.erase("verticalFovDegrees");
+  camera["orthographicHeight"] = 3;
+  EXPECT_EQ(readJson(scene).orthographicHeight, 3);
+  camera["intrinsics"] = {{"fx", 100}, {"fy", 90}, {"cx", 32.5}, {"cy", 20}};
+  EXPECT_CONTAINS(errorMessage([&] { readJson(scene); }), "camera", "exclude");
+  camera.erase("orthographicHeight");
+  const Intrinsics intrinsics = readJson(scene).intrinsics.value();
+  EXPECT_EQ(intrinsics.fx, 100);
+  EXPECT_EQ(intrinsics.fy, 90);
+  EXPECT_EQ(intrinsics.cx, 32.5);
+  EXPECT_EQ(intrinsics.cy, 20);
+  for (const auto& [key, value] : {std::pair("fx", 0), std::pair("fy", -1), std::pair("cx", 10000000)}) {
+    json wrong = scene;
+    wrong["camera"]["intrinsics"][key] = value;
+    EXPECT_CONTAINS(errorMessage([&] { readJson(wrong); }), std::string("camera.intrinsics.") + key);
+  }
+}
+
+TEST(SceneFile, LightsOfEveryKind) {
+  json scene = minimal();
+  scene["lights"] = {{{"type", "spot"}, {"position", {1, 2, 3}}, {"intensity", {1, 1, 1}}, {"direction", {0, 0, -4}}},
+                     {{"type", "directional"}, {"irradiance", {3, 2, 1}}, {"direction", {0, -1, 0}}}};
+  const SceneDescription read = readJson(scene);
+  ASSERT_EQ(read.lights.size(), 2u);
+  EXPECT_EQ(read.lights[0].kind, pack::LightKind::spot);
+  EXPECT_EQ(read.lights[0].direction, glm::dvec3(0, 0, -1));
+  EXPECT_EQ(read.lights[0].innerConeDegrees, 0);
+  EXPECT_EQ(read.lights[0].outerConeDegrees, 45);
+  EXPECT_EQ(read.lights[1].kind, pack::LightKind::directional);
+  EXPECT_EQ(read.lights[1].intensity, glm::dvec3(3, 2, 1));
+  const auto lightError = [&](const char* key, const json& value) {
+    json wrong = scene;
+    wrong["lights"][0][key] = value;
+    return errorMessage([&] { readJson(wrong); });
+  };
+  EXPECT_CONTAINS(lightError("type", "spt"), "lights[0].type", "'spot'");
+  EXPECT_CONTAINS(lightError("direction", {0, 0, 0}), "lights[0].direction");
+  EXPECT_CONTAINS(lightError("innerConeDegrees", 45), "innerConeDegrees", "below 45");
+  EXPECT_CONTAINS(lightError("outerConeDegrees", 91), "outerConeDegrees");
+  EXPECT_CONTAINS(lightError("irradiance", {1, 1, 1}), "irradiance");
+}
+
 }  // namespace
 }  // namespace malus::bake

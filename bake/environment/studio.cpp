@@ -1,5 +1,6 @@
 #include "bake/environment/studio.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -64,7 +65,7 @@ image::Image studioImage() {
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
       // The centre column is toward -z, columns to its right toward +x.
-      const double azimuth = 180 - (x + 0.5 - kWidth / 2) * 360 / kWidth, elevation = 90 - (y + 0.5) * 180 / kHeight;
+      const double azimuth = 180 - (x + 0.5 - kWidth / 2.0) * 360 / kWidth, elevation = 90 - (y + 0.5) * 180 / kHeight;
       const auto value = static_cast<float>(radiance(direction(azimuth, elevation)));
       image.pixels.insert(image.pixels.end(), {value, value, value});
     }

@@ -33,6 +33,7 @@ std::string sceneName(const std::filesystem::path& file) {
 
 std::vector<std::string> cameraNames(const std::vector<prep::SourceCamera>& cameras) {
   std::vector<std::string> names;
+  names.reserve(cameras.size());
   for (const prep::SourceCamera& camera : cameras) names.push_back(camera.name);
   return names;
 }

@@ -13,7 +13,8 @@
 namespace malus::render {
 
 // Channels R, G, B (behind the filter) and, if the result has them, S0.R ... S3.B; the attributes worldToCamera and
-// malus:scene, pack, renderer, method, device, depth, samples, analyser, region, verticalFovDegrees.
+// malus:scene, pack, renderer, method, device, depth, samples, analyser, region, verticalFovDegrees or
+// orthographicHeight.
 image::Image toImage(const RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
                      const std::string& renderer, const std::string& method);
 // The same, and moves the pixels out of result.

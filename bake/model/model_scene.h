@@ -22,8 +22,9 @@ namespace malus::bake {
 inline constexpr std::uint32_t kModelPixels = 1280;
 inline constexpr double kModelAspect = 4.0 / 3;
 
-// The depth is the least that keeps all but this share of the light (bake/depth_probe.h), within these bounds. The share is
-// a tenth of the one that is reported, because the light that is lost may be that of one small part of the image.
+// The depth is the least that keeps all but this share of the light (bake/depth_probe.h), within these bounds. The
+// share is a tenth of the one that is reported, because the light that is lost may be that of one small part of the
+// image.
 inline constexpr double kModelLostLight = kLostLight / 10;
 inline constexpr std::uint32_t kLeastModelDepth = 2, kMostModelDepth = 12;
 inline constexpr std::uint32_t kUnmeasuredDepth = 8;  // without a depth probe

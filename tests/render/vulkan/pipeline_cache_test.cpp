@@ -1,4 +1,4 @@
-// The cache of pipelines on disk, and pipelines that are compiled in parallel.
+// The cache of pipelines on disk, and pipelines that are compiled together.
 #include "render/vulkan/pipeline_cache.h"
 
 #include <unistd.h>
@@ -15,6 +15,7 @@
 
 #include "meshprep/base/atomic_file.h"
 #include "render/scene/methods.h"
+#include "render/vulkan/device_description.h"
 #include "render/vulkan/renderer.h"
 #include "tests/render/vulkan/scenes.h"
 #include "tests/render/vulkan/vulkan_calls.h"
@@ -93,7 +94,7 @@ TEST_F(VulkanPipelineCache, FolderThatCannotBeWrittenIsIgnored) {
   EXPECT_FALSE(fs::exists(folder_ / "malus/pipelines"));
 }
 
-TEST_F(VulkanPipelineCache, PreparedMethodsAreCompiledInParallel) {
+TEST_F(VulkanPipelineCache, PreparedMethodsAreCompiledAtOnce) {
   const render::RenderParameters parameters = render::defaultParameters(scene_);
   std::vector<render::Preparation> images;
   for (const char* method : {"schlick", "fresnel", "sp", "stokes", "stokes-linear"})
@@ -105,7 +106,9 @@ TEST_F(VulkanPipelineCache, PreparedMethodsAreCompiledInParallel) {
   const std::vector<std::thread::id> threads = test::vulkanCalls().pipelineThreads;
   ASSERT_EQ(threads.size(), 10u);
   const std::size_t different = std::set(threads.begin(), threads.end()).size();
-  EXPECT_EQ(different > 1, std::thread::hardware_concurrency() > 1);
+  // By one thread on lavapipe, whose cache needs one order (programs.cpp).
+  const bool isCpu = chosenDevice({}).type == "CPU";
+  EXPECT_EQ(different > 1, !isCpu && std::thread::hardware_concurrency() > 1);
   for (std::size_t i = 0; i < 5; ++i) {
     const render::RenderResult image = renderer.render(images[i].method, parameters);
     EXPECT_GT(image.cost.compileMs, 0);

@@ -314,7 +314,7 @@ Document toDocument(json document, const std::string& where, GltfLeftOut& leftOu
   for (const json& scene : lists.take("scenes")) get(scene, "nodes", result.sceneNodes.emplace_back());
   for (const json& node : lists.take("nodes")) result.nodes.push_back(toNode(node));
   lists.convert("meshes", result.meshes, [](const json& mesh, const std::string&) { return toMesh(mesh); });
-  lists.convert("skins", result.skins, [](const json& skin, const std::string&) { return toSkin(skin); });
+  for (const json& skin : lists.take("skins")) result.skins.push_back(toSkin(skin));
   lists.convert("accessors", result.accessors, toAccessor);
   lists.convert("bufferViews", result.bufferViews, toBufferView);
   lists.convert("buffers", result.buffers, [](json& buffer, const std::string&) { return toBuffer(buffer); });

@@ -104,7 +104,6 @@ struct Mesh {
 struct Skin {
   std::vector<std::size_t> joints;                 // nodes
   std::optional<std::size_t> inverseBindMatrices;  // accessor; none: identity
-  bool isInvalid = false;
 };
 
 // EXT_mesh_gpu_instancing: accessors with one value per instance.

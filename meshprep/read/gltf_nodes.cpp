@@ -303,8 +303,6 @@ class Placing {
     if (skin >= document_.skins.size())
       throw Error(location + ".skin", "refers to a missing skin",
                   fmt::format("an index below {}", document_.skins.size()), fmt::to_string(skin));
-    if (document_.skins[skin].isInvalid)
-      throw Error(location + ".skin", "refers to an invalid skin", "a valid skin", fmt::to_string(skin));
   }
 
   // Returns the weights of the node, else those of its mesh; empty if all are 0.

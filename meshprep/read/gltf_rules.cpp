@@ -176,7 +176,7 @@ constexpr std::array kRules = {
     optionalValue("images/uri", Type::text),
     optionalValue("images/bufferView", Type::index),
     noted("animations", "animations (the default pose is used)"),
-    optionalValue("skins", Type::objects),
+    optionalValue("skins", Type::objects),  // without joints if invalid: gltf_pose.h
     Rule{"skins/joints", Type::indices, 0, true},
     Rule{"skins/inverseBindMatrices", Type::index},
     optionalValue("cameras", Type::objects),

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/scene_file/scene_file.h"
-#include "tests/bake/fixtures.h"
+#include "tests/bake/scene_file/scene_texts.h"
 
 namespace malus::bake {
 namespace {
@@ -12,15 +12,7 @@ namespace {
 using nlohmann::json;
 using test::contains;
 using test::errorMessage;
-
-json minimal() {
-  return json::parse(R"({
-    "malus": 1, "name": "plain",
-    "camera": {"position": [0, 1, 5], "target": [0, 0, 0], "verticalFovDegrees": 30},
-    "resolution": [64, 48], "depth": 4,
-    "materials": {"floor": {"type": "lambert", "albedo": 0.5}},
-    "meshes": [{"name": "floor", "file": "floor.obj", "material": "floor"}]})");
-}
+using test::minimal;
 
 TEST(SceneOpticalConstants, FromAFile) {
   const test::TemporaryFolder folder;

@@ -34,18 +34,18 @@ double resonance(const Coefficients& c, std::size_t i, double wavelength) {
 
 }  // namespace
 
-CoefficientCount coefficientCount(int formula) {
+bool hasCompleteTerms(int formula, std::size_t coefficients) {
   switch (formula) {
-    case 4:
-      return {1, kMostOfSum};
+    case 4:  // C1, two resonances of four, then pairs
+      return coefficients == 1 || coefficients == 5 ||
+             (coefficients >= 9 && coefficients % 2 == 1 && coefficients <= kMostOfSum);
     case 7:
-      return {1, 6};
-    case 8:
-      return {1, 4};
     case 9:
-      return {1, 6};
-    default:
-      return {1, kMostOfSum};
+      return coefficients >= 1 && coefficients <= 6;
+    case 8:
+      return coefficients >= 1 && coefficients <= 4;
+    default:  // C1, then pairs
+      return coefficients % 2 == 1 && coefficients <= kMostOfSum;
   }
 }
 

@@ -20,14 +20,11 @@ namespace malus::bake {
 
 inline constexpr int kDispersionFormulas = 9;
 
-// Fewest and most coefficients of a formula, 1 to 9. Those of one term of a sum come together, which is not checked.
-struct CoefficientCount {
-  std::size_t fewest, most;
-};
-CoefficientCount coefficientCount(int formula);
+// Whether a formula, 1 to 9, may have so many coefficients: C1, and whole terms of a sum, at most twenty.
+bool hasCompleteTerms(int formula, std::size_t coefficients);
 
 // Returns the index at a wavelength over 0; NaN or infinite where the formula has no value. The number of coefficients
-// must be within coefficientCount.
+// must be that of complete terms.
 double indexByFormula(int formula, std::span<const double> coefficients, double micrometres);
 
 }  // namespace malus::bake

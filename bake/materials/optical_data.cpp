@@ -45,10 +45,9 @@ void OpticalData::addFormula(int formula, std::vector<double> coefficients, doub
   if (formula < 1 || formula > kDispersionFormulas)
     throw Error(location, "unknown dispersion formula", fmt::format("1 to {}", kDispersionFormulas),
                 fmt::to_string(formula));
-  const CoefficientCount count = coefficientCount(formula);
-  if (coefficients.size() < count.fewest || coefficients.size() > count.most)
+  if (!hasCompleteTerms(formula, coefficients.size()))
     throw Error(location, fmt::format("wrong number of coefficients of formula {}", formula),
-                fmt::format("{} to {}", count.fewest, count.most), fmt::to_string(coefficients.size()));
+                "C1 and the complete terms of the formula", fmt::to_string(coefficients.size()));
   if (!(low > 0 && low <= high))
     throw Error(location, "range of wavelengths is empty", "two increasing wavelengths over 0 in micrometres",
                 fmt::format("{} to {}", low, high));

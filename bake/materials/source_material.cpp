@@ -148,6 +148,10 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
     result.twoSided = source.isDoubleSided;
     if (largest(source.emissive) < kBrightEmission * largest(colour))
       prep::addNote(notes, fmt::format("the reflection of material '{}', which emits light", source.name));
+    if (source.alphaMode != prep::AlphaMode::opaque)
+      prep::addNote(notes, fmt::format("the alpha of material '{}', which is drawn as opaque", source.name));
+    if (transmission > prep::kTransmissive)
+      prep::addNote(notes, fmt::format("the transmission of material '{}', which emits light", source.name));
     return result;
   }
   const bool isPane =

@@ -16,7 +16,8 @@ namespace malus::bake {
 
 namespace {
 
-enum class Role { colour, numbers };  // encoded by sRGB, or linear; alpha always is linear
+// Colours are encoded by sRGB, numbers are linear, and alpha always is. Blended colours are weighted by alpha.
+enum class Role { colour, blendedColour, numbers };
 
 using Mean = std::array<double, 4>;  // red, green, blue, alpha
 
@@ -25,13 +26,19 @@ Mean computeMean(const image::Image& image, Role role, const std::string& name) 
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   const int alpha = image.channel("A");
   Mean sum{};
+  double weights = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
     const std::array<double, 3> stored = colours.stored(i);
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += role == Role::colour ? image::decodeSrgb(stored[c]) : stored[c];
-    sum[3] +=
+    const double a =
         alpha < 0 ? 1 : static_cast<double>(image.pixels[i * image.channels.size() + static_cast<std::size_t>(alpha)]);
+    const double weight = role == Role::blendedColour ? std::clamp(a, 0.0, 1.0) : 1;
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[c] += weight * (role == Role::numbers ? stored[c] : image::decodeSrgb(stored[c]));
+    sum[3] += a;
+    weights += weight;
   }
-  for (double& value : sum) value /= static_cast<double>(pixels);
+  for (std::size_t c = 0; c < 3; ++c) sum[c] = weights > 0 ? sum[c] / weights : 0;
+  sum[3] /= static_cast<double>(pixels);
   return sum;
 }
 
@@ -80,9 +87,10 @@ void applyTextureMeans(prep::SourceScene& scene, bool strict) {
   };
   for (prep::SourceMaterial& m : scene.materials) {
     const bool hasEmissiveImage = m.emissiveImage.has_value() && m.emissive != glm::dvec3(0.0);
-    if (const auto mean = take(m.baseColourImage, Role::colour)) {
+    const bool blends = m.alphaMode == prep::AlphaMode::blend;
+    if (const auto mean = take(m.baseColourImage, blends ? Role::blendedColour : Role::colour)) {
       m.baseColour *= toColour(*mean);
-      if (m.alphaMode == prep::AlphaMode::blend) m.alpha *= std::clamp((*mean)[3], 0.0, 1.0);
+      if (blends) m.alpha *= std::clamp((*mean)[3], 0.0, 1.0);
     }
     if (const auto mean = take(m.metallicRoughnessImage, Role::numbers)) {
       m.roughness *= std::clamp((*mean)[1], 0.0, 1.0);

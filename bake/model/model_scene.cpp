@@ -117,6 +117,7 @@ void setLights(SceneDescription& d, const ModelContents& contents, std::vector<s
   std::vector<std::string> outOfRange;
   for (const prep::SourceLight& source : contents.lights) {
     const double largest = std::max({source.intensity.x, source.intensity.y, source.intensity.z});
+    if (largest <= 0) continue;
     if (largest > kMaxSceneLight || d.lights.size() == pack::kMaxLights) {
       outOfRange.push_back(source.name);
       continue;
@@ -151,11 +152,12 @@ void setEnvironment(SceneDescription& d, std::vector<std::string>& choices) {
     d.ambientIrradiance = 1;
   }
   const std::string image = d.environmentImage.filename().string();
-  choices.push_back(fmt::format("light: {}", !d.environmentImage.empty() && !d.lights.empty()
-                                                 ? fmt::format("{} lights of the file and {}", d.lights.size(), image)
-                                             : !d.lights.empty() ? fmt::format("{} lights of the file", d.lights.size())
-                                             : !image.empty()    ? image
-                                                                 : "the studio, because the file has no lights"));
+  choices.push_back(
+      fmt::format("light: {}", !d.environmentImage.empty() && !d.lights.empty()
+                                   ? fmt::format("lights of the file ({}) and {}", d.lights.size(), image)
+                               : !d.lights.empty() ? fmt::format("lights of the file ({})", d.lights.size())
+                               : !image.empty()    ? image
+                                                   : "the studio, because the file has no light that can be used"));
 }
 
 }  // namespace
@@ -201,7 +203,11 @@ void applyModelProbe(const DepthProbe& probe, SceneDescription& d, pack::Scene& 
   d.depth = scene.depth = depth;
   choices.push_back(fmt::format("depth: {}, beyond which {:.2g} % of the light arrives", depth,
                                 100 * shareBeyond(probe.beyond, depth)));
-  if (d.environmentPreset.empty()) {
+  const std::vector<double>& pixels = probe.pixelRadiance;
+  if (!pixels.empty() && std::ranges::all_of(pixels, [](double x) { return !(x > 0); })) {
+    choices.emplace_back(
+        "image: black, as no light reaches a diffuse surface; metal and glass reflect an environment (--environment)");
+  } else if (d.environmentPreset.empty()) {
     d.exposureEv = scene.exposureEv = measuredExposure(probe.pixelRadiance);
     choices.push_back(fmt::format("exposure: {:+g} stops, measured on a small image", d.exposureEv));
   }

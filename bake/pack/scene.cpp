@@ -8,9 +8,13 @@ namespace malus::pack {
 
 SpotFalloff spotFalloff(const LightSource& light) {
   if (light.kind != LightKind::spot) return {};
-  const double outer = std::cos(light.outerConeDegrees * std::numbers::pi / 180),
-               scale = 1 / std::max(0.001, std::cos(light.innerConeDegrees * std::numbers::pi / 180) - outer);
-  return {scale, -outer * scale};
+  // Cosines that are nearer to each other than floats resolve widen the outer cone, so that the axis keeps its
+  // intensity.
+  constexpr double kLeastDifference = 1e-5;
+  const double inner = std::cos(light.innerConeDegrees * std::numbers::pi / 180),
+               outer = std::cos(light.outerConeDegrees * std::numbers::pi / 180),
+               scale = 1 / std::max(kLeastDifference, inner - outer);
+  return {scale, 1 - inner * scale};
 }
 
 std::uint64_t Scene::vertexCount() const {

@@ -12,7 +12,7 @@
 
 namespace malus::test {
 
-// The image by every renderer with Stokes vectors; the reference is the first.
+// The image by every renderer with Stokes vectors, by its name.
 inline std::map<std::string, render::RenderResult> renderEverywhere(const pack::Scene& scene) {
   render::RenderParameters parameters = render::defaultParameters(scene);
   parameters.stokes = true;

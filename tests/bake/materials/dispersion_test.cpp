@@ -46,6 +46,18 @@ TEST(Dispersion, EachTermOfEachFormula) {
   EXPECT_DOUBLE_EQ(indexByFormula(9, std::array{2.0, 0.3, 1.0, 0.5, 1.0, 1.5}, l), std::sqrt(2 + 0.1 + 0.5 / 2.5));
 }
 
+TEST(Dispersion, TermsAreComplete) {
+  for (const int formula : {1, 2, 3, 5, 6})
+    for (const std::size_t count : {1u, 3u, 7u}) {
+      EXPECT_TRUE(hasCompleteTerms(formula, count)) << formula;
+      EXPECT_FALSE(hasCompleteTerms(formula, count - 1)) << formula;
+    }
+  for (const std::size_t count : {1u, 5u, 9u, 11u, 17u}) EXPECT_TRUE(hasCompleteTerms(4, count)) << count;
+  for (const std::size_t count : {0u, 2u, 3u, 7u, 8u, 10u, 43u}) EXPECT_FALSE(hasCompleteTerms(4, count)) << count;
+  EXPECT_TRUE(hasCompleteTerms(7, 6) && hasCompleteTerms(8, 4) && hasCompleteTerms(9, 6));
+  EXPECT_FALSE(hasCompleteTerms(7, 7) || hasCompleteTerms(8, 5) || hasCompleteTerms(9, 0));
+}
+
 TEST(Dispersion, MissingTermsAddNothing) {
   for (const int formula : {3, 4}) EXPECT_DOUBLE_EQ(indexByFormula(formula, std::array{2.25}, 0.5), 1.5) << formula;
   for (const int formula : {5, 7}) EXPECT_DOUBLE_EQ(indexByFormula(formula, std::array{1.5}, 0.5), 1.5) << formula;

@@ -188,6 +188,12 @@ TEST(SourceMaterial, FaintEmissionGivesWayToTheReflection) {
   source.emissive = {100, 100, 100};
   convertMaterial(source, notes);
   EXPECT_EQ(notes.size(), 2u);
+  source.alphaMode = prep::AlphaMode::blend;
+  source.transmission = 1;
+  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::emitter);
+  ASSERT_EQ(notes.size(), 4u);
+  EXPECT_CONTAINS(notes[2], "alpha", "opaque");
+  EXPECT_CONTAINS(notes[3], "transmission");
 }
 
 TEST(SourceMaterial, GlassAbsorbsByItsVolume) {

@@ -66,6 +66,25 @@ TEST(TextureMeans, ColoursAreDecodedAndNumbersAreNot) {
   }
 }
 
+TEST(TextureMeans, TransparentTexelsDoNotTint) {
+  const test::TemporaryFolder folder;
+  image::Image image;
+  image.width = 2;
+  image.height = 1;
+  image.channels = {"R", "G", "B", "A"};
+  image.pixels = {1, 0, 1, 0.5f, 0, 1, 0, 0};  // the second texel cannot be seen
+  const std::filesystem::path file = folder.path() / "a.exr";
+  image::writeExr(file, image);
+  SourceScene scene;
+  scene.images = {{"a", file, nullptr}};
+  SourceMaterial& m = scene.materials.emplace_back();
+  m.baseColourImage = 0;
+  m.alphaMode = prep::AlphaMode::blend;
+  applyTextureMeans(scene, true);
+  EXPECT_EQ(m.baseColour, glm::dvec3(1, 0, 1));
+  EXPECT_EQ(m.alpha, 0.25);
+}
+
 TEST(TextureMeans, BytesOfEveryFormatAreRead) {
   const std::filesystem::path folder = std::filesystem::path(MALUS_SOURCE_DIR) / "tests/meshprep/base/other-images";
   std::size_t read = 0;

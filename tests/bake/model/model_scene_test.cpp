@@ -229,6 +229,17 @@ TEST(ModelProbe, SetsDepthAndExposure) {
   EXPECT_EQ(chosenDepth({0.5, 0.3, 0.2, 0.1, 2e-4, 9e-5}), 5u);
   EXPECT_EQ(chosenDepth(std::vector<double>(200, 0.5)), kMostModelDepth);
 
+  // A model that its lights do not reach is reported.
+  const auto choicesFor = [](std::vector<double> pixels) {
+    SceneDescription description;
+    pack::Scene scene;
+    std::vector<std::string> choices;
+    applyModelProbe({{}, std::move(pixels), {}, 0, 0, 0}, description, scene, choices);
+    return choices.back();
+  };
+  EXPECT_CONTAINS(choicesFor({0, 0, 0}), "black", "--environment");
+  EXPECT_CONTAINS(choicesFor({0, 0.1, 0}), "exposure");
+
   // 0.8 is white enough; half as much light needs a stop more.
   EXPECT_EQ(measuredExposure({}), 0);
   EXPECT_EQ(measuredExposure({0, 0}), 0);

@@ -117,6 +117,5 @@ TEST(SceneMaterial, Maps) {
                        "projection"));
 }
 
-// Former names of keys.
 }  // namespace
 }  // namespace malus::bake

@@ -1,5 +1,8 @@
 #include "render/scene/render_scene.h"
 
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "shaders/optics/optics.h"
@@ -41,6 +44,22 @@ TEST(RenderScene, HemisphereTransmittanceOfGlass) {
   const glm::dvec3 t = hemisphereTransmittance(test::dielectric(pack::MaterialKind::paint, 1.5, 1));
   EXPECT_NEAR(t.x, 1 - 0.0918, 2e-4);
   EXPECT_NEAR(hemisphereTransmittance(test::dielectric(pack::MaterialKind::paint, 1.0, 1)).y, 1, 1e-12);
+}
+
+TEST(RenderScene, NarrowSpotLightsHaveTheirIntensity) {
+  for (const auto& [inner, outer] :
+       {std::pair(1.0, 1.5), std::pair(5.0, 6.0), std::pair(0.0, 2.0), std::pair(0.1, 0.11)}) {
+    pack::LightSource light;
+    light.kind = pack::LightKind::spot;
+    light.innerConeDegrees = inner;
+    light.outerConeDegrees = outer;
+    const pack::SpotFalloff falloff = pack::spotFalloff(light);
+    EXPECT_NEAR(std::cos(inner * std::acos(-1.0) / 180) * falloff.scale + falloff.offset, 1, 1e-9) << inner;
+    const double edge = std::cos(outer * std::acos(-1.0) / 180) * falloff.scale + falloff.offset;
+    if (outer > 1) {
+      EXPECT_NEAR(edge, 0, 1e-9) << outer;
+    }
+  }
 }
 
 TEST(RenderScene, FilmsAreThoseOfTheWavelengths) {

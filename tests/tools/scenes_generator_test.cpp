@@ -36,7 +36,7 @@ TEST(ScenesGenerator, WritesTheCommittedFiles) {
   for (const std::string& file : committed) {
     const std::string extension = fs::path(file).extension();
     const bool isSource = extension == ".json" || extension == ".obj" || extension == ".ply" || extension == ".stl" ||
-                          extension == ".off" || extension == ".hdr";
+                          extension == ".off" || extension == ".hdr" || extension == ".glb";
     if (isSource) {
       EXPECT_TRUE(generated.contains(file)) << "scenes/" << file << " is committed and not generated";
     }

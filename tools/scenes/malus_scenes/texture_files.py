@@ -6,10 +6,21 @@ import zlib
 
 def write_png(path, rows):
     """rows: lists of (red, green, blue), 0 to 255, top row first."""
-    data = b"".join(b"\0" + bytes(c for pixel in row for c in pixel) for row in rows)
-    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + _chunk(b"IDAT", _stored(data)) +
-                     _chunk(b"IEND", b""))
+    path.write_bytes(_png(rows, 2, lambda row: bytes(c for pixel in row for c in pixel)))
+
+
+def small_png(rows):
+    """Bytes of a PNG file of pixels (red, green, blue) or (red, green, blue, alpha): with a palette if they have at
+    most 256 values."""
+    palette = sorted({pixel for row in rows for pixel in row})
+    channels = len(palette[0])
+    if len(palette) > 256:
+        return _png(rows, 2 if channels == 3 else 6, lambda row: bytes(c for pixel in row for c in pixel))
+    index = {pixel: i for i, pixel in enumerate(palette)}
+    tables = _chunk(b"PLTE", bytes(c for pixel in palette for c in pixel[:3]))
+    if channels == 4:
+        tables += _chunk(b"tRNS", bytes(pixel[3] for pixel in palette))
+    return _png(rows, 3, lambda row: bytes(index[pixel] for pixel in row), tables)
 
 
 def write_exr(path, rows):
@@ -29,6 +40,13 @@ def write_exr(path, rows):
     first = len(head) + 8 * height
     offsets = b"".join(struct.pack("<Q", first + y * len(lines[0])) for y in range(height))
     path.write_bytes(head + offsets + b"".join(lines))
+
+
+def _png(rows, colour_type, encode, tables=b""):
+    data = b"".join(b"\0" + encode(row) for row in rows)
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, colour_type, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + tables + _chunk(b"IDAT", _stored(data)) +
+            _chunk(b"IEND", b""))
 
 
 def _chunk(kind, body):

@@ -33,7 +33,8 @@ inline constexpr std::uint32_t kMaxLights = 4096;
 inline constexpr std::uint32_t kMaxEffects = 4096;
 inline constexpr std::uint32_t kMaxVertices = 1u << 28;
 inline constexpr std::uint32_t kMaxTriangles = 1u << 28;
-inline constexpr double kMaxCoordinate = 1e9;  // metres; the squared area of a face still fits a float
+inline constexpr double kMaxCoordinate = 1e9;         // metres; the squared area of a face still fits a float
+inline constexpr double kMaxTextureCoordinate = 1e6;  // repeats of the image; floats resolve 1/16 of one
 inline constexpr std::uint32_t kMaxDepth = 255;
 inline constexpr std::uint32_t kMaxResolution = 16384;
 inline constexpr std::uint32_t kMaxEnvironmentSize = 8192;
@@ -68,6 +69,7 @@ inline constexpr const char* kSky = "SKYP";
 inline constexpr const char* kWavelengths = "WAVE";
 inline constexpr const char* kMeshes = "MESH";
 inline constexpr const char* kGeometry = "GEOM";
+inline constexpr const char* kTextureCoordinates = "TCRD";
 inline constexpr const char* kEncodings = "ENCD";
 inline constexpr const char* kSourceMap = "SMAP";
 inline constexpr const char* kEffects = "EFCT";
@@ -94,6 +96,7 @@ inline constexpr auto kKnownSections = std::to_array<SectionInfo>({
     {kWavelengths, false, 0, "wavelengths of the colours; written unless they are 630, 532 and 465 nm"},
     {kMeshes, true, 0, "table of meshes"},
     {kGeometry, true, 0, "geometry of the meshes"},
+    {kTextureCoordinates, false, 0, "texture coordinates and tangents of meshes; written if a mesh has any"},
     {kEncodings, false, kOptional, "bits and errors of the encoded meshes"},
     {kSourceMap, false, kOptional, "map to the source files; written on request"},
     {kEffects, false, kOptional, "effects that the scene needs"},

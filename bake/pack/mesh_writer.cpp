@@ -1,5 +1,6 @@
 #include "bake/pack/mesh_writer.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "bake/pack/field_io.h"
 #include "bake/pack/format.h"
 #include "bake/pack/record_fields.h"
+#include "bake/pack/texture_coordinates.h"
 #include "meshprep/base/error.h"
 #include "meshprep/compress/bounds.h"
 #include "meshprep/compress/rounding.h"
@@ -109,7 +111,9 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
   const ReusableMeshes reusable(previous);
 
   // Encode or reuse each mesh.
-  ByteWriter table, geometry, map;
+  const bool textured = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                    [](const Mesh& mesh) { return mesh.hasTextureAttributes(); });
+  ByteWriter table, geometry, map, coordinates;
   table.u32(static_cast<std::uint32_t>(scene.meshes.size()));
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
@@ -119,7 +123,9 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
     compress::Encoded encoded;
     Result result;
     const std::uint64_t hash = inputHash(mesh, rounded[i], settings.keepMap);
-    if (const auto at = reusable.find(hash, mesh, settings.keepMap)) {
+    // The order of the vertices of a mesh in the previous pack is not known.
+    const bool canReuse = !mesh.hasTextureAttributes();
+    if (const auto at = canReuse ? reusable.find(hash, mesh, settings.keepMap) : std::nullopt) {
       result = reusable.take(*at, encoding, report);
     } else {
       encoded = encodeMesh(mesh, rounded[i], codec, encoding, report);
@@ -152,6 +158,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
     geometry.raw(result.bytes);
     for (const std::uint32_t v : result.sourceVertices) map.u32(v);
     for (const std::uint32_t f : result.sourceFaces) map.u32(f);
+    if (textured) writeTextureAttributes(coordinates, mesh, encoded.sourceVertices);
     report.sequentialReason = encoding.sequentialReason;
     report.sizeBytes = result.bytes.size();
     report.positionBits = static_cast<int>(encoding.positionBits);
@@ -166,6 +173,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
   all.table = table.take();
   all.geometry = geometry.take();
   all.map = map.take();
+  all.coordinates = coordinates.take();
   return all;
 }
 

@@ -14,6 +14,7 @@
 #include "bake/pack/mesh_reader.h"
 #include "bake/pack/record_fields.h"
 #include "bake/pack/table.h"
+#include "bake/pack/texture_coordinates.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 
@@ -174,6 +175,7 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
   const Section& geometry = *find(kGeometry);
   const Section& meshes = *find(kMeshes);
   readMeshes(reader(meshes), meshes.version, body(geometry), geometry.offset, where, pack);
+  if (const Section* at = find(kTextureCoordinates)) readTextureAttributes(reader(*at), scene.meshes);
   if (const Section* at = find(kEncodings))
     pack.encodings = readEncodings(reader(*at), at->version, scene.meshes.size());
   if (const Section* at = find(kSourceMap)) readSourceMap(reader(*at), scene.meshes);
@@ -199,6 +201,9 @@ std::uint64_t canonicalGeometryHash(const Scene& scene) {
       for (int axis = 0; axis < 3; ++axis) w.f32(static_cast<float>(p[axis] - mesh.origin[axis]));
     for (const glm::vec3& n : mesh.normals) w.f32(n.x), w.f32(n.y), w.f32(n.z);
     for (const glm::uvec3& t : mesh.triangles) w.u32(t.x), w.u32(t.y), w.u32(t.z);
+    for (const std::vector<glm::vec2>& set : mesh.textureCoordinates)
+      for (const glm::vec2& uv : set) w.f32(uv.x), w.f32(uv.y);
+    for (const glm::vec4& t : mesh.tangents) w.f32(t.x), w.f32(t.y), w.f32(t.z), w.f32(t.w);
   }
   return hashBytes(w.take());
 }

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "bake/pack/material_kinds.h"
 #include "bake/pack/texel_storage.h"
@@ -135,6 +137,17 @@ struct Mesh {
   std::vector<glm::dvec3> positions;  // relative to the scene's origin
   std::vector<glm::vec3> normals;     // unit, one per position; empty: those of the faces
   std::vector<glm::uvec3> triangles;  // counter-clockwise seen from outside
+
+  // Sets 0 and 1 of texture coordinates, each one per position or empty: in repeats of the image, from its upper left
+  // corner, v down, within kMaxTextureCoordinate (format.h).
+  std::array<std::vector<glm::vec2>, 2> textureCoordinates;
+  // Per position, or empty: those of the derivatives of set 0 or 1. xyz is a unit vector in the direction of growing u;
+  // the bitangent is w cross(normal, tangent), with w = 1 or -1, in the direction of shrinking v (glTF 2.0
+  // Specification, section 3.7.2.1).
+  std::vector<glm::vec4> tangents;
+  bool hasTextureAttributes() const {
+    return !textureCoordinates[0].empty() || !textureCoordinates[1].empty() || !tangents.empty();
+  }
 
   // On request: the vertex and the face of the source file, from 0, that each vertex and triangle comes from.
   std::vector<std::uint32_t> sourceVertices, sourceFaces;

@@ -171,6 +171,7 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
   if (scene.wavelengthsNm != kDefaultWavelengthsNm) bodies.push_back({kWavelengths, wavelengthBytes(scene)});
   bodies.push_back({kMeshes, std::move(encoded.table), kNewestMeshes});
   bodies.push_back({kGeometry, std::move(encoded.geometry)});
+  if (!encoded.coordinates.empty()) bodies.push_back({kTextureCoordinates, std::move(encoded.coordinates)});
   bodies.push_back({kEncodings, encodingBytes(encoded.encodings), kNewestEncodings});
   if (settings.keepMap) bodies.push_back({kSourceMap, std::move(encoded.map)});
   bodies.push_back({kEffects, effectBytes(scene.effects)});

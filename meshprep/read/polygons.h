@@ -2,6 +2,7 @@
 // non-manifold faces are possible.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,7 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace malus::prep {
 
@@ -30,8 +33,14 @@ struct Polygons {
   std::vector<std::size_t> firstCorner = {0};  // index into corners of each face, and the number of corners
 
   // Attributes as in the file; empty if the file has none.
-  std::vector<glm::vec3> normals;              // one per position (PLY, OFF, glTF); any length
-  std::vector<glm::vec3> cornerNormals;        // one per corner (OBJ); zero for a corner without
+  std::vector<glm::vec3> normals;        // one per position (PLY, OFF, glTF); any length
+  std::vector<glm::vec3> cornerNormals;  // one per corner (OBJ); zero for a corner without
+  // Sets 0 and 1 of texture coordinates, one per corner (OBJ, glTF): in repeats of the image, from its upper left
+  // corner, v down as in glTF. (0, 0) for a corner without.
+  std::array<std::vector<glm::vec2>, 2> textureCoordinates;
+  // One per corner (glTF): xyz in the direction of growing u, any length, zero for a corner without; w = 1 or -1 is the
+  // sign of the bitangent w cross(normal, tangent).
+  std::vector<glm::vec4> tangents;
   std::vector<std::uint32_t> smoothingGroups;  // one per face (OBJ); 0: no smoothing
   std::vector<std::uint32_t> partOf;           // index into parts, one per face
   std::vector<Part> parts;                     // empty: all faces are one unnamed part

@@ -147,6 +147,13 @@ inline pack::Scene unusualScene() {
   plate.axis = {0, 0.8, 0.6};
   plate.retardanceDegrees = {76, 90, 103};
   lamp.twoSided = true;
+  pack::Mesh& mesh = scene.meshes[0];
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const auto step = static_cast<float>(i);
+    mesh.textureCoordinates[0].emplace_back(step * 0.25f, 1 - step * 0.125f);
+    mesh.textureCoordinates[1].emplace_back(-step, step * 2);
+    mesh.tangents.emplace_back(0.6f, 0, i % 2 == 0 ? 0.8f : -0.8f, i < 2 ? 1.0f : -1.0f);
+  }
   scene.lightBeyond = {0.75, 0.25, 0.25, 0.001};
   scene.materials.push_back(polarizer);
   scene.materials.push_back(plate);

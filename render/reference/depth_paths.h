@@ -34,7 +34,8 @@ class DepthPaths {
   // Returns the light of the pixel, the mean of the colours, as basic radiance.
   double followPixel(const dvec3& origin, const dvec3& direction) {
     waiting_ = {};
-    push({{origin, direction, glm::vec3(origin), 0, 0, false}, unpolarized(dvec3(1)), 0});
+    const std::uint32_t start = f64::pathStart(started_++, 0);
+    push({{origin, direction, glm::vec3(origin), 0, 0, false, start}, unpolarized(dvec3(1)), 0});
     endedLight_ = endedImportance_ = pixelLight_ = 0;
     for (std::uint32_t ray = 0; ray < kRaysPerPixel && !waiting_.empty(); ++ray) {
       const Path path = waiting_.top();
@@ -115,11 +116,11 @@ class DepthPaths {
     }
   }
 
-  static Ray rayAbove(const Hit& h, const dvec3& d, bool isBehindRough) {
-    return {h.position, d, glm::vec3(queryAbove(h)), 0, 0, isBehindRough};
+  static Ray rayAbove(const Hit& h, const dvec3& d, bool isBehindRough, std::uint32_t path) {
+    return {h.position, d, glm::vec3(queryAbove(h)), 0, 0, isBehindRough, path};
   }
   static Ray rayBelow(const Hit& h, const dvec3& d, const Path& p) {
-    return {h.position, d, glm::vec3(queryBelow(h)), 0, 0, p.ray.isBehindRough};
+    return {h.position, d, glm::vec3(queryBelow(h)), 0, 0, p.ray.isBehindRough, f64::transmittedPath(p.ray.path)};
   }
 
   DirectLight directLightAt(const Hit& h, const dvec3& mirror) {
@@ -150,7 +151,8 @@ class DepthPaths {
       followFacets(p, h, row, refraction);
       return;
     }
-    push({rayAbove(h, mirror, p.ray.isBehindRough), times(reflected, toSurface(mirror, s)), p.interactions + 1});
+    push({rayAbove(h, mirror, p.ray.isBehindRough, f64::reflectedPath(p.ray.path)),
+          times(reflected, toSurface(mirror, s)), p.interactions + 1});
     if (isClear && !refraction.isTotal)
       push({rayBelow(h, refraction.direction, p),
             times(times(atSurface, interface.transmission), toSurface(refraction.direction, s)), p.interactions + 1});
@@ -158,7 +160,7 @@ class DepthPaths {
 
   void followFacets(const Path& p, const Hit& h, const Light& row, const Refraction& refraction) {
     const double alpha = h.surface.material->roughness;
-    for (std::size_t i = 0; i < gpu::kFacets; ++i) {
+    for (std::uint32_t i = 0; i < gpu::kFacets; ++i) {
       const glm::dvec2 point = render::facetPoint(i);
       const dvec3 normal = f64::facetNormal(-h.d, h.normal, alpha, point.x, point.y);
       const double c = f64::clampUnit(-glm::dot(h.d, normal));
@@ -168,8 +170,8 @@ class DepthPaths {
       const dvec3 s = f64::sDirection(h.d, normal);
       const Light atFacet = times(times(row, transposed(toSurface(h.d, s))),
                                   evaluateInterface(h.surface, c, refraction.n1, refraction.n2).reflection);
-      push(
-          {rayAbove(h, mirror, true), scaled(times(atFacet, toSurface(mirror, s)), dvec3(weight)), p.interactions + 1});
+      push({rayAbove(h, mirror, true, f64::facetPath(p.ray.path, i)),
+            scaled(times(atFacet, toSurface(mirror, s)), dvec3(weight)), p.interactions + 1});
     }
   }
 
@@ -178,6 +180,7 @@ class DepthPaths {
   std::vector<ShadowRay> ways_;
   std::vector<std::uint8_t> visible_;
   std::priority_queue<Path> waiting_;
+  std::uint32_t started_ = 0;                                     // pixels
   double endedLight_ = 0, endedImportance_ = 0, pixelLight_ = 0;  // of the current pixel
 };
 

@@ -35,6 +35,7 @@ struct Ray {
   glm::vec3 queryOrigin;
   std::uint32_t pixelX, pixelY;  // in the whole image
   bool isBehindRough;            // the path has met a rough surface; further ones are treated as smooth
+  std::uint32_t path;            // shaders/optics/path_word.h
 };
 
 // A hit on the triangle that Embree returns, its position recomputed in double precision.

@@ -88,7 +88,8 @@ void renderTile(const pack::Camera& camera, const render::RenderParameters& para
         const double imageX = (pixelX + (column + 0.5) / samples) / parameters.width,
                      imageY = (pixelY + (row + 0.5) / samples) / parameters.height;
         const dvec3 origin = rays.origin(imageX, imageY);
-        worker.rays.push_back({origin, rays.direction(imageX, imageY), glm::vec3(origin), pixelX, pixelY, false});
+        worker.rays.push_back({origin, rays.direction(imageX, imageY), glm::vec3(origin), pixelX, pixelY, false,
+                               f64::pathStart(pixelX * samples + column, pixelY * samples + row)});
       }
     worker.tracer.trace(worker.rays, parameters.depth, worker.light);
     // The camera frame of a ray: x is the s direction of a surface whose normal is `up`.

@@ -81,7 +81,8 @@ void Tracer::begin(const Ray& ray, const embree::Intersection& found, std::uint3
     node.step = Step::nothing;
   } else if (pack::isPolarizingElement(m.kind)) {  // the ray continues straight on
     node.step = Step::element;
-    level.children.push_back({h.position, h.d, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY, ray.isBehindRough});
+    level.children.push_back({h.position, h.d, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY, ray.isBehindRough,
+                              f64::transmittedPath(ray.path)});
   } else {
     beginInterface(ray, depth, level, node);
   }
@@ -101,10 +102,11 @@ void Tracer::beginInterface(const Ray& ray, std::uint32_t depth, Level& level, N
     beginFacets(ray, above, level, node);
     return;
   }
-  level.children.push_back({h.position, node.mirror, glm::vec3(above), ray.pixelX, ray.pixelY, ray.isBehindRough});
+  level.children.push_back({h.position, node.mirror, glm::vec3(above), ray.pixelX, ray.pixelY, ray.isBehindRough,
+                            f64::reflectedPath(ray.path)});
   if (pack::isClear(h.surface.material->kind) && !node.refraction.isTotal)
-    level.children.push_back(
-        {h.position, node.refraction.direction, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY, ray.isBehindRough});
+    level.children.push_back({h.position, node.refraction.direction, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY,
+                              ray.isBehindRough, f64::transmittedPath(ray.path)});
 }
 
 void Tracer::beginFacets(const Ray& ray, const dvec3& above, Level& level, Node& node) const {
@@ -112,14 +114,16 @@ void Tracer::beginFacets(const Ray& ray, const dvec3& above, Level& level, Node&
   const double alpha = h.surface.material->roughness;
   node.step = Step::facets;
   node.firstFacet = count(level.facets.size());
-  for (const glm::dvec2& point : facetPoints()) {
+  for (std::uint32_t i = 0; i < gpu::kFacets; ++i) {
+    const glm::dvec2& point = facetPoints()[i];
     const dvec3 normal = f64::facetNormal(-h.d, h.normal, alpha, point.x, point.y);
     const double c = f64::clampUnit(-glm::dot(h.d, normal));
     const dvec3 mirror = f64::mirrorDirection(h.d, normal, c);
     const double weight = f64::facetWeight(-h.d, mirror, h.normal, alpha) / gpu::kFacets;
     if (weight <= 0 || glm::dot(mirror, h.face) <= 0) continue;
     level.facets.push_back({mirror, f64::sDirection(h.d, normal), c, weight});
-    level.children.push_back({h.position, mirror, glm::vec3(above), ray.pixelX, ray.pixelY, true});
+    level.children.push_back(
+        {h.position, mirror, glm::vec3(above), ray.pixelX, ray.pixelY, true, f64::facetPath(ray.path, i)});
   }
   node.facets = count(level.facets.size()) - node.firstFacet;
 }

@@ -10,9 +10,14 @@
 #include "shaders/iterative/path_light.h"
 // clang-format on
 
-FN CameraPath startPath(real3 origin, real3 direction, real behind0, real behind1, real behind2, real behind3) {
+// The path of one sample of the image.
+FN CameraPath startPath(real column, real row, real behind0, real behind1, real behind2, real behind3) {
   CameraPath p;
-  p.ray = makeRay(origin, direction, real(camera.depth), R(0.0));
+  real3 direction = sampleDirection(column, row);
+  p.ray = makeRay(sampleOrigin(column, row), direction, real(camera.depth), R(0.0));
+#if MALUS_PATH_WORD
+  p.ray.path = pathStart(wordOfReal(column), wordOfReal(row));
+#endif
   p.throughput = startThroughput(direction, camera.up, behind0, behind1, behind2, behind3);
   return p;
 }
@@ -28,13 +33,13 @@ FN void checkPath(IN(Hit) h, IN(Throughput) c, IN(PathLight) light, real behind0
   checkColour(h, checked.z, none, none, none, slack.z, 2u);
 }
 
-// Radiance that the camera records along a ray, per colour, behind an analyser: behind0 to behind3 is the first row of
-// its Mueller matrix.
-FN real3 traceCameraPath(real3 origin, real3 direction, real behind0, real behind1, real behind2, real behind3) {
+// Radiance that the camera records at one sample, per colour, behind an analyser: behind0 to behind3 is the first row
+// of its Mueller matrix.
+FN real3 traceCameraPath(real column, real row, real behind0, real behind1, real behind2, real behind3) {
   CameraPath stack[kPathStackSize];
   int count = 0;
   real3 sum = splat3(R(0.0));
-  CameraPath p = startPath(origin, direction, behind0, behind1, behind2, behind3);
+  CameraPath p = startPath(column, row, behind0, behind1, behind2, behind3);
   real threshold = camera.tolerance * behind0;  // paths with a smaller throughput end
   bool follows = true;
   while (follows) {
@@ -69,7 +74,7 @@ FN real3 traceCameraPath(real3 origin, real3 direction, real behind0, real behin
               Facet facet = sampleFacet(h, camera.facets[i].x, camera.facets[i].y);
               if (facet.weight <= R(0.0)) continue;
               stack[count].throughput = p.throughput;
-              followFacet(stack[count], h, m, facet, s.coloured, camera.tolerance);
+              followFacet(stack[count], h, m, facet, i, s.coloured, camera.tolerance);
               if (maxComponent(stack[count].throughput) > threshold * (R(1.0) / real(kFacets))) count = count + 1;
             }
           }
@@ -101,8 +106,7 @@ FN real3 cameraPathPixel(uint x, uint y, real behind0, real behind1, real behind
     for (uint i = 0u; i < camera.samples; ++i) {
       real column = real(x * camera.samples + i);
       real row = real(y * camera.samples + j);
-      sum = sum + traceCameraPath(sampleOrigin(column, row), sampleDirection(column, row), behind0, behind1, behind2,
-                                  behind3);
+      sum = sum + traceCameraPath(column, row, behind0, behind1, behind2, behind3);
     }
   return sum * (camera.basicToRadiance / real(camera.samples * camera.samples));
 }

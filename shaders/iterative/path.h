@@ -54,8 +54,9 @@ FN void followReflection(INOUT(CameraPath) p, IN(Hit) h, IN(Scattering) s, real 
   dropPolarization(p.throughput, tolerance);
 }
 
-FN void followFacet(INOUT(CameraPath) p, IN(Hit) h, IN(Material) m, IN(Facet) facet, mask coloured, real tolerance) {
-  p.ray = rayAbove(h, facet.mirror, h.depth - R(1.0) + kBehindRough);
+FN void followFacet(INOUT(CameraPath) p, IN(Hit) h, IN(Material) m, IN(Facet) facet, word index, mask coloured,
+                    real tolerance) {
+  p.ray = facetRay(h, facet, index);
   rotateToSurface(p.throughput, h.d, facet.normal);
   applyInterface(p.throughput, opaqueTerms(facet.c, m, h.material), coloured);
   scaleThroughput(p.throughput, splat3(facet.weight));

@@ -5,6 +5,8 @@ FN real payloadDepth(Payload p) { return p.colour.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.colour.x = depth; }
 FN real payloadOriginDistance(Payload p) { return p.colour.y; }
 FN void payloadSetOriginDistance(INOUT(Payload) p, real distance) { p.colour.y = distance; }
+FN word payloadPath(Payload p) { return floatBits(p.colour.z); }
+FN void payloadSetPath(INOUT(Payload) p, word path) { p.colour.z = floatValue(path); }
 
 // Unused: light has no direction across the ray.
 FN real3 surfaceS(real3 d, real3 n) { return n; }

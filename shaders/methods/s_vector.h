@@ -13,6 +13,8 @@ FN real payloadDepth(Payload p) { return p.s.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.s.x = depth; }
 FN real payloadOriginDistance(Payload p) { return p.s.y; }
 FN void payloadSetOriginDistance(INOUT(Payload) p, real distance) { p.s.y = distance; }
+FN word payloadPath(Payload p) { return floatBits(p.s.z); }
+FN void payloadSetPath(INOUT(Payload) p, word path) { p.s.z = floatValue(path); }
 
 FN Payload payloadUnpolarized(real3 radiance) {
   Payload p;

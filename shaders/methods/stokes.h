@@ -13,6 +13,8 @@ FN real payloadDepth(Payload p) { return p.stokes.s0.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.stokes.s0.x = depth; }
 FN real payloadOriginDistance(Payload p) { return p.stokes.s0.y; }
 FN void payloadSetOriginDistance(INOUT(Payload) p, real distance) { p.stokes.s0.y = distance; }
+FN word payloadPath(Payload p) { return floatBits(p.stokes.s0.z); }
+FN void payloadSetPath(INOUT(Payload) p, word path) { p.stokes.s0.z = floatValue(path); }
 
 FN Payload payloadUnpolarized(real3 radiance) {
   Payload p;

@@ -23,6 +23,8 @@ FN real payloadDepth(Payload p) { return realOfWord(p.rootRg) * R(0.25); }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.rootRg = wordOfReal(depth * R(4.0)); }
 FN real payloadOriginDistance(Payload p) { return floatValue(p.rootBs1R); }
 FN void payloadSetOriginDistance(INOUT(Payload) p, real distance) { p.rootBs1R = floatBits(distance); }
+FN word payloadPath(Payload p) { return p.s23R; }
+FN void payloadSetPath(INOUT(Payload) p, word path) { p.s23R = path; }
 
 FN real amplitude(real s0) { return minR(sqrtR(maxR(s0, R(0.0))), R(65504.0)); }
 FN real relative(real s, real s0) {

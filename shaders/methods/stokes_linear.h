@@ -19,6 +19,8 @@ FN real payloadDepth(Payload p) { return p.light.s0.x; }
 FN void payloadSetDepth(INOUT(Payload) p, real depth) { p.light.s0.x = depth; }
 FN real payloadOriginDistance(Payload p) { return p.light.s0.y; }
 FN void payloadSetOriginDistance(INOUT(Payload) p, real distance) { p.light.s0.y = distance; }
+FN word payloadPath(Payload p) { return floatBits(p.light.s0.z); }
+FN void payloadSetPath(INOUT(Payload) p, word path) { p.light.s0.z = floatValue(path); }
 
 // Linear polarization of a degree from -1 to 1 along s.
 FN SurfaceLight lightPolarized(real3 radiance, real degree) {

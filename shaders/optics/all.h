@@ -1,6 +1,7 @@
 // Optics, in the order of their dependence. No include guard: every number type includes them again.
 // clang-format off
 #include "shaders/optics/vector.h"
+#include "shaders/optics/path_word.h"
 #include "shaders/optics/complex.h"
 #include "shaders/optics/fresnel.h"
 #include "shaders/optics/film.h"

@@ -31,3 +31,10 @@ FN mask equalW(word a, word b) { return a == b; }
 FN mask hasBit(word w, int bit) { return ((w >> bit) & 1u) == 1u; }
 FN word lowHalf(word w) { return w & 0xffffu; }
 FN word highHalf(word w) { return w >> 16; }
+FN word andW(word a, word b) { return a & b; }
+FN word orW(word a, word b) { return a | b; }
+FN word xorW(word a, word b) { return a ^ b; }
+FN word shiftRightW(word a, int bits) { return a >> bits; }
+// Modulo 2^32.
+FN word addW(word a, word b) { return a + b; }
+FN word timesW(word a, word factor) { return a * factor; }

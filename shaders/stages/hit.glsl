@@ -12,6 +12,9 @@ hitAttributeEXT vec2 barycentric;
 Hit loadHit() {
   float distance = 0.0;
   if (kEffectAbsorption) distance = payloadOriginDistance(result);
-  return makeHitFromMesh(gl_InstanceCustomIndexEXT, gl_GeometryIndexEXT, gl_PrimitiveID, barycentric,
-                         makeRay(gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, payloadDepth(result), distance));
+  Ray ray = makeRay(gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, payloadDepth(result), distance);
+#if MALUS_PATH_WORD
+  ray.path = payloadPath(result);
+#endif
+  return makeHitFromMesh(gl_InstanceCustomIndexEXT, gl_GeometryIndexEXT, gl_PrimitiveID, barycentric, ray);
 }

@@ -9,6 +9,9 @@ Payload traceRay(Ray ray) {
 #if MALUS_EFFECT_ABSORPTION
   payloadSetOriginDistance(childPayload, ray.originDistance);
 #endif
+#if MALUS_PATH_WORD
+  payloadSetPath(childPayload, ray.path);
+#endif
   traceRayEXT(tlas, gl_RayFlagsOpaqueEXT, 0xffu, 0u, 1u, 0u, ray.origin, 0.0, ray.d, 1e30, 1);
   return childPayload;
 }

@@ -28,3 +28,12 @@ FN Facet sampleFacet(IN(Hit) h, real px, real py) {
   f.weight = selectR(lessEqualR(dot3(f.mirror, h.face), R(0.0)), R(0.0), f.weight);
   return f;
 }
+
+// Ray that facet `index` of the set reflects.
+FN Ray facetRay(IN(Hit) h, IN(Facet) f, word index) {
+  Ray ray = rayFrom(h, originAbove(h), f.mirror, h.depth - R(1.0) + kBehindRough);
+#if MALUS_PATH_WORD
+  ray.path = facetPath(h.path, index);
+#endif
+  return ray;
+}

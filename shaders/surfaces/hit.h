@@ -8,6 +8,9 @@ struct Ray {
 #if MALUS_EFFECT_ABSORPTION
   real originDistance;  // along the ray, from the point where it begins to its origin, which is off the face
 #endif
+#if MALUS_PATH_WORD
+  word path;  // shaders/optics/path_word.h
+#endif
 };
 
 struct Hit {
@@ -24,6 +27,9 @@ struct Hit {
   real travelled;  // distance from the point where the ray began; 0 without absorption
 #if MALUS_EFFECT_ABSORPTION
   real rounding;  // height of the hit over `position`, which is rounded, along face
+#endif
+#if MALUS_PATH_WORD
+  word path;  // of the ray
 #endif
 };
 
@@ -43,6 +49,9 @@ FN Ray makeRay(real3 origin, real3 d, real depth, real distance) {
   r.depth = depth;
 #if MALUS_EFFECT_ABSORPTION
   r.originDistance = distance;
+#endif
+#if MALUS_PATH_WORD
+  r.path = 0u;  // set by the caller
 #endif
   return r;
 }
@@ -97,6 +106,9 @@ FN Hit makeHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real
   PRECISE real3 rest = local - rounded;
   h.rounding = dot3(rest, h.face);
 #endif
+#if MALUS_PATH_WORD
+  h.path = ray.path;
+#endif
   return h;
 }
 
@@ -118,6 +130,9 @@ FN Hit environmentHit(real3 d, real depth) {
 #if MALUS_EFFECT_ABSORPTION
   h.rounding = R(0.0);
 #endif
+#if MALUS_PATH_WORD
+  h.path = 0u;
+#endif
   return h;
 }
 
@@ -135,5 +150,17 @@ FN Ray rayFrom(IN(Hit) h, real3 origin, real3 d, real depth) {
 #endif
   return makeRay(origin, d, depth, distance);
 }
-FN Ray rayAbove(IN(Hit) h, real3 d, real depth) { return rayFrom(h, originAbove(h), d, depth); }
-FN Ray rayBelow(IN(Hit) h, real3 d, real depth) { return rayFrom(h, originBelow(h), d, depth); }
+FN Ray rayAbove(IN(Hit) h, real3 d, real depth) {
+  Ray ray = rayFrom(h, originAbove(h), d, depth);
+#if MALUS_PATH_WORD
+  ray.path = reflectedPath(h.path);
+#endif
+  return ray;
+}
+FN Ray rayBelow(IN(Hit) h, real3 d, real depth) {
+  Ray ray = rayFrom(h, originBelow(h), d, depth);
+#if MALUS_PATH_WORD
+  ray.path = transmittedPath(h.path);
+#endif
+  return ray;
+}

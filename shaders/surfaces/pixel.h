@@ -6,6 +6,9 @@ FN Stokes cameraSample(real column, real row) {
   cameraFrameRotation(d, camera.up, cos2, sin2);
   Ray ray = makeRay(camera.position, d, real(camera.depth), R(0.0));
   if (kEffectOrthographic) ray.origin = sampleOrigin(column, row);
+#if MALUS_PATH_WORD
+  ray.path = pathStart(wordOfReal(column), wordOfReal(row));
+#endif
   Stokes s = payloadStokes(traceRay(ray), d);
   return rotateStokes(s, cos2, sin2);
 }

@@ -25,9 +25,6 @@ FN_INLINE SurfaceLight returnedLight(IN(Payload) returned, real3 d, real3 sDir, 
   return lightAtSurface(returned, d, sDir);
 }
 
-// Depth of the ray of a facet.
-FN real facetDepth(real depth) { return depth - R(1.0) + kBehindRough; }
-
 // Light that one facet reflects toward the camera, in the frame of the surface. returned: of the facet's ray.
 FN SurfaceLight facetLight(IN(Hit) h, IN(Material) m, IN(Facet) facet, IN(Payload) returned, real3 sDir,
                            INOUT(real3) slack) {

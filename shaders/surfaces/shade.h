@@ -26,7 +26,7 @@ FN SurfaceLight roughReflectedLight(IN(Hit) h, IN(Material) m, real3 sDir, INOUT
   for (uint i = 0u; i < kFacets; ++i) {
     Facet facet = sampleFacet(h, camera.facets[i].x, camera.facets[i].y);
     if (facet.weight > R(0.0)) {
-      Payload returned = traceRay(rayAbove(h, facet.mirror, facetDepth(h.depth)));
+      Payload returned = traceRay(facetRay(h, facet, i));
       sum = lightAdd(sum, facetLight(h, m, facet, returned, sDir, slack));
     }
   }

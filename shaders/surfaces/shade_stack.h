@@ -20,6 +20,9 @@ struct PendingSurface {
 #if MALUS_EFFECT_ABSORPTION
   real belowDistance;  // originDistance of the transmitted ray
 #endif
+#if MALUS_PATH_WORD
+  word belowPath;  // its path word
+#endif
 };
 
 // The rough surface whose facets are followed. Surfaces behind it count as smooth (facet.h), so that only one waits.
@@ -38,7 +41,7 @@ FN bool followNextFacet(INOUT(RoughSurface) rough, INOUT(Ray) ray) {
     rough.facet = sampleFacet(rough.h, camera.facets[rough.next].x, camera.facets[rough.next].y);
     rough.next = rough.next + 1u;
     if (rough.facet.weight > R(0.0)) {
-      ray = rayAbove(rough.h, rough.facet.mirror, facetDepth(rough.h.depth));
+      ray = facetRay(rough.h, rough.facet, rough.next - 1u);
       return true;
     }
   }
@@ -81,6 +84,9 @@ FN PendingSurface meetSurface(IN(Hit) h, IN(Material) m, IN(Scattering) s, OUT(R
     p.transmitted = s.transmitted;
 #if MALUS_EFFECT_ABSORPTION
     p.belowDistance = below.originDistance;
+#endif
+#if MALUS_PATH_WORD
+    p.belowPath = below.path;
 #endif
     p.transmission = s.transmission;
   } else {
@@ -165,6 +171,9 @@ FN Payload traceRay(Ray ray) {
           ray = makeRay(stack[top].below, stack[top].transmitted, stack[top].depth - R(1.0), R(0.0));
 #if MALUS_EFFECT_ABSORPTION
           ray.originDistance = stack[top].belowDistance;
+#endif
+#if MALUS_PATH_WORD
+          ray.path = stack[top].belowPath;
 #endif
           stack[top].followed = stack[top].transmitted;
           stack[top].terms = stack[top].transmission;

@@ -3,6 +3,7 @@
 // recursive.h, iterative/camera_path.h) branch and send the rays. Steps read material data by hooks.h alone.
 // clang-format off
 #include "shaders/surfaces/effects.h"
+#include "shaders/surfaces/path_word.h"
 #include "shaders/surfaces/hit.h"
 #include "shaders/surfaces/hooks.h"
 #include "shaders/surfaces/medium.h"

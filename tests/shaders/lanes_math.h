@@ -56,5 +56,11 @@ FN word joinWord(word low, word high) {
 }
 FN word lowHalf(word w) { return {w.lane[0] & 0xffffu, w.lane[1] & 0xffffu}; }
 FN word highHalf(word w) { return {w.lane[0] >> 16, w.lane[1] >> 16}; }
+FN word andW(word a, word b) { return {a.lane[0] & b.lane[0], a.lane[1] & b.lane[1]}; }
+FN word orW(word a, word b) { return {a.lane[0] | b.lane[0], a.lane[1] | b.lane[1]}; }
+FN word xorW(word a, word b) { return {a.lane[0] ^ b.lane[0], a.lane[1] ^ b.lane[1]}; }
+FN word shiftRightW(word a, int bits) { return {a.lane[0] >> bits, a.lane[1] >> bits}; }
+FN word addW(word a, word b) { return {a.lane[0] + b.lane[0], a.lane[1] + b.lane[1]}; }
+FN word timesW(word a, word factor) { return {a.lane[0] * factor.lane[0], a.lane[1] * factor.lane[1]}; }
 FN mask equalW(word a, word b) { return {a.lane[0] == b.lane[0], a.lane[1] == b.lane[1]}; }
 FN mask hasBit(word w, int bit) { return {(w.lane[0] >> bit & 1u) == 1u, (w.lane[1] >> bit & 1u) == 1u}; }

@@ -101,6 +101,24 @@ TEST(MethodsTest, PayloadSizesMatchTheDocument) {
   EXPECT_GE(count, 8u);
 }
 
+// Words of many paths: a payload keeps all of their bits.
+TYPED_TEST(MethodTest, PathWordIsSetAndRead) {
+  typename TypeParam::Payload p = TypeParam::payloadUnpolarized(make3(5, 6, 7));
+  word path = f32::pathStart(1, 2);
+  for (word i = 0; i < 1000; ++i) {
+    path = f32::joinWord(i * 7919u, f32::highHalf(i % 3 == 0   ? f32::reflectedPath(path)
+                                                  : i % 3 == 1 ? f32::transmittedPath(path)
+                                                               : f32::facetPath(path, i % 16)));
+    TypeParam::payloadSetDepth(p, 7);
+    TypeParam::payloadSetOriginDistance(p, 6.4e-4f);
+    TypeParam::payloadSetPath(p, path);
+    EXPECT_EQ(TypeParam::payloadPath(p), path);
+    EXPECT_EQ(TypeParam::payloadDepth(p), 7);
+    EXPECT_EQ(TypeParam::payloadOriginDistance(p), 6.4e-4f);
+    EXPECT_TRUE(std::isnormal(f32::floatValue(path)));
+  }
+}
+
 TYPED_TEST(MethodTest, DepthAndOriginDistanceAreSetAndRead) {
   EXPECT_EQ(sizeof(typename TypeParam::Payload), static_cast<std::size_t>(TypeParam::kPayloadBytes));
   typename TypeParam::Payload p = TypeParam::payloadUnpolarized(make3(5, 6, 7));

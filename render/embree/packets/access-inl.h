@@ -1,6 +1,8 @@
 // Base of the packet tracers: rays, hits and scene data on lanes, as shaders/surfaces/hooks.h names them. Included once
 // per instruction set, in its namespace, after lanes-inl.h and the shared structs; no include guard.
 
+#include "shaders/surfaces/path_word.h"
+
 // A batch of rays, in structure-of-arrays form. The last register may be written beyond the last ray.
 struct Rays {
   HWY_ALIGN_MAX float origin[3][kBatch + kLanes];
@@ -8,6 +10,9 @@ struct Rays {
   HWY_ALIGN_MAX float depth[kBatch + kLanes];
 #if MALUS_EFFECT_ABSORPTION
   HWY_ALIGN_MAX float originDistance[kBatch + kLanes];
+#endif
+#if MALUS_PATH_WORD
+  HWY_ALIGN_MAX std::uint32_t path[kBatch + kLanes];
 #endif
   std::uint32_t count;
 };
@@ -34,11 +39,6 @@ FN word gatherW(const std::uint32_t* from, word index) {
   return hn::GatherIndex(Words(), from, hn::BitCast(Ints(), index.v));
 }
 FN void scatterR(real a, float* to, word index) { hn::ScatterIndex(a.v, Floats(), to, hn::BitCast(Ints(), index.v)); }
-FN word addW(word a, word b) { return hn::Add(a.v, b.v); }
-FN word timesW(word a, std::uint32_t factor) { return hn::Mul(a.v, hn::Set(Words(), factor)); }
-// The same where all lanes have one index.
-FN std::uint32_t addW(std::uint32_t a, std::uint32_t b) { return a + b; }
-FN std::uint32_t timesW(std::uint32_t a, std::uint32_t factor) { return a * factor; }
 FN std::uint32_t firstLane(word a) { return hn::GetLane(a.v); }
 FN bool sameInAll(word a) { return hn::AllTrue(Words(), hn::Eq(a.v, hn::Set(Words(), firstLane(a)))); }
 // Whether the lanes are successive numbers.

@@ -22,9 +22,13 @@ Ray loadRay(const Rays& batch, Row row) {
 #if MALUS_EFFECT_ABSORPTION
   distance = row(batch.originDistance);
 #endif
-  return makeRay({row(batch.origin[0]), row(batch.origin[1]), row(batch.origin[2])},
-                 {row(batch.direction[0]), row(batch.direction[1]), row(batch.direction[2])}, row(batch.depth),
-                 distance);
+  Ray ray =
+      makeRay({row(batch.origin[0]), row(batch.origin[1]), row(batch.origin[2])},
+              {row(batch.direction[0]), row(batch.direction[1]), row(batch.direction[2])}, row(batch.depth), distance);
+#if MALUS_PATH_WORD
+  ray.path = floatBits(row(reinterpret_cast<const float*>(batch.path)));  // moved, not computed with
+#endif
+  return ray;
 }
 
 // Rays of a batch by their indices.
@@ -98,6 +102,9 @@ std::uint32_t addRays(Rays& batch, mask chosen, const Ray& ray) {
 #if MALUS_EFFECT_ABSORPTION
   storeChosen(ray.originDistance, chosen, batch.originDistance + at);
 #endif
+#if MALUS_PATH_WORD
+  hn::StoreU(hn::Compress(ray.path.v, hn::RebindMask(Words(), chosen.m)), Words(), batch.path + at);
+#endif
   batch.count = at + static_cast<std::uint32_t>(countM(chosen));
   return at;
 }
@@ -121,6 +128,9 @@ void cameraRays(const embree::TileInput& tile, std::uint32_t column, std::uint32
     storeR(real(camera.depth), batch.depth + at);
 #if MALUS_EFFECT_ABSORPTION
     storeR(0.0f, batch.originDistance + at);
+#endif
+#if MALUS_PATH_WORD
+    hn::StoreU(pathStart(wordOfReal(loadR(x)), wordOfReal(loadR(y))).v, Words(), batch.path + at);
 #endif
   }
 }

@@ -126,7 +126,7 @@ void addFacetPaths(std::uint32_t i, Level& level) {
     const Facet facet = sampleFacet(r.h, camera.facets[i].x, camera.facets[i].y);
     CameraPath p;
     p.throughput = r.throughput;
-    followFacet(p, r.h, r.m, facet, r.s.coloured, camera.tolerance);
+    followFacet(p, r.h, r.m, facet, i, r.s.coloured, camera.tolerance);
     const mask shows = lessR(threshold * (1.0f / static_cast<float>(gpu::kFacets)), maxComponent(p.throughput));
     addPaths(level.reflected, andM(andM(r.rough, lessR(0.0f, facet.weight)), shows), p, r.pixel);
   }

@@ -94,6 +94,15 @@ FN real3 cross3(const real3& a, const real3& b) {
 FN word lowHalf(word w) { return hn::And(w.v, hn::Set(Words(), 0xffffu)); }
 FN word highHalf(word w) { return hn::ShiftRight<16>(w.v); }
 FN word joinWord(word low, word high) { return hn::Or(lowHalf(low).v, hn::ShiftLeft<16>(high.v)); }
+FN word andW(word a, word b) { return hn::And(a.v, b.v); }
+FN word orW(word a, word b) { return hn::Or(a.v, b.v); }
+FN word xorW(word a, word b) { return hn::Xor(a.v, b.v); }
+FN word shiftRightW(word a, int bits) { return hn::ShiftRightSame(a.v, bits); }
+FN word addW(word a, word b) { return hn::Add(a.v, b.v); }
+FN word timesW(word a, std::uint32_t factor) { return hn::Mul(a.v, hn::Set(Words(), factor)); }
+// The same where all lanes have one word.
+FN std::uint32_t addW(std::uint32_t a, std::uint32_t b) { return a + b; }
+FN std::uint32_t timesW(std::uint32_t a, std::uint32_t factor) { return a * factor; }
 FN mask equalW(word a, word b) { return hn::RebindMask(Floats(), hn::Eq(a.v, b.v)); }
 FN mask hasBit(word w, int bit) {
   return hn::RebindMask(Floats(), hn::TestBit(w.v, hn::Set(Words(), 1u << static_cast<unsigned>(bit))));

@@ -147,8 +147,7 @@ void followFacets(std::size_t depth, Level& level) {
           loadExtra(p.h.material);
           p.facet = sampleFacet(p.h, camera.facets[i].x, camera.facets[i].y);
           p.follows = andM(p.rough, lessR(0.0f, p.facet.weight));
-          if (anyM(p.follows))
-            p.sent = addRays(level.rays, p.follows, rayAbove(p.h, p.facet.mirror, facetDepth(p.h.depth)));
+          if (anyM(p.follows)) p.sent = addRays(level.rays, p.follows, facetRay(p.h, p.facet, i));
         },
         [&](PendingPacket& p, const Payload& returned) HWY_ATTR {
           real3 slack;

@@ -11,6 +11,7 @@
 #include "meshprep/base/error.h"
 #include "render/make_renderer.h"
 #include "render/scene/effects_choice.h"
+#include "render/scene/left_out.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
@@ -127,14 +128,8 @@ void Job::applyEffects() {
     settings_.method = choice.method;
   }
 
-  const auto isOff = [&](const char* name) {
-    return std::find(choice.off.begin(), choice.off.end(), name) != choice.off.end();
-  };
-  if (isOff("shadows")) parameters_.shadows = false;
-  if (isOff("filter")) parameters_.analyser = kNoFilter;
-  if (!bake::canBeRemoved(choice.off)) return;
-  renderer_.reset();  // it refers to the whole scene
-  reduced_ = std::make_unique<pack::Scene>(bake::withoutEffects(pack_.scene, choice.off));
+  reduced_ = leaveOut(pack_.scene, choice.off, parameters_);
+  if (reduced_) renderer_.reset();  // it refers to the whole scene
 }
 
 }  // namespace malus::render

@@ -78,8 +78,8 @@ class Job {
   const pack::Pack& pack_;
   JobSettings settings_;
   RenderParameters parameters_;
-  std::unique_ptr<pack::Scene> reduced_;  // the scene without the removed effects; null if none is removed
-  std::unique_ptr<Renderer> renderer_;    // of scene()
+  std::shared_ptr<const pack::Scene> reduced_;  // the scene without the removed effects; null if none is removed
+  std::unique_ptr<Renderer> renderer_;          // of scene()
   std::string requestedMethod_, substitutedFor_;
   std::vector<std::string> warnings_;
   std::optional<MethodEstimate> estimate_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <memory>
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 #include "meshprep/base/usage_error.h"
 #include "meshprep/json_text.h"
 #include "meshprep/output_option.h"
+#include "render/ablation/ablation.h"
+#include "render/ablation/results.h"
 #include "render/compare/devices_table.h"
 #include "render/compare/results.h"
 #include "render/method_option.h"
@@ -37,6 +40,8 @@ struct Arguments {
   std::string output;
   ComparisonSettings settings;
   bool noReport = false, json = false;
+  bool effects = false;           // --effects: an ablation instead of a comparison of methods
+  std::optional<double> minutes;  // --minutes
 
   // Depth at which pipelines are compiled for statistics.
   std::uint32_t depth(const pack::Scene& scene) const {
@@ -83,6 +88,51 @@ void requireNoComparison(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / "results.json", ignored) && fs::exists(folder / "index.html", ignored))
     throw UsageError("--output", fmt::format("{} has the report of a comparison", folder.string()), "another folder");
+}
+
+// Writes results.json of an ablation.
+void writeAblation(const Ablation& ablation, const AblationSettings& settings, const Arguments& a) {
+  writeFile(fs::path(a.output) / "results.json", jsonText(toJson(ablation, settings), 1) + "\n");
+}
+
+// The settings of an ablation; throws UsageError for options that it does not have.
+AblationSettings ablationSettings(const Arguments& a) {
+  const ComparisonSettings& c = a.settings;
+  if (c.widths.size() > 1 || c.heights.size() > 1 || c.depths.size() > 1)
+    throw UsageError("--effects", "measures one size and depth", "one value of --width, --height and --depth");
+  AblationSettings settings;
+  if (!c.backends.empty()) settings.backends = c.backends;
+  settings.image.width = c.widths.empty() ? 0 : c.widths.front();
+  settings.image.height = c.heights.empty() ? 0 : c.heights.front();
+  if (!c.depths.empty()) settings.image.depth = c.depths.front();
+  if (c.polarizerDegrees) settings.image.analyser = linearPolarizer(*c.polarizerDegrees);
+  settings.image.device = c.device;
+  settings.image.threads = c.threads;
+  settings.image.vulkanPath = c.vulkanPath;
+  settings.image.embreePath = c.embreePath;
+  settings.rounds = c.rounds;
+  settings.minutes = a.minutes.value_or(settings.minutes);
+  return settings;
+}
+
+void finishAblation(const Ablation& ablation, const AblationSettings& settings, const Arguments& a) {
+  writeAblation(ablation, settings, a);
+  if (a.json)
+    console::printText(jsonText(toJson(ablation, settings), 1) + "\n");
+  else
+    console::printText(toTable(ablation) + "\n");
+  if (ablation.interrupted) {
+    console::warn(fmt::format("interrupted: {} finished rounds are in {}", ablation.rounds, a.output));
+    throw Interrupted{};
+  }
+  if (ablation.leftOut > 0 || ablation.timeIsOver)
+    console::warn(fmt::format("the time of --minutes is over: {} rows left out, {} of {} rounds", ablation.leftOut,
+                              ablation.rounds, settings.rounds));
+  if (a.noReport) return;
+  console::progress("writing the report");
+  runReportScript("effects_report.py", {a.output}, "", "cannot write the report; results.json is complete");
+  console::progressDone();
+  if (!a.json) console::printLine("report: {}", (fs::path(a.output) / "index.html").string());
 }
 
 // The results of several devices side by side, and their page if there is an output folder.
@@ -160,7 +210,15 @@ void runCompare(Arguments& a) {
   if (failed)
     throw Error((folder / "images").string(), "cannot create the folder", "a writable place", failed.message());
 
+  a.settings.minutes = a.minutes.value_or(a.settings.minutes);
   const InterruptScope scope;
+  if (a.effects) {
+    const AblationSettings settings = ablationSettings(a);
+    const Ablation ablation = ablate({a.packs.begin(), a.packs.end()}, settings, folder, console::progress,
+                                     [&](const Ablation& finished) { writeAblation(finished, settings, a); });
+    console::progressDone();
+    return finishAblation(ablation, settings, a);
+  }
   Comparison comparison = compare({a.packs.begin(), a.packs.end()}, a.settings, folder, console::progress,
                                   [&](const Comparison& finished) { writeResults(finished, a); });
   console::progressDone();
@@ -199,6 +257,8 @@ void addCompareCommand(CLI::App& app) {
   command->add_option("--show", a->shown, "Print the results of several devices side by side, render nothing")
       ->type_name("FILE...");
   command->add_option("--methods", settings.methods, "Methods (default: all)")->delimiter(',')->transform(methodName());
+  command->add_flag("--effects", a->effects,
+                    "Measure what each effect, bounce and kind of polarization gives and costs, instead of methods");
   addBackends(*command, settings.backends, "Renderers (default: all that render by methods)");
   CLI::Option* width = addWidth(*command, settings.widths);
   CLI::Option* height = addHeight(*command, settings.heights);
@@ -212,10 +272,10 @@ void addCompareCommand(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option(
-          "--minutes", settings.minutes,
-          "Time limit: leaves out methods and rounds that exceed it, the first methods are preferred; 0 for none")
-      ->transform(nonNegativeNumber())
-      ->capture_default_str();
+          "--minutes", a->minutes,
+          "Time limit: leaves out methods and rounds that exceed it, the first methods are preferred; 0 for none "
+          "(default: 0, or 10 with --effects)")
+      ->transform(nonNegativeNumber());
   addDevice(*command, settings.device, settings.threads);
   addPaths(*command, settings.vulkanPath, settings.embreePath);
   command

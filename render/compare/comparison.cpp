@@ -9,6 +9,7 @@
 #include "meshprep/base/interrupt.h"
 #include "render/compare/effects_table.h"
 #include "render/compare/machine.h"
+#include "render/compare/packs.h"
 #include "render/compare/paths_table.h"
 #include "render/compare/timing_rounds.h"
 #include "render/compare/warm_up.h"
@@ -29,18 +30,6 @@ ComparisonSettings completeSettings(ComparisonSettings settings) {
   if (std::find(names.begin(), names.end(), baselineMethod().name) == names.end())
     names.insert(names.begin(), baselineMethod().name);
   return settings;
-}
-
-std::map<std::string, pack::Pack> readPacks(const std::vector<std::filesystem::path>& paths) {
-  if (paths.empty()) throw Error("malus compare", "no scene pack", "one or more");
-  std::map<std::string, pack::Pack> packs;
-  for (const std::filesystem::path& path : paths) {
-    pack::Pack pack = pack::read(path);
-    const std::string name = pack.scene.name;
-    if (!packs.emplace(name, std::move(pack)).second)
-      throw Error(path.string(), fmt::format("a second pack of scene '{}'", name), "each scene once");
-  }
-  return packs;
 }
 
 void summarize(Comparison& comparison, const std::vector<RowGroup>& groups) {

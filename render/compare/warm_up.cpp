@@ -11,6 +11,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/compare/effects_table.h"
+#include "render/compare/packs.h"
 #include "render/compare/paths_table.h"
 #include "render/image/output.h"
 #include "render/job.h"
@@ -34,18 +35,6 @@ struct Share {
   std::size_t view, views;
   bool isOver() const { return limit.isFirstPassOver(view, views); }
 };
-
-// The name of a scene as a part of a file name. A pack may come from anywhere: other characters than letters, digits
-// and
-// '-' become %XX, so that no name leaves the folder and different scenes have different files.
-std::string safeName(const std::string& name) {
-  std::string safe;
-  for (const char c : name) {
-    const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
-    safe += isPlain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return safe;
-}
 
 std::string fileName(const RowGroup& group, const std::string& what) {
   const RenderParameters& p = group.parameters;

@@ -152,14 +152,18 @@ class GroupView:
 
     @property
     def scale(self) -> dict:
-        """The legend of the difference images: colours, and the tick positions in percent."""
-        strip = mapped(numpy.linspace(0, 1, 64), "RdBu_r")
-        knee = self.limit / 100
-        at = lambda v: 50 + 50 * math.copysign(math.log1p(abs(v) / knee) / math.log1p(self.limit / knee), v)  # noqa: E731
-        values = [s * self.limit for s in (-1, -0.1, -0.01, 0, 0.01, 0.1, 1)]
-        return {"gradient": gradient(strip),
-                "ticks": [(at(v) if v else 50, ("+" if v > 0 else "−" if v < 0 else "") +
-                           report_format.plain(abs(v), 1)) for v in values]}
+        return difference_scale(self.limit)
+
+
+def difference_scale(limit: float) -> dict:
+    """The legend of difference images: colours, and the tick positions in percent."""
+    strip = mapped(numpy.linspace(0, 1, 64), "RdBu_r")
+    knee = limit / 100
+    at = lambda v: 50 + 50 * math.copysign(math.log1p(abs(v) / knee) / math.log1p(limit / knee), v)  # noqa: E731
+    values = [s * limit for s in (-1, -0.1, -0.01, 0, 0.01, 0.1, 1)]
+    return {"gradient": gradient(strip),
+            "ticks": [(at(v) if v else 50, ("+" if v > 0 else "−" if v < 0 else "") +
+                       report_format.plain(abs(v), 1)) for v in values]}
 
 
 def gradient(colours: numpy.ndarray) -> str:

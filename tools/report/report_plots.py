@@ -131,6 +131,23 @@ def error_against_time(group, renderer: str) -> str:
                         f"{renderer}")
 
 
+def error_against_saving(points: list, title: str) -> str:
+    """Plots (share of the time saved, relative RMS error, name, whether the error is visible) of what is left out."""
+    figure, axes = _axes(width=6.2, height=4.4)
+    _error_axis(axes, [y for _, y, _, _ in points])
+    for x, y, _, visible in points:
+        axes.plot(100 * x, y, "o", markersize=5, color=kFront if visible else kOther,
+                  markerfacecolor=kFront if visible else "none", zorder=3)
+    axes.axvline(0, color="#808080", linewidth=0.6, linestyle=(0, (2, 3)), zorder=0)
+    axes.margins(x=0.08, y=0.08)
+    axes.set_xlabel("time saved [% of the complete image's]")
+    axes.set_ylabel("relative RMS error")
+    axes.yaxis.set_minor_formatter(ticker.NullFormatter())
+    figure.subplots_adjust(left=0.13, right=0.68, top=0.97, bottom=0.12)
+    _labels(figure, axes, [(100 * x, y, name, kInk, False) for x, y, name, _ in points])
+    return _svg(figure, title)
+
+
 def cost_against_payload(points: list, family: str, label: str) -> str:
     """Plots (payload bytes, cost, method) of one GPU family."""
     if not points:

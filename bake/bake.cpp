@@ -266,6 +266,8 @@ Baked bake(const SceneDescription& asked, const pack::WriteSettings& settings,
     mesh.positions = std::move(source.world.positions);
     for (glm::dvec3& p : mesh.positions) p -= scene.origin;
     mesh.normals = std::move(source.world.normals);
+    mesh.textureCoordinates = std::move(source.world.textureCoordinates);
+    mesh.tangents = std::move(source.world.tangents);
     mesh.triangles = std::move(source.world.triangles);
     requireAxisInPlane(mesh, scene.materials[mesh.material], d.file);
   }

@@ -240,6 +240,7 @@ class InstancePreparation {
     }
     for (const glm::vec3& n : from.normals)
       mesh.normals.push_back(placed.isMoved ? glm::vec3(glm::normalize(placed.linear * glm::dvec3(n))) : n);
+    appendTextures(placed, mirrors, mesh);
     for (const std::uint32_t f : from.sourceFaces) mesh.sourceFaces.push_back(faceNumber(placed, f));
     for (glm::uvec3 t : from.triangles) {
       if (mirrors) std::swap(t.y, t.z);
@@ -251,15 +252,35 @@ class InstancePreparation {
     return true;
   }
 
+  // Appends the texture attributes that any piece has. Those of a piece without are zero, and any tangent.
+  void appendTextures(const PlacedPiece& placed, bool mirrors, Mesh& mesh) const {
+    const Mesh& from = placed.piece->mesh;
+    const auto anyHas = [&](auto has) {
+      return std::any_of(placed_.begin(), placed_.end(), [&](const PlacedPiece& p) { return has(p.piece->mesh); });
+    };
+    for (std::size_t set = 0; set < from.textureCoordinates.size(); ++set) {
+      if (!anyHas([set](const Mesh& m) { return !m.textureCoordinates[set].empty(); })) continue;
+      std::vector<glm::vec2>& to = mesh.textureCoordinates[set];
+      to.insert(to.end(), from.textureCoordinates[set].begin(), from.textureCoordinates[set].end());
+      to.resize(mesh.positions.size(), glm::vec2(0));
+    }
+    if (!anyHas([](const Mesh& m) { return !m.tangents.empty(); })) return;
+    for (const glm::vec4& t : from.tangents)
+      mesh.tangents.push_back(
+          placed.isMoved ? glm::vec4(glm::vec3(glm::normalize(placed.linear * glm::dvec3(t))), mirrors ? -t.w : t.w)
+                         : t);
+    mesh.tangents.resize(mesh.positions.size(), glm::vec4(1, 0, 0, 1));
+  }
+
   glm::dvec3 moved(const PlacedPiece& placed, const glm::dvec3& at) const {
     return placed.isMoved ? placed.linear * at + placed.translation : at;
   }
 
   void appendReport(const PlacedPiece& placed) {
     const Report& from = placed.piece->report;
-    if (report_.steps.empty())
-      for (const Step& step : from.steps) report_.steps.push_back({step.name, 0, {}});
     for (std::size_t i = 0; i < from.steps.size(); ++i) {
+      // Pieces with texture coordinates have further steps at the end.
+      if (i == report_.steps.size()) report_.steps.push_back({from.steps[i].name, 0, {}});
       Step& step = report_.steps[i];
       // Steps that may be incomplete state 0 or 1.
       const bool isFlag = step.name == "cleaning-not-converged" || step.name == "t-junctions-unchecked" ||

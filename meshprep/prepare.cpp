@@ -26,6 +26,7 @@
 #include "meshprep/read/read_mesh.h"
 #include "meshprep/read/source_scene.h"
 #include "meshprep/simplify/simplify.h"
+#include "meshprep/textures/texture_vertices.h"
 
 namespace malus::prep {
 
@@ -83,6 +84,7 @@ class Preparation {
     cleanMesh();
     inspect();
     addNormals();
+    addTextures();
     report_.output.vertices = mesh_.positions.size();
     report_.output.triangles = mesh_.triangles.size();
     return std::move(mesh_);
@@ -251,6 +253,14 @@ class Preparation {
     step("normals-against-their-face", std::move(against));
   }
 
+  void addTextures() {
+    if (mesh_.cornerTextures.empty()) return;
+    const TextureVertexCounts counts = addTextureVertices(mesh_);
+    step("vertices-added-at-seams", counts.added);
+    step("texture-corners-filled", counts.filled);
+    step("tangents-undefined", counts.tangents);
+  }
+
   Mesh mesh_;
   const Options& options_;
   std::vector<std::uint32_t> faceMaterials_;
@@ -297,9 +307,12 @@ Mesh clean(Mesh mesh, const Options& options, Report& report) {
 
 Mesh prepare(const std::filesystem::path& source, const Options& options, Report& report) {
   checkOptions(options, source.string());
+  const KeepTextures textures = options.keepTextures ? KeepTextures::all : KeepTextures::none;
   if (isGltf(source))
-    return prepareInstances(readSourceScene(source, options.strict), source.string(), options, report);
-  return prepare(readMesh(source, options.strict), source.string(), options, report);
+    return prepareInstances(readSourceScene(source, options.strict, false, textures), source.string(), options, report);
+  Polygons polygons = readMesh(source, options.strict);
+  keepTextureCoordinates(polygons, options.keepTextures);
+  return prepare(polygons, source.string(), options, report);
 }
 
 Mesh prepare(const Polygons& polygons, const std::string& source, const Options& options, Report& report) {
@@ -336,6 +349,8 @@ Mesh prepare(const Polygons& polygons, const std::string& source, const Options&
   // Clean, unless the mesh is used unchanged.
   if (options.asIs) {
     if (!options.flat) mesh.normals = authoredNormals(polygons, report.source);
+    if (!mesh.cornerTextures.empty())
+      report.steps.push_back({"vertices-added-at-seams", addTextureVertices(mesh).added, {}});
     report.output.vertices = mesh.positions.size();
     report.output.triangles = mesh.triangles.size();
     return mesh;

@@ -1,10 +1,11 @@
 // Preparation of a mesh file for rendering.
 //
 // read -> triangulate -> weld -> degenerate -> duplicates -> unreferenced -> orient -> fans -> holes -> simplify ->
-// junctions and intersections (reported only) -> certificate -> normals. Each step of cleaning can be skipped; it
-// counts its findings and changes, and lists the first ones with vertices, faces and locations in the file. Every
-// dropped vertex or face is counted. A mesh without defects keeps the order of its vertices and triangles, and cleaning
-// a cleaned mesh changes nothing. Coordinates are metres, in double. Compression is separate (compress/draco_mesh.h).
+// junctions and intersections (reported only) -> certificate -> normals -> texture coordinates. Each step of cleaning
+// can be skipped; it counts its findings and changes, and lists the first ones with vertices, faces and locations in
+// the file. Every dropped vertex or face is counted. A mesh without defects keeps the order of its vertices and
+// triangles, and cleaning a cleaned mesh changes nothing. Coordinates are metres, in double. Compression is separate
+// (compress/draco_mesh.h).
 #pragma once
 
 #include <filesystem>
@@ -28,10 +29,11 @@ enum class Normals {
 
 struct Options {
   // Kind of mesh.
-  bool flat = false;         // normals are those of the faces: none are stored, and no vertex is split
-  bool openSurface = false;  // the surface is intentionally open: components keep their orientation
-  bool asIs = false;         // only triangulate; keep the vertices, faces and, unless flat, normals of the file
-  bool strict = false;       // refuse a file with an invalid part instead of leaving the part out (readGltf())
+  bool flat = false;          // normals are those of the faces: none are stored, and no vertex is split
+  bool openSurface = false;   // the surface is intentionally open: components keep their orientation
+  bool asIs = false;          // only triangulate; keep the vertices, faces and, unless flat, normals of the file
+  bool keepTextures = false;  // of a file: keep texture coordinates and tangents; polygons keep what they have
+  bool strict = false;        // refuse a file with an invalid part instead of leaving the part out (readGltf())
 
   // Cleaning. steps.openSurface is set to openSurface.
   Cleaning steps;

@@ -108,6 +108,32 @@ void removeInvisible(const ImportDescription& description, prep::SourceScene& so
   prep::addNote(source.notes, fmt::format("surfaces that are invisible by the alpha of their material ({})", removed));
 }
 
+// Drops the texture coordinates and tangents of parts whose material has no images, or is replaced by one of the scene.
+void dropUnusedTextures(const ImportDescription& description, prep::SourceScene& source) {
+  bool anyDropped = false;
+  for (prep::SourcePart& part : source.parts) {
+    prep::Polygons& polygons = part.polygons;
+    if (!polygons.hasTextureAttributes()) continue;
+    prep::TextureNeeds needs;
+    if (part.material && !description.materials.contains(source.materials[*part.material].name))
+      needs = prep::textureNeeds(source.materials[*part.material]);
+    for (std::size_t set = 0; set < needs.coordinates.size(); ++set) {
+      anyDropped = anyDropped || (!needs.coordinates[set] && !polygons.textureCoordinates[set].empty());
+      if (!needs.coordinates[set]) polygons.textureCoordinates[set].clear();
+    }
+    if (!needs.tangents) polygons.tangents.clear();
+  }
+  if (anyDropped) prep::addNote(source.notes, std::string(prep::kTextureCoordinatesNote));
+}
+
+prep::SourceScene readSource(const ImportDescription& description, bool strict) {
+  prep::SourceScene source = prep::readSourceScene(description.file, strict, true);
+  applyTextureMeans(source, strict);
+  dropUnusedTextures(description, source);
+  removeInvisible(description, source);
+  return source;
+}
+
 // Returns the uses of the parts. Makes the materials in the order of the instances.
 std::vector<PartUse> findUses(const prep::SourceScene& source, const std::set<std::string>& openSurfaces,
                               MaterialIndices& indices, const std::vector<pack::Material>& materials) {
@@ -175,9 +201,7 @@ void finish(const ImportDescription& description, prep::SourceScene source, cons
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
                      UniqueNames& materialNames, UniqueNames& meshNames, bool strict) {
   Imported result;
-  prep::SourceScene source = prep::readSourceScene(description.file, strict, true);
-  applyTextureMeans(source, strict);
-  removeInvisible(description, source);
+  prep::SourceScene source = readSource(description, strict);
   std::vector<std::string>& notes = source.notes;
 
   // Find open surfaces by the name of a part or an instance.

@@ -55,6 +55,9 @@ void moveFaces(SourcePart& to, SourcePart& from) {
   const std::size_t vertices = a.positions.size(), corners = a.corners.size(), faces = a.faceCount();
   appendAttribute(a.normals, vertices, b.normals, b.positions.size(), glm::vec3(0));
   appendAttribute(a.cornerNormals, corners, b.cornerNormals, b.corners.size(), glm::vec3(0));
+  for (std::size_t set = 0; set < a.textureCoordinates.size(); ++set)
+    appendAttribute(a.textureCoordinates[set], corners, b.textureCoordinates[set], b.corners.size(), glm::vec2(0));
+  appendAttribute(a.tangents, corners, b.tangents, b.corners.size(), glm::vec4(0, 0, 0, 1));
   appendAttribute(a.smoothingGroups, faces, b.smoothingGroups, b.faceCount(), 0u);
   if (a.vertexLocations.size() == vertices && b.vertexLocations.size() == b.positions.size())
     a.vertexLocations.insert(a.vertexLocations.end(), b.vertexLocations.begin(), b.vertexLocations.end());

@@ -43,6 +43,10 @@ prep::Mesh placed(const prep::Mesh& mesh, const glm::dmat4& worldFromObject) {
     if (mirrors) turned = -turned;
     n = glm::vec3(glm::normalize(turned));
   }
+  result.textureCoordinates = mesh.textureCoordinates;
+  result.tangents = mesh.tangents;
+  for (glm::vec4& t : result.tangents)
+    t = glm::vec4(glm::vec3(glm::normalize(m * glm::dvec3(t))), mirrors ? -t.w : t.w);
   if (mirrors)
     for (glm::uvec3& t : result.triangles) std::swap(t.y, t.z);
   return result;

@@ -151,8 +151,9 @@ class Cutter {
     while (n[apex] == flat.a || n[apex] == flat.c) ++apex;
     const int from = (apex + 1) % 3, to = (apex + 2) % 3;
     copyTriangle(other, flat.triangle);
-    setCutCorner(other, to, flat.b);
-    setCutCorner(flat.triangle, from, flat.b);
+    const CornerTexture texture = cutTexture(other, from, to, n[from] == flat.a ? flat.fraction : 1 - flat.fraction);
+    setCutCorner(other, to, flat.b, texture);
+    setCutCorner(flat.triangle, from, flat.b, texture);
     addUses(flat.triangle);
     addUses(other);
     return true;
@@ -166,12 +167,21 @@ class Cutter {
     if (!mesh_.smoothingGroups.empty()) mesh_.smoothingGroups[target] = mesh_.smoothingGroups[source];
     for (std::size_t k = 0; k < 3 && !mesh_.cornerNormals.empty(); ++k)
       mesh_.cornerNormals[3 * target + k] = mesh_.cornerNormals[3 * source + k];
+    for (std::size_t k = 0; k < 3 && !mesh_.cornerTextures.empty(); ++k)
+      mesh_.cornerTextures[3 * target + k] = mesh_.cornerTextures[3 * source + k];
   }
-  void setCutCorner(std::size_t triangle, int corner, std::uint32_t vertex) {
+  // Texture attributes between two corners of a triangle.
+  CornerTexture cutTexture(std::size_t triangle, int from, int to, double fraction) const {
+    if (mesh_.cornerTextures.empty()) return {};
+    const auto at = [&](int corner) { return mesh_.cornerTextures[3 * triangle + static_cast<std::size_t>(corner)]; };
+    return interpolated(at(from), at(to), fraction);
+  }
+  void setCutCorner(std::size_t triangle, int corner, std::uint32_t vertex, const CornerTexture& texture) {
     mesh_.triangles[triangle][corner] = vertex;
     if (!mesh_.sourceCorners.empty()) mesh_.sourceCorners[triangle][corner] = sourceVertex(mesh_, vertex);
     if (!mesh_.cornerNormals.empty())
       mesh_.cornerNormals[3 * triangle + static_cast<std::size_t>(corner)] = glm::vec3(0);
+    if (!mesh_.cornerTextures.empty()) mesh_.cornerTextures[3 * triangle + static_cast<std::size_t>(corner)] = texture;
   }
 
   Mesh& mesh_;

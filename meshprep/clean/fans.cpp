@@ -251,6 +251,19 @@ class Splitter {
       mesh_.cornerNormals[3 * half + 1] = toNormal;
       mesh_.cornerNormals[3 * half + 2] = mesh_.cornerNormals[3 * use.triangle + apexCorner];
     }
+    cutTexture(use.triangle, use.corner, half);
+  }
+
+  // Sets the texture attributes of the halves of a triangle that is cut in the middle of its edge from a corner on.
+  void cutTexture(std::size_t triangle, std::size_t corner, std::size_t half) {
+    if (mesh_.cornerTextures.empty()) return;
+    const auto at = [&](std::size_t i) -> CornerTexture& { return mesh_.cornerTextures[3 * triangle + i % 3]; };
+    const CornerTexture middle = interpolated(at(corner), at(corner + 1), 0.5), to = at(corner + 1),
+                        apex = at(corner + 2);
+    at(corner + 1) = middle;
+    mesh_.cornerTextures[3 * half] = middle;
+    mesh_.cornerTextures[3 * half + 1] = to;
+    mesh_.cornerTextures[3 * half + 2] = apex;
   }
 
   void cutNonManifoldEdges() {

@@ -29,6 +29,9 @@ void keepTriangles(Mesh& mesh, Keep keep) {
     if (!mesh.cornerNormals.empty())
       for (std::size_t corner = 0; corner < 3; ++corner)
         mesh.cornerNormals[3 * kept + corner] = mesh.cornerNormals[3 * i + corner];
+    if (!mesh.cornerTextures.empty())
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        mesh.cornerTextures[3 * kept + corner] = mesh.cornerTextures[3 * i + corner];
     ++kept;
   }
   mesh.triangles.resize(kept);
@@ -37,9 +40,22 @@ void keepTriangles(Mesh& mesh, Keep keep) {
   if (!mesh.flipped.empty()) mesh.flipped.resize(kept);
   if (!mesh.smoothingGroups.empty()) mesh.smoothingGroups.resize(kept);
   if (!mesh.cornerNormals.empty()) mesh.cornerNormals.resize(3 * kept);
+  if (!mesh.cornerTextures.empty()) mesh.cornerTextures.resize(3 * kept);
 }
 
-// Appends a triangle of the same source face as triangle `like`. Its corners have no normals.
+// Texture attributes at this fraction of the way from a to b. The sign of the bitangent is that of a.
+inline CornerTexture interpolated(const CornerTexture& a, const CornerTexture& b, double fraction) {
+  CornerTexture result = a;
+  const auto t = static_cast<float>(fraction);
+  for (std::size_t set = 0; set < result.coordinates.size(); ++set)
+    result.coordinates[set] += t * (b.coordinates[set] - a.coordinates[set]);
+  const glm::vec3 tangent = glm::vec3(a.tangent) + t * (glm::vec3(b.tangent) - glm::vec3(a.tangent));
+  result.tangent = glm::vec4(tangent, a.tangent.w);
+  result.isMissing = a.isMissing || b.isMissing;
+  return result;
+}
+
+// Appends a triangle of the same source face as triangle `like`. Its corners have no normals and no texture attributes.
 inline void addTriangle(Mesh& mesh, const glm::uvec3& triangle, std::size_t like) {
   const glm::uvec3 corners = mesh.sourceVertices.empty()
                                  ? triangle
@@ -51,6 +67,11 @@ inline void addTriangle(Mesh& mesh, const glm::uvec3& triangle, std::size_t like
   if (!mesh.flipped.empty()) mesh.flipped.push_back(mesh.flipped[like]);
   if (!mesh.smoothingGroups.empty()) mesh.smoothingGroups.push_back(mesh.smoothingGroups[like]);
   if (!mesh.cornerNormals.empty()) mesh.cornerNormals.insert(mesh.cornerNormals.end(), 3, glm::vec3(0));
+  if (!mesh.cornerTextures.empty()) {
+    CornerTexture missing;
+    missing.isMissing = true;
+    mesh.cornerTextures.insert(mesh.cornerTextures.end(), 3, missing);
+  }
 }
 
 // Flips a triangle and keeps its first vertex.
@@ -59,6 +80,7 @@ inline void flipTriangle(Mesh& mesh, std::size_t i) {
   if (!mesh.flipped.empty()) mesh.flipped[i] = mesh.flipped[i] == 0 ? 1 : 0;
   if (!mesh.sourceCorners.empty()) std::swap(mesh.sourceCorners[i].y, mesh.sourceCorners[i].z);
   if (!mesh.cornerNormals.empty()) std::swap(mesh.cornerNormals[3 * i + 1], mesh.cornerNormals[3 * i + 2]);
+  if (!mesh.cornerTextures.empty()) std::swap(mesh.cornerTextures[3 * i + 1], mesh.cornerTextures[3 * i + 2]);
 }
 
 // Replaces the vertices by those of `from`, one old index per new vertex, and old indices i of triangles by

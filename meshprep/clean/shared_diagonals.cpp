@@ -9,6 +9,7 @@
 
 #include "meshprep/clean/flat_polygon.h"
 #include "meshprep/clean/position_ids.h"
+#include "meshprep/clean/triangulate.h"
 
 namespace malus::prep {
 
@@ -215,6 +216,7 @@ class Recutter {
         mesh_.cornerNormals[3 * triangle + k] = polygons_.cornerNormals[corner];
       else if (!polygons_.normals.empty())
         mesh_.cornerNormals[3 * triangle + k] = polygons_.normals[vertex];
+      if (!mesh_.cornerTextures.empty()) mesh_.cornerTextures[3 * triangle + k] = cornerTexture(polygons_, corner);
     }
   }
 

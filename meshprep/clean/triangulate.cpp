@@ -88,6 +88,10 @@ void Triangulation::reserve() {
   mesh_.sourceFaces.reserve(most);
   if (!polygons_.cornerNormals.empty() || !polygons_.normals.empty()) mesh_.cornerNormals.reserve(3 * most);
   if (!polygons_.smoothingGroups.empty()) mesh_.smoothingGroups.reserve(most);
+  if (polygons_.hasTextureAttributes()) mesh_.cornerTextures.reserve(3 * most);
+  for (std::size_t set = 0; set < mesh_.hasCoordinates.size(); ++set)
+    mesh_.hasCoordinates[set] = !polygons_.textureCoordinates[set].empty();
+  mesh_.hasTangents = !polygons_.tangents.empty();
 }
 
 // Appends a triangle of three corners of a face, with their attributes.
@@ -103,6 +107,8 @@ void Triangulation::add(std::size_t face, const glm::uvec3& corners) {
       mesh_.cornerNormals.push_back(polygons_.normals[triangle[k]]);
     }
   }
+  if (polygons_.hasTextureAttributes())
+    for (int k = 0; k < 3; ++k) mesh_.cornerTextures.push_back(cornerTexture(polygons_, first + corners[k]));
   mesh_.triangles.push_back(triangle);
   mesh_.sourceFaces.push_back(static_cast<std::uint32_t>(face));
   if (!polygons_.smoothingGroups.empty()) mesh_.smoothingGroups.push_back(polygons_.smoothingGroups[face]);
@@ -175,6 +181,14 @@ void Triangulation::failTooComplex(std::size_t face) const {
 }
 
 }  // namespace
+
+CornerTexture cornerTexture(const Polygons& polygons, std::size_t corner) {
+  CornerTexture result;
+  for (std::size_t set = 0; set < result.coordinates.size(); ++set)
+    if (!polygons.textureCoordinates[set].empty()) result.coordinates[set] = polygons.textureCoordinates[set][corner];
+  if (!polygons.tangents.empty()) result.tangent = polygons.tangents[corner];
+  return result;
+}
 
 Mesh triangulate(const Polygons& polygons, TriangulateCounts& counts) { return Triangulation(polygons, counts).run(); }
 

@@ -33,8 +33,11 @@ struct TriangulateCounts {
   std::uint64_t recut = 0;            // of polygons, those cut along other diagonals (shared_diagonals.h)
 };
 
-// Sets source faces, corner normals (those of the corners, or else of the vertices) and smoothing groups, as far as the
-// polygons have them. Throws Error, with the face and its location, if the tests are exhausted.
+// Returns the texture attributes of a corner: an index into Polygons::corners.
+CornerTexture cornerTexture(const Polygons& polygons, std::size_t corner);
+
+// Sets source faces, corner normals (those of the corners, or else of the vertices), texture attributes and smoothing
+// groups, as far as the polygons have them. Throws Error, with the face and its location, if the tests are exhausted.
 Mesh triangulate(const Polygons& polygons, TriangulateCounts& counts);
 
 }  // namespace malus::prep

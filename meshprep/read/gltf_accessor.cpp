@@ -184,6 +184,18 @@ void GltfAccessor::requireElements(std::size_t components, std::initializer_list
                           normalized_ ? ", normalized" : ""));
 }
 
+void GltfAccessor::requireTextureCoordinates(bool quantized) const {
+  if (quantized && components_ == 2 && componentSize(componentType_) <= 2) return;
+  requireElements(2, {ComponentType::float32, ComponentType::uint8, ComponentType::uint16}, true);
+}
+
+void GltfAccessor::requireTangents(bool quantized) const {
+  if (quantized)
+    requireElements(4, {ComponentType::float32, ComponentType::int8, ComponentType::int16}, true);
+  else
+    requireElements(4, {ComponentType::float32});
+}
+
 std::optional<std::size_t> GltfAccessor::findNotFinite() const {
   if (componentType_ != ComponentType::float32) return std::nullopt;
   for (std::size_t i = 0; i < count_; ++i)

@@ -35,6 +35,11 @@ class GltfAccessor {
   // be normalized, or must not.
   void requireElements(std::size_t components, std::initializer_list<gltf::ComponentType> types,
                        bool isNormalized = false) const;
+  // Throws Error unless the elements are pairs of floats or of normalized unsigned bytes or shorts; if quantized, of
+  // any bytes or shorts.
+  void requireTextureCoordinates(bool quantized) const;
+  // Throws Error unless the elements are four floats or, if quantized, four normalized bytes or shorts.
+  void requireTangents(bool quantized) const;
   // Returns the first vector that is not finite.
   std::optional<std::size_t> findNotFinite() const;
   // Returns the error of such a vector.

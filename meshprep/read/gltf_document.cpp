@@ -108,6 +108,23 @@ BufferView toBufferView(const json& object, const std::string& location) {
   return view;
 }
 
+// Sets an index that the types of the document do not check, because it may not be used.
+template <class Index>
+void getUnchecked(const json& object, const char* key, std::optional<Index>& index) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  const auto found = object.find(key);
+  if (found == object.end()) return;
+  const bool isIndex = found->is_number_unsigned() && found->template get<std::uint64_t>() < kMost;
+  index = isIndex ? found->template get<Index>() : std::numeric_limits<Index>::max();
+}
+
+template <class Result>
+void getTextureAttributes(const json& attributes, Result& result) {
+  getUnchecked(attributes, "TANGENT", result.tangent);
+  getUnchecked(attributes, "TEXCOORD_0", result.texCoords[0]);
+  getUnchecked(attributes, "TEXCOORD_1", result.texCoords[1]);
+}
+
 Primitive toPrimitive(const json& object) {
   Primitive primitive;
   get(object, "mode", primitive.mode);
@@ -116,6 +133,7 @@ Primitive toPrimitive(const json& object) {
   const json& attributes = object.at("attributes");
   get(attributes, "POSITION", primitive.position);
   get(attributes, "NORMAL", primitive.normal);
+  getTextureAttributes(attributes, primitive);
   get(attributes, "JOINTS_0", primitive.joints[0]);
   get(attributes, "JOINTS_1", primitive.joints[1]);
   get(attributes, "WEIGHTS_0", primitive.weights[0]);
@@ -126,6 +144,7 @@ Primitive toPrimitive(const json& object) {
       if (item.is_null()) continue;
       get(item, "POSITION", target.position);
       get(item, "NORMAL", target.normal);
+      getUnchecked(item, "TANGENT", target.tangent);
     }
   const json& extensions = child(object, "extensions");
   if (const auto found = extensions.find("KHR_draco_mesh_compression"); found != extensions.end()) {
@@ -133,6 +152,7 @@ Primitive toPrimitive(const json& object) {
     draco.bufferView = found->at("bufferView").get<std::size_t>();
     get(found->at("attributes"), "POSITION", draco.position);
     get(found->at("attributes"), "NORMAL", draco.normal);
+    getTextureAttributes(found->at("attributes"), draco);
     primitive.draco = draco;
   }
   return primitive;

@@ -76,18 +76,22 @@ struct Accessor {
 // KHR_draco_mesh_compression. Attributes are ids in the Draco data.
 struct DracoExtension {
   std::size_t bufferView = 0;
-  std::optional<std::uint32_t> position, normal;
+  std::optional<std::uint32_t> position, normal, tangent;
+  std::array<std::optional<std::uint32_t>, 2> texCoords;
 };
 
 // Displacements of the vertices of a primitive.
 struct MorphTarget {
-  std::optional<std::size_t> position, normal;
+  std::optional<std::size_t> position, normal, tangent;
 };
 
-// Attributes and indices are indices into Document::accessors.
+// Attributes and indices are indices into Document::accessors. Those of texture coordinates and tangents, which few
+// materials need, may be kInvalidIndex.
+inline constexpr std::size_t kInvalidIndex = std::numeric_limits<std::size_t>::max();
 struct Primitive {
   std::uint32_t mode = static_cast<std::uint32_t>(PrimitiveMode::triangles);
-  std::optional<std::size_t> position, normal, indices, material;
+  std::optional<std::size_t> position, normal, tangent, indices, material;
+  std::array<std::optional<std::size_t>, 2> texCoords;
   std::array<std::optional<std::size_t>, 2> joints, weights;  // of a skin: four per vertex and set
   std::vector<MorphTarget> targets;
   std::optional<DracoExtension> draco;

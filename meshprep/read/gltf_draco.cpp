@@ -78,28 +78,48 @@ void run(std::span<const std::byte> bytes, const GltfDracoCounts& counts, draco:
   throw Error(location, fmt::format("Draco data is corrupt: {}", status.error_msg_string()), kExpected);
 }
 
-// Returns the values of the attribute with this id, one per vertex.
-std::vector<glm::vec3> attributeValues(const draco::Mesh& mesh, std::uint32_t id, std::string_view what,
-                                       const std::string& location) {
+// Returns the values of the attribute with this id, one per vertex. Vector: of the floats of one value.
+template <class Vector>
+std::vector<Vector> attributeValues(const draco::Mesh& mesh, std::uint32_t id, std::string_view what,
+                                    const std::string& location) {
+  constexpr int kComponents = Vector::length();
   const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);
-  if (attribute == nullptr || attribute->num_components() != 3 || attribute->data_type() != draco::DT_FLOAT32 ||
-      attribute->buffer() == nullptr)
-    throw Error(location, fmt::format("missing {} attribute in the Draco data", what), "an attribute of three floats",
-                fmt::format("attribute {}", id));
-  std::vector<glm::vec3> values;
+  if (attribute == nullptr || attribute->num_components() != kComponents ||
+      attribute->data_type() != draco::DT_FLOAT32 || attribute->buffer() == nullptr)
+    throw Error(location, fmt::format("missing {} attribute in the Draco data", what),
+                fmt::format("an attribute of {} floats", kComponents), fmt::format("attribute {}", id));
+  std::vector<Vector> values;
   values.reserve(mesh.num_points());
-  const std::size_t available = attribute->buffer()->data_size() / sizeof(glm::vec3);
+  const std::size_t available = attribute->buffer()->data_size() / sizeof(Vector);
   for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
     const draco::AttributeValueIndex index = attribute->mapped_index(draco::PointIndex(i));
     if (index.value() >= attribute->size() || index.value() >= available)
       throw Error(location, fmt::format("the {} of vertex {} is missing", what, i), kExpected);
-    std::array<float, 3> v{};
-    attribute->GetValue(index, v.data());
-    if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
-      throw Error(location, fmt::format("the {} of vertex {} is not finite", what, i), kExpected);
-    values.emplace_back(v[0], v[1], v[2]);
+    Vector value;
+    attribute->GetValue(index, &value);
+    for (int c = 0; c < kComponents; ++c)
+      if (!std::isfinite(value[c]))
+        throw Error(location, fmt::format("the {} of vertex {} is not finite", what, i), kExpected);
+    values.push_back(value);
   }
   return values;
+}
+
+// Reads the attributes of textures that have an id.
+VertexTextures readTextures(const draco::Mesh& mesh, const GltfDracoCounts& counts, const std::string& location) {
+  VertexTextures textures;
+  for (std::size_t set = 0; set < counts.coordinateIds.size(); ++set) {
+    if (!counts.coordinateIds[set]) continue;
+    textures.coordinates[set] =
+        attributeValues<glm::vec2>(mesh, *counts.coordinateIds[set], "texture coordinate", location);
+    for (const glm::vec2& uv : textures.coordinates[set])
+      if (!isAcceptedCoordinate(static_cast<double>(uv.x)) || !isAcceptedCoordinate(static_cast<double>(uv.y)))
+        throw Error(location, "texture coordinate of the Draco data is out of range",
+                    fmt::format("-{0:g} to {0:g}", kMaxTextureCoordinate), fmt::format("({}, {})", uv.x, uv.y));
+  }
+  if (counts.tangentId) textures.tangents = attributeValues<glm::vec4>(mesh, *counts.tangentId, "tangent", location);
+  for (glm::vec4& t : textures.tangents) t.w = t.w < 0 ? -1.0f : 1.0f;  // quantized
+  return textures;
 }
 
 }  // namespace
@@ -124,9 +144,10 @@ GltfDracoMesh decodeGltfDraco(std::span<const std::byte> bytes, const GltfDracoC
 
   // Copy and check all values.
   GltfDracoMesh result;
-  for (const glm::vec3& p : attributeValues(mesh, counts.positionId, "position", location))
+  for (const glm::vec3& p : attributeValues<glm::vec3>(mesh, counts.positionId, "position", location))
     result.positions.emplace_back(p);
-  if (counts.normalId) result.normals = attributeValues(mesh, *counts.normalId, "normal", location);
+  if (counts.normalId) result.normals = attributeValues<glm::vec3>(mesh, *counts.normalId, "normal", location);
+  result.textures = readTextures(mesh, counts, location);
   result.corners.reserve(3 * counts.triangles);
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i)
     for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(i))) {

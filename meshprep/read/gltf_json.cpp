@@ -310,6 +310,7 @@ class TypeCheck {
       case Type::flag:
         if (!value.is_boolean()) fail(location, "true or false", value);
         break;
+      case Type::unchecked:
       case Type::noted:
         break;
     }

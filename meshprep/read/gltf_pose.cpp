@@ -66,15 +66,16 @@ std::size_t GltfPose::passes(const gltf::Primitive& primitive) const {
 }
 
 void GltfPose::apply(const gltf::Primitive& primitive, std::span<const std::uint32_t> kept, const std::string& location,
-                     Polygons& polygons) const {
-  if (!weights_.empty()) morph(primitive, kept, polygons);
-  if (!joints_.empty()) skin(primitive, kept, location, polygons);
+                     Polygons& polygons, std::vector<glm::vec4>& tangents) const {
+  if (!weights_.empty()) morph(primitive, kept, polygons, tangents);
+  if (!joints_.empty()) skin(primitive, kept, location, polygons, tangents);
   for (const glm::dvec3& p : polygons.positions)
     if (!isFinite(p)) throw Error(location, "the pose has a position that is not finite", "finite numbers");
 }
 
 // Source: glTF 2.0 Specification, section 3.7.2.2, "Morph Targets".
-void GltfPose::morph(const gltf::Primitive& primitive, std::span<const std::uint32_t> kept, Polygons& polygons) const {
+void GltfPose::morph(const gltf::Primitive& primitive, std::span<const std::uint32_t> kept, Polygons& polygons,
+                     std::vector<glm::vec4>& tangents) const {
   const std::size_t count = document_.accessors[*primitive.position].count;
   const auto add = [&](std::optional<std::size_t> index, double weight, auto& values) {
     if (!index || values.empty()) return;
@@ -82,18 +83,25 @@ void GltfPose::morph(const gltf::Primitive& primitive, std::span<const std::uint
     accessor.requireVectors(document_.quantized);
     requireCount(accessor, count);
     using Vector = std::decay_t<decltype(values[0])>;
-    for (std::size_t v = 0; v < kept.size(); ++v) values[v] += Vector(weight * accessor.vector(kept[v]));
+    for (std::size_t v = 0; v < kept.size(); ++v) {
+      const glm::dvec3 displacement = weight * accessor.vector(kept[v]);
+      if constexpr (std::is_same_v<Vector, glm::vec4>)
+        values[v] += glm::vec4(glm::vec3(displacement), 0);  // keeps the sign of the bitangent
+      else
+        values[v] += Vector(displacement);
+    }
   };
   for (std::size_t t = 0; t < std::min(weights_.size(), primitive.targets.size()); ++t) {
     if (weights_[t] == 0) continue;
     add(primitive.targets[t].position, weights_[t], polygons.positions);
     add(primitive.targets[t].normal, weights_[t], polygons.normals);
+    add(primitive.targets[t].tangent, weights_[t], tangents);
   }
 }
 
 // Source: glTF 2.0 Specification, section 3.7.3.3, "Skinned Mesh Attributes".
 void GltfPose::skin(const gltf::Primitive& primitive, std::span<const std::uint32_t> kept, const std::string& location,
-                    Polygons& polygons) const {
+                    Polygons& polygons, std::vector<glm::vec4>& tangents) const {
   const std::size_t count = document_.accessors[*primitive.position].count;
   std::vector<glm::dmat4> transforms(kept.size(), glm::dmat4(0.0));
   std::vector<double> sums(kept.size(), 0);
@@ -131,6 +139,11 @@ void GltfPose::skin(const gltf::Primitive& primitive, std::span<const std::uint3
       const double length = glm::length(n);
       polygons.normals[v] = glm::vec3(length > 0 ? n / length : n);
     }
+    if (!tangents.empty()) {
+      const glm::dvec3 t = glm::dmat3(m) * glm::dvec3(tangents[v]);
+      const double length = glm::length(t);
+      tangents[v] = glm::vec4(glm::vec3(length > 0 ? t / length : t), tangents[v].w);
+    }
     if (glm::determinant(glm::dmat3(m)) < 0) ++mirrored;
   }
   if (2 * mirrored <= kept.size()) return;
@@ -138,6 +151,7 @@ void GltfPose::skin(const gltf::Primitive& primitive, std::span<const std::uint3
     std::reverse(polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.firstCorner[f]),
                  polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.firstCorner[f + 1]));
   for (glm::vec3& n : polygons.normals) n = -n;
+  for (glm::vec4& t : tangents) t.w = -t.w;  // the bitangent is that of the file, mirrored
 }
 
 }  // namespace malus::prep

@@ -28,16 +28,18 @@ class GltfPose {
   // Number of times that each vertex of a primitive is moved; 0: the primitive is the same in its pose.
   std::size_t passes(const gltf::Primitive& primitive) const;
 
-  // Moves the vertices. kept: index in the file of each vertex of polygons. Positions of skinned meshes are in world
+  // Moves the vertices. kept: index in the file of each vertex of polygons. tangents: of the vertices, as
+  // Polygons::tangents, or empty. Positions of skinned meshes are in world
   // space afterwards, and faces of a mirrored one are flipped. Throws Error: an attribute of a wrong number or type, a
   // joint that does not exist, values that are not finite.
   void apply(const gltf::Primitive& primitive, std::span<const std::uint32_t> kept, const std::string& location,
-             Polygons& polygons) const;
+             Polygons& polygons, std::vector<glm::vec4>& tangents) const;
 
  private:
-  void morph(const gltf::Primitive& primitive, std::span<const std::uint32_t> kept, Polygons& polygons) const;
+  void morph(const gltf::Primitive& primitive, std::span<const std::uint32_t> kept, Polygons& polygons,
+             std::vector<glm::vec4>& tangents) const;
   void skin(const gltf::Primitive& primitive, std::span<const std::uint32_t> kept, const std::string& location,
-            Polygons& polygons) const;
+            Polygons& polygons, std::vector<glm::vec4>& tangents) const;
 
   const gltf::Document& document_;
   GltfBuffers& buffers_;

@@ -11,7 +11,6 @@
 
 #include "meshprep/read/gltf_draco.h"
 #include "meshprep/read/invalid_parts.h"
-#include "meshprep/read/source_scene.h"
 
 namespace malus::prep {
 
@@ -56,7 +55,7 @@ GltfPrimitiveReader::GltfPrimitiveReader(const gltf::Document& document, GltfBuf
       if (primitive.position) ++users_[*primitive.position];
 }
 
-Polygons GltfPrimitiveReader::read(const gltf::Primitive& primitive, const GltfPose& pose,
+Polygons GltfPrimitiveReader::read(const gltf::Primitive& primitive, const TextureNeeds& needs, const GltfPose& pose,
                                    const std::string& location) {
   if (primitive.mode < kTriangles) {
     addNote(leftOut_.notes(), "points and lines");
@@ -65,7 +64,7 @@ Polygons GltfPrimitiveReader::read(const gltf::Primitive& primitive, const GltfP
   if (primitive.mode > kTriangleFan)
     throw Error(location + ".mode", "unknown mode", "0 to 6", fmt::to_string(primitive.mode));
   if (!primitive.position) throw Error(location, "no positions", "an attribute POSITION");
-  if (primitive.draco) return readDraco(primitive, pose, location);
+  if (primitive.draco) return readDraco(primitive, needs, pose, location);
 
   // Check the accessors.
   const Vectors& positions = vectors(*primitive.position);
@@ -96,10 +95,13 @@ Polygons GltfPrimitiveReader::read(const gltf::Primitive& primitive, const GltfP
     std::iota(kept.begin(), kept.end(), 0u);
   }
   readVertices(kept, positions, normals, polygons);
+  VertexTextures textures;
+  readTextures(primitive, needs, positions.accessor.count(), kept, textures);
   if (passes > 0) {
     addVertices(passes * kept.size(), location);
-    pose.apply(primitive, kept, location, polygons);
+    pose.apply(primitive, kept, location, polygons, textures.tangents);
   }
+  textures.setCorners(polygons);
   return polygons;
 }
 
@@ -231,8 +233,51 @@ void GltfPrimitiveReader::readVertices(const std::vector<std::uint32_t>& kept, c
     if (!isFinite(n)) n = glm::vec3(0);
 }
 
-Polygons GltfPrimitiveReader::readDraco(const gltf::Primitive& primitive, const GltfPose& pose,
-                                        const std::string& location) {
+void GltfPrimitiveReader::readTextures(const gltf::Primitive& primitive, const TextureNeeds& needs,
+                                       std::size_t vertices, const std::vector<std::uint32_t>& kept,
+                                       VertexTextures& textures) {
+  using gltf::ComponentType;
+  const auto open = [&](std::size_t index) {
+    GltfAccessor accessor(document_, buffers_, index, where_);
+    addVertices(accessor.count(), accessor.location());
+    if (accessor.count() != vertices)
+      throw Error(accessor.location(), "numbers of values and positions differ", fmt::to_string(vertices),
+                  fmt::to_string(accessor.count()));
+    return accessor;
+  };
+  for (std::size_t set = 0; set < needs.coordinates.size(); ++set) {
+    if (!needs.coordinates[set] || !primitive.texCoords[set]) continue;
+    const GltfAccessor accessor = open(*primitive.texCoords[set]);
+    accessor.requireTextureCoordinates(document_.quantized);
+    std::optional<Error> first;
+    for (const std::uint32_t i : kept) {
+      const double u = accessor.number(i, 0), v = accessor.number(i, 1);
+      const bool isValid = isAcceptedCoordinate(u) && isAcceptedCoordinate(v);
+      if (!isValid && !first)
+        first = Error(accessor.location(), fmt::format("texture coordinate {} is out of range", i),
+                      fmt::format("-{0:g} to {0:g}", kMaxTextureCoordinate), fmt::format("({:g}, {:g})", u, v));
+      textures.coordinates[set].push_back(isValid ? glm::vec2(u, v) : glm::vec2(0));
+    }
+    if (first) leftOut_.addValue(*first);
+  }
+  if (!needs.tangents || !primitive.tangent) return;
+  const GltfAccessor accessor = open(*primitive.tangent);
+  accessor.requireTangents(document_.quantized);
+  std::optional<Error> first;
+  for (const std::uint32_t i : kept) {
+    const glm::dvec3 t(accessor.number(i, 0), accessor.number(i, 1), accessor.number(i, 2));
+    const double sign = accessor.number(i, 3);
+    const bool isValid = isFinite(t) && std::abs(sign) == 1;
+    if (!isValid && !first)
+      first = Error(accessor.location(), fmt::format("invalid tangent {}", i), "finite numbers, and a w of 1 or -1",
+                    fmt::format("({:g}, {:g}, {:g}, {:g})", t.x, t.y, t.z, sign));
+    textures.tangents.push_back(isValid ? glm::vec4(glm::vec3(t), static_cast<float>(sign)) : glm::vec4(0, 0, 0, 1));
+  }
+  if (first) leftOut_.addValue(*first);
+}
+
+Polygons GltfPrimitiveReader::readDraco(const gltf::Primitive& primitive, const TextureNeeds& needs,
+                                        const GltfPose& pose, const std::string& location) {
   if (pose.passes(primitive) > 0)
     throw Error(location, "a skin or morph target of Draco data is not read", "a file without Draco compression");
   // Take the counts of the accessors, whose bytes, if any, are for readers without Draco.
@@ -255,6 +300,13 @@ Polygons GltfPrimitiveReader::readDraco(const gltf::Primitive& primitive, const 
   if (primitive.normal) counts.normalId = draco.normal;
   if (primitive.normal && !draco.normal) addNote(leftOut_.notes(), "normals beside Draco data");
 
+  const auto take = [](bool isNeeded, const auto& accessor, std::optional<std::uint32_t> id) {
+    return isNeeded && accessor ? id : std::nullopt;
+  };
+  for (std::size_t set = 0; set < needs.coordinates.size(); ++set)
+    counts.coordinateIds[set] = take(needs.coordinates[set], primitive.texCoords[set], draco.texCoords[set]);
+  counts.tangentId = take(needs.tangents, primitive.tangent, draco.tangent);
+
   // Decode.
   GltfDracoMesh mesh = decodeGltfDraco(data, counts, location);
   Polygons polygons;
@@ -262,6 +314,7 @@ Polygons GltfPrimitiveReader::readDraco(const gltf::Primitive& primitive, const 
   polygons.normals = std::move(mesh.normals);
   polygons.corners = std::move(mesh.corners);
   closeTriangles(polygons);
+  mesh.textures.setCorners(polygons);
   return polygons;
 }
 

@@ -15,6 +15,8 @@
 #include "meshprep/read/gltf_left_out.h"
 #include "meshprep/read/gltf_pose.h"
 #include "meshprep/read/polygons.h"
+#include "meshprep/read/source_scene.h"
+#include "meshprep/read/vertex_textures.h"
 
 namespace malus::prep {
 
@@ -27,9 +29,11 @@ class GltfPrimitiveReader {
 
   // Returns the triangles of a primitive in its pose; empty for points and lines. `location` is for messages. Leaves
   // out a triangle with an index out of range or a position that is not finite, the corners at the end of a list that
-  // are no triangle, and normals that are not finite (which become zero). Throws Error: an unknown mode, no positions,
+  // are no triangle, and normals, tangents and texture coordinates that are not finite or out of range (which become
+  // zero). textures: attributes of textures that are read. Throws Error: an unknown mode, no positions,
   // an accessor that is missing, invalid or of the wrong type, no valid triangle. Throws GltfLimitError.
-  Polygons read(const gltf::Primitive& primitive, const GltfPose& pose, const std::string& location);
+  Polygons read(const gltf::Primitive& primitive, const TextureNeeds& textures, const GltfPose& pose,
+                const std::string& location);
 
   // Totals so far.
   std::size_t triangleCount() const { return triangles_; }
@@ -54,7 +58,10 @@ class GltfPrimitiveReader {
                    const std::string& location);
   void readVertices(const std::vector<std::uint32_t>& kept, const Vectors& positions, const Vectors* normals,
                     Polygons& polygons);
-  Polygons readDraco(const gltf::Primitive& primitive, const GltfPose& pose, const std::string& location);
+  void readTextures(const gltf::Primitive& primitive, const TextureNeeds& needs, std::size_t vertices,
+                    const std::vector<std::uint32_t>& kept, VertexTextures& textures);
+  Polygons readDraco(const gltf::Primitive& primitive, const TextureNeeds& textures, const GltfPose& pose,
+                     const std::string& location);
 
   const gltf::Document& document_;
   GltfBuffers& buffers_;

@@ -9,7 +9,21 @@
 
 namespace malus::prep::gltf {
 
-enum class Type { object, objects, index, indices, size, number, numbers, numberList, text, texts, flag, noted };
+enum class Type {
+  object,
+  objects,
+  index,
+  indices,
+  size,
+  number,
+  numbers,
+  numberList,
+  text,
+  texts,
+  flag,
+  unchecked,
+  noted
+};
 
 // Extent of the damage by a value of the wrong type.
 enum class Invalid {

@@ -65,6 +65,8 @@ void dropFaces(Polygons& polygons, InvalidParts& invalid, std::string_view where
     for (std::size_t c = firstCorner[f]; c < firstCorner[f + 1]; ++c, ++keptCorners) {
       polygons.corners[keptCorners] = polygons.corners[c];
       if (!polygons.cornerNormals.empty()) polygons.cornerNormals[keptCorners] = polygons.cornerNormals[c];
+      for (std::vector<glm::vec2>& set : polygons.textureCoordinates)
+        if (!set.empty()) set[keptCorners] = set[c];
     }
     if (!polygons.smoothingGroups.empty()) polygons.smoothingGroups[kept] = polygons.smoothingGroups[f];
     if (!polygons.partOf.empty()) polygons.partOf[kept] = polygons.partOf[f];
@@ -79,6 +81,7 @@ void dropFaces(Polygons& polygons, InvalidParts& invalid, std::string_view where
   };
   shrink(polygons.corners, keptCorners);
   shrink(polygons.cornerNormals, keptCorners);
+  for (std::vector<glm::vec2>& set : polygons.textureCoordinates) shrink(set, keptCorners);
   shrink(polygons.firstCorner, kept + 1);
   shrink(polygons.smoothingGroups, kept);
   shrink(polygons.partOf, kept);

@@ -27,6 +27,21 @@ struct Part {
 // is ignored.
 inline constexpr std::string_view kAcceptedNote = "accepted: ";
 
+// Largest texture coordinate that is read, in repeats of the image; beyond it floats resolve less than 1/16 of one.
+inline constexpr double kMaxTextureCoordinate = 1e6;
+
+// Returns true if a texture coordinate is a finite number in the accepted range.
+inline bool isAcceptedCoordinate(double value) {
+  return value >= -kMaxTextureCoordinate && value <= kMaxTextureCoordinate;
+}
+
+// Note about texture coordinates that are not used.
+inline constexpr std::string_view kTextureCoordinatesNote = "texture coordinates";
+inline constexpr std::string_view kTangentsNote = "tangents";
+// Note about corners that lack them beside others.
+inline constexpr std::string_view kMissingCoordinatesNote =
+    "accepted: corners without texture coordinates, which get (0, 0)";
+
 struct Polygons {
   std::vector<glm::dvec3> positions;
   std::vector<std::uint32_t> corners;          // indices into positions, face by face; a face may have fewer than 3
@@ -55,6 +70,14 @@ struct Polygons {
   // Ignored content, each kind once: "colours of vertices"; and after kAcceptedNote, what does not conform to the
   // format but is read.
   std::vector<std::string> notes;
+
+  bool hasTextureAttributes() const {
+    return !textureCoordinates[0].empty() || !textureCoordinates[1].empty() || !tangents.empty();
+  }
+  void dropTextureAttributes() {
+    textureCoordinates = {};
+    tangents = {};
+  }
 
   std::size_t faceCount() const { return firstCorner.size() - 1; }
   std::span<const std::uint32_t> face(std::size_t i) const {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/read/counted_note.h"
 #include "meshprep/read/gltf_buffers.h"
 #include "meshprep/read/gltf_document.h"
 #include "meshprep/read/gltf_images.h"
@@ -36,14 +37,49 @@ std::string meshName(const gltf::Mesh& mesh, std::size_t index) {
   return mesh.name.empty() ? fmt::format("mesh {}", index) : mesh.name;
 }
 
+// Texture attributes that are read of primitives.
+class PrimitiveNeeds {
+ public:
+  PrimitiveNeeds(const std::vector<SourceMaterial>& materials, KeepTextures textures)
+      : materials_(materials), textures_(textures) {}
+
+  TextureNeeds of(const gltf::Primitive& primitive) const {
+    if (textures_ == KeepTextures::all) return {{true, true}, true};
+    if (textures_ == KeepTextures::none || !primitive.material || *primitive.material >= materials_.size()) return {};
+    return textureNeeds(materials_[*primitive.material]);
+  }
+
+  // Adds notes about the attributes that are not read.
+  void noteOthers(const gltf::Document& document, std::vector<std::string>& notes) const {
+    std::size_t coordinates = 0, tangents = 0;
+    for (const gltf::Mesh& mesh : document.meshes)
+      for (const gltf::Primitive& primitive : mesh.primitives) {
+        const TextureNeeds needs = of(primitive);
+        for (std::size_t set = 0; set < needs.coordinates.size(); ++set)
+          coordinates += primitive.texCoords[set] && !needs.coordinates[set] ? 1 : 0;
+        if (needs.tangents) continue;
+        tangents += primitive.tangent ? 1 : 0;
+        for (const gltf::MorphTarget& target : primitive.targets) tangents += target.tangent ? 1 : 0;
+      }
+    if (tangents > 0) addNote(notes, countedNote(kTangentsNote, tangents, {}));
+    if (coordinates > 0) addNote(notes, countedNote(kTextureCoordinatesNote, coordinates, {}));
+  }
+
+ private:
+  const std::vector<SourceMaterial>& materials_;
+  KeepTextures textures_;
+};
+
 // Adds the parts of the placed meshes to the scene, once for each pose of a mesh. Returns their indices, by placement.
 class PartReader {
  public:
   PartReader(const gltf::Document& document, GltfBuffers& buffers, GltfPrimitiveReader& reader,
-             const GltfPlacements& placements, const std::string& where, SourceScene& scene, GltfLeftOut& leftOut)
+             const PrimitiveNeeds& needs, const GltfPlacements& placements, const std::string& where,
+             SourceScene& scene, GltfLeftOut& leftOut)
       : document_(document),
         buffers_(buffers),
         reader_(reader),
+        needs_(needs),
         placements_(placements),
         where_(where),
         scene_(scene),
@@ -86,7 +122,7 @@ class PartReader {
         if (part.material && *part.material >= scene_.materials.size())
           throw Error(location + ".material", "refers to a missing material",
                       fmt::format("an index below {}", scene_.materials.size()), fmt::to_string(*primitive.material));
-        part.polygons = reader_.read(primitive, *pose, location);
+        part.polygons = reader_.read(primitive, needs_.of(primitive), *pose, location);
       } catch (const GltfLimitError&) {
         throw;
       } catch (const Error& error) {  // of the primitive, or of an accessor, which does not name the primitive
@@ -104,6 +140,7 @@ class PartReader {
   const gltf::Document& document_;
   GltfBuffers& buffers_;
   GltfPrimitiveReader& reader_;
+  const PrimitiveNeeds& needs_;
   const GltfPlacements& placements_;
   const std::string& where_;
   SourceScene& scene_;
@@ -112,7 +149,7 @@ class PartReader {
 
 }  // namespace
 
-SourceScene readGltf(const std::filesystem::path& path, bool strict, bool withImages) {
+SourceScene readGltf(const std::filesystem::path& path, bool strict, bool withImages, KeepTextures textures) {
   const std::string where = path.string();
   SourceScene scene;
   GltfLeftOut leftOut(strict, where, scene.notes);
@@ -155,8 +192,10 @@ SourceScene readGltf(const std::filesystem::path& path, bool strict, bool withIm
 
   // Read the parts.
   GltfPrimitiveReader reader(document, buffers, container.size(), where, leftOut);
+  const PrimitiveNeeds needs(scene.materials, textures);
   const std::vector<std::vector<std::size_t>> partsOfPlacement =
-      PartReader(document, buffers, reader, all, where, scene, leftOut).read();
+      PartReader(document, buffers, reader, needs, all, where, scene, leftOut).read();
+  needs.noteOthers(document, scene.notes);
   if (scene.parts.empty()) leftOut.rethrowFirst();
   if (scene.parts.empty()) throw Error(where, "file has no faces", "a mesh");
 

@@ -37,7 +37,8 @@ namespace malus::prep {
 // Throws Error that names the file and the location in it ("meshes[0].primitives[1]", or a byte): not glTF 2.0, an
 // unknown required extension, a list of the wrong type, a limit exceeded, root nodes that are unknown (gltf_nodes.h).
 // withImages: see readSourceScene().
-SourceScene readGltf(const std::filesystem::path& path, bool strict = false, bool withImages = false);
+SourceScene readGltf(const std::filesystem::path& path, bool strict = false, bool withImages = false,
+                     KeepTextures textures = KeepTextures::needed);
 
 // Files that contain the buffers and images, without those that must not be opened.
 std::vector<std::filesystem::path> gltfFiles(const std::filesystem::path& path);

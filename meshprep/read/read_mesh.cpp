@@ -53,7 +53,7 @@ Scan scanFile(Format format, std::string& bytes, const std::string& where, bool 
 }  // namespace
 
 Polygons readMesh(const std::filesystem::path& path, bool strict) {
-  if (isGltf(path)) return mergeInstances(readGltf(path, strict));
+  if (isGltf(path)) return mergeInstances(readGltf(path, strict, false, KeepTextures::none));
   const std::string where = path.string();
   std::string extension;
   const Format format = detectFormat(path, extension);

@@ -22,14 +22,13 @@ namespace {
 
 constexpr long long kMaxIndex =
     std::numeric_limits<int>::max();  // limit of OpenMesh's handles, with which the tests compare
-constexpr std::uint32_t kNoNormal = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // Statements without effect on the surface, and the note about them.
 struct Skipped {
   std::string_view keyword, note;
 };
-constexpr std::array<Skipped, 14> kSkipped = {{{"vt", "texture coordinates"},
-                                               {"l", "lines"},
+constexpr std::array<Skipped, 13> kSkipped = {{{"l", "lines"},
                                                {"p", "points"},
                                                {"vp", "points in a parameter space"},
                                                {"vc", "colours of vertices"},
@@ -85,6 +84,8 @@ class ObjScan {
   void acceptEmptySlots(std::string_view corner);
   long long resolve(std::string_view word, std::size_t kind) const;
   void scanNormal(std::string_view rest);
+  void scanTextureCoordinate(std::string_view rest);
+  void resolveTextureCoordinates();
   void scanSmoothing(std::string_view rest);
   void scanMaterialFiles(std::string_view rest);
   void scanOther(std::string_view keyword, std::string_view rest);
@@ -103,7 +104,9 @@ class ObjScan {
 
   std::vector<glm::vec3> normals_;
   std::vector<std::uint32_t> normalOf_;  // one per corner; empty until a corner has one
-  bool smoothing_ = false;               // an `s` statement has been read
+  std::vector<glm::vec2> coordinates_;
+  std::vector<std::uint32_t> coordinateOf_;  // as normalOf_
+  bool smoothing_ = false;                   // an `s` statement has been read
   std::uint32_t smoothingGroup_ = 0;
   std::unordered_set<std::string> materialFiles_;
 };
@@ -157,6 +160,7 @@ void ObjScan::scanFace(std::string_view rest) {
   } catch (const Error& error) {
     polygons_.corners.resize(first);
     if (!normalOf_.empty()) normalOf_.resize(first);
+    if (!coordinateOf_.empty()) coordinateOf_.resize(first);
     invalid_.add("faces", error);
     return;
   }
@@ -170,7 +174,7 @@ void ObjScan::scanFace(std::string_view rest) {
 
 // v, v/vt, v//vn or v/vt/vn. Empty slots at the end are accepted.
 void ObjScan::scanCorner(std::string_view word) {
-  std::uint32_t normal = kNoNormal;
+  std::uint32_t coordinate = kNone, normal = kNone;
   std::string_view rest = word;
   bool last = false;
   for (std::size_t kind = 0; !last; ++kind) {
@@ -187,12 +191,17 @@ void ObjScan::scanCorner(std::string_view word) {
         highestAt_[kind] = lines_.number();
       }
       if (kind == 0) polygons_.corners.push_back(static_cast<std::uint32_t>(index));
+      if (kind == 1) coordinate = static_cast<std::uint32_t>(index);
       if (kind == 2) normal = static_cast<std::uint32_t>(index);
     }
     if (!last) rest.remove_prefix(slash + 1);
   }
-  if (normal != kNoNormal && normalOf_.empty()) normalOf_.resize(polygons_.corners.size() - 1, kNoNormal);
-  if (normal != kNoNormal || !normalOf_.empty()) normalOf_.push_back(normal);
+  const auto append = [&](std::uint32_t index, std::vector<std::uint32_t>& list) {
+    if (index != kNone && list.empty()) list.resize(polygons_.corners.size() - 1, kNone);
+    if (index != kNone || !list.empty()) list.push_back(index);
+  };
+  append(coordinate, coordinateOf_);
+  append(normal, normalOf_);
 }
 
 // Replaces the slashes at the end of a corner by blanks.
@@ -225,6 +234,31 @@ void ObjScan::scanNormal(std::string_view rest) {
   ++counts_[2];
 }
 
+// u, optionally v (0 without) and w, which is ignored. v grows upward in OBJ, and downward in Polygons. An invalid one
+// is (0, 0) there.
+void ObjScan::scanTextureCoordinate(std::string_view rest) {
+  glm::dvec2 coordinate(0);
+  try {
+    for (int i = 0; i < 3; ++i) {
+      const std::string_view word = takeWord(rest);
+      if (word.empty() && i > 0) break;
+      const double value = prep::coordinate(word, lines_);
+      if (i == 2) break;
+      if (!isAcceptedCoordinate(value))
+        lines_.fail("texture coordinate out of range", fmt::format("-{0:g} to {0:g}", kMaxTextureCoordinate),
+                    fmt::format("{:g}", value));
+      coordinate[i] = value;
+    }
+    if (!takeWord(rest).empty()) lines_.fail("too many numbers in a texture coordinate", "u, u v or u v w");
+  } catch (const Error& error) {
+    coordinate = glm::dvec2(0, 1);
+    invalid_.addReplaced("texture coordinates", error);
+  }
+  coordinates_.emplace_back(coordinate.x, 1 - coordinate.y);
+  ++counts_[1];
+  noteOnce(polygons_, kTextureCoordinatesNote);
+}
+
 void ObjScan::scanSmoothing(std::string_view rest) {
   const std::string_view word = takeWord(rest);
   constexpr std::string_view kExpected = "off or an integer of 0 or more";
@@ -244,6 +278,7 @@ void ObjScan::scanMaterialFiles(std::string_view rest) {
 
 void ObjScan::scanOther(std::string_view keyword, std::string_view rest) {
   if (keyword == "vn") return scanNormal(rest);
+  if (keyword == "vt") return scanTextureCoordinate(rest);
   if (keyword == "g" || keyword == "o") return parts_.setName(parseName(rest, lines_));
   if (keyword == "usemtl") return parts_.setMaterial(parseName(rest, lines_));
   if (keyword == "s") {
@@ -266,7 +301,6 @@ void ObjScan::scanOther(std::string_view keyword, std::string_view rest) {
     }
     return;
   }
-  if (keyword == "vt") ++counts_[1];
   noteOnce(polygons_, skipped->note);
 }
 
@@ -274,7 +308,7 @@ void ObjScan::finish() {
   noteLines(polygons_, lines_);
 
   // Check the highest indices: a corner may refer to a vertex that follows it. Faces without a vertex are removed
-  // later; texture coordinates have no effect, and a corner without a normal gets one.
+  // later; a corner without texture coordinates has (0, 0), and one without a normal gets one.
   for (std::size_t kind = 0; kind < 3; ++kind)
     if (highest_[kind] >= counts_[kind] && (kind > 0 || strict_))
       invalid_.add(fmt::format("{} indices", kKinds[kind]),
@@ -286,12 +320,25 @@ void ObjScan::finish() {
   for (const std::uint32_t normal : normalOf_)
     polygons_.cornerNormals.push_back(normal < normals_.size() ? normals_[normal] : glm::vec3(0));
 
+  resolveTextureCoordinates();
+
   // Drop the list of parts if it is one part without name and material.
   polygons_.parts = parts_.take();
   if (polygons_.parts == std::vector<Part>{Part{}}) {
     polygons_.parts.clear();
     polygons_.partOf.clear();
   }
+}
+
+void ObjScan::resolveTextureCoordinates() {
+  std::size_t missing = 0;
+  polygons_.textureCoordinates[0].reserve(coordinateOf_.size());
+  for (const std::uint32_t coordinate : coordinateOf_) {
+    const bool exists = coordinate < coordinates_.size();
+    missing += exists ? 0 : 1;
+    polygons_.textureCoordinates[0].push_back(exists ? coordinates_[coordinate] : glm::vec2(0));
+  }
+  if (missing > 0) noteOnce(polygons_, kMissingCoordinatesNote);
 }
 
 }  // namespace

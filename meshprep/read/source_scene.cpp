@@ -52,6 +52,9 @@ void copyFaces(const Polygons& source, const std::vector<std::size_t>& faces, So
       const auto found = std::lower_bound(used.begin(), used.end(), source.corners[c]);
       result.corners.push_back(static_cast<std::uint32_t>(found - used.begin()));
       if (!source.cornerNormals.empty()) result.cornerNormals.push_back(source.cornerNormals[c]);
+      for (std::size_t set = 0; set < source.textureCoordinates.size(); ++set)
+        if (!source.textureCoordinates[set].empty())
+          result.textureCoordinates[set].push_back(source.textureCoordinates[set][c]);
     }
     result.closeFace();
     if (!source.smoothingGroups.empty()) result.smoothingGroups.push_back(source.smoothingGroups[f]);
@@ -60,11 +63,34 @@ void copyFaces(const Polygons& source, const std::vector<std::size_t>& faces, So
   }
 }
 
+// Drops the texture coordinates that are not kept, and the note about them if none are dropped.
+void keepCoordinates(SourceScene& scene, KeepTextures textures) {
+  bool anyKept = false, anyDropped = false;
+  for (SourcePart& part : scene.parts) {
+    if (!part.polygons.hasTextureAttributes()) continue;
+    const bool isNeeded = part.material && textureNeeds(scene.materials[*part.material]).coordinates[0];
+    const bool isKept = textures == KeepTextures::all || (textures == KeepTextures::needed && isNeeded);
+    (isKept ? anyKept : anyDropped) = true;
+    if (!isKept) part.polygons.dropTextureAttributes();
+  }
+  if (anyKept && !anyDropped) std::erase(scene.notes, kTextureCoordinatesNote);
+  if (!anyKept) std::erase(scene.notes, kMissingCoordinatesNote);
+}
+
 }  // namespace
 
 void addNote(std::vector<std::string>& notes, std::string note) {
   if (notes.size() > kMaxNotes || std::find(notes.begin(), notes.end(), note) != notes.end()) return;
   notes.push_back(notes.size() == kMaxNotes ? "and more" : std::move(note));
+}
+
+void keepTextureCoordinates(Polygons& polygons, bool isKept) {
+  if (isKept && polygons.hasTextureAttributes()) {
+    std::erase(polygons.notes, kTextureCoordinatesNote);
+  } else {
+    polygons.dropTextureAttributes();
+    std::erase(polygons.notes, kMissingCoordinatesNote);
+  }
 }
 
 bool isGltf(const std::filesystem::path& path) {
@@ -114,16 +140,61 @@ SourceScene splitByMaterial(Polygons polygons) {
   return scene;
 }
 
-SourceScene readSourceScene(const std::filesystem::path& path, bool strict, bool withImages) {
-  if (isGltf(path)) return readGltf(path, strict, withImages);
+TextureNeeds textureNeeds(const SourceMaterial& material) {
+  TextureNeeds needs;
+  needs.coordinates[0] = material.baseColourImage || material.metallicRoughnessImage || material.emissiveImage ||
+                         material.specularGlossinessImage;
+  return needs;
+}
+
+SourceScene readSourceScene(const std::filesystem::path& path, bool strict, bool withImages, KeepTextures textures) {
+  if (isGltf(path)) return readGltf(path, strict, withImages, textures);
   Polygons polygons = readMesh(path, strict);
   const std::vector<std::string> files = polygons.materialFiles;
   SourceScene scene = splitByMaterial(std::move(polygons));
   if (!scene.materials.empty() || !files.empty()) describeMaterials(scene, path, files, strict);
   for (std::size_t i = 0; i < scene.parts.size(); ++i)
     if (scene.parts[i].name.empty()) scene.parts[i].name = scene.instances[i].name = path.stem().string();
+  keepCoordinates(scene, textures);
   return scene;
 }
+
+namespace {
+
+// Merges the texture attributes of instances. Those of parts without are zero.
+class TextureMerge {
+ public:
+  TextureMerge(const SourceScene& scene, std::span<const std::size_t> instances, Polygons& result) : result_(result) {
+    for (const std::size_t index : instances) {
+      const Polygons& source = scene.parts[scene.instances[index].part].polygons;
+      for (std::size_t set = 0; set < hasSet_.size(); ++set)
+        hasSet_[set] = hasSet_[set] || !source.textureCoordinates[set].empty();
+      hasTangents_ = hasTangents_ || !source.tangents.empty();
+    }
+  }
+
+  // Appends those of a corner of `source`, whose instance has this transform. A mirror image has the bitangents of the
+  // source, mirrored, but the cross product of normal and tangent changes its sign.
+  void add(const Polygons& source, std::size_t corner, const glm::dmat3& transform, bool mirrors) {
+    for (std::size_t set = 0; set < hasSet_.size(); ++set)
+      if (hasSet_[set]) {
+        const std::vector<glm::vec2>& from = source.textureCoordinates[set];
+        result_.textureCoordinates[set].push_back(from.empty() ? glm::vec2(0) : from[corner]);
+      }
+    if (!hasTangents_) return;
+    const glm::vec4 t = source.tangents.empty() ? glm::vec4(0, 0, 0, 1) : source.tangents[corner];
+    const glm::dvec3 tangent = transform * glm::dvec3(t);
+    const double length = glm::length(tangent);
+    result_.tangents.emplace_back(length > 0 ? tangent / length : glm::dvec3(0), mirrors ? -t.w : t.w);
+  }
+
+ private:
+  Polygons& result_;
+  std::array<bool, 2> hasSet_{};
+  bool hasTangents_ = false;
+};
+
+}  // namespace
 
 Polygons mergeInstances(const SourceScene& scene) {
   std::vector<std::size_t> all(scene.instances.size());
@@ -152,6 +223,8 @@ Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> i
   result.firstCorner.reserve(faces + 1);
   result.partOf.reserve(faces);
 
+  TextureMerge textures(scene, instances, result);
+
   // If any part has normals, set those of the others to zero.
   const bool normals = std::any_of(scene.parts.begin(), scene.parts.end(),
                                    [](const SourcePart& part) { return !part.polygons.normals.empty(); });
@@ -178,8 +251,11 @@ Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> i
     // Append the faces as a part.
     for (std::size_t f = 0; f < source.faceCount(); ++f) {
       const auto face = source.face(f);
-      for (std::size_t c = 0; c < face.size(); ++c)
-        result.corners.push_back(firstVertex + face[mirrors ? (face.size() - c) % face.size() : c]);
+      for (std::size_t c = 0; c < face.size(); ++c) {
+        const std::size_t corner = mirrors ? (face.size() - c) % face.size() : c;
+        result.corners.push_back(firstVertex + face[corner]);
+        textures.add(source, source.firstCorner[f] + corner, m, mirrors);
+      }
       result.closeFace();
       result.partOf.push_back(static_cast<std::uint32_t>(result.parts.size()));
     }

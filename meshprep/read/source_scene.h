@@ -5,6 +5,7 @@
 // metres, coordinates double; the axes are those of the file (glTF: right-handed, +y up).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -67,6 +68,19 @@ struct SourceMaterial {
   double attenuationDistance = std::numeric_limits<double>::infinity();  // this distance, metres
 };
 
+// Texture attributes of vertices.
+struct TextureNeeds {
+  std::array<bool, 2> coordinates{};  // by set
+  bool tangents = false;
+};
+
+// Returns what the images of a material need. Everything that keeps or drops texture coordinates decides by this.
+TextureNeeds textureNeeds(const SourceMaterial& material);
+
+// Texture coordinates and tangents that a reader keeps: those that the materials of the file need (textureNeeds()), or
+// all or none. A part has an attribute if the file has it and it is kept.
+enum class KeepTextures { none, needed, all };
+
 struct SourcePart {
   std::string name;  // empty if the file has none
   Polygons polygons;
@@ -106,7 +120,11 @@ void addNote(std::vector<std::string>& notes, std::string note);
 // Reads a file by its extension: .gltf, .glb, .obj, .ply, .stl, .off. strict: as readGltf(). Throws Error as the reader
 // of the format (read_gltf.h, read_mtl.h, read_mesh.h).
 // withImages: the bytes of images in buffers are copied; without it they are null.
-SourceScene readSourceScene(const std::filesystem::path& path, bool strict = false, bool withImages = false);
+SourceScene readSourceScene(const std::filesystem::path& path, bool strict = false, bool withImages = false,
+                            KeepTextures textures = KeepTextures::needed);
+
+// Drops the texture coordinates unless they are kept, and otherwise the note about them.
+void keepTextureCoordinates(Polygons& polygons, bool isKept);
 
 // Groups faces by material: one part per material, in the order of their first faces, with the vertices that its faces
 // use, in the order of the file. Of the materials only the names are set. Without materials there is one part.
@@ -122,7 +140,7 @@ inline glm::dvec3 toWorld(const SourceInstance& instance, const glm::dvec3& p) {
 std::vector<std::string> notesOfMeshes(const SourceScene& scene);
 
 // Merges all instances in world space; the parts of the result are the instances. Faces of mirrored instances are
-// flipped to keep their outside. If only some parts have normals, those of the others are zero.
+// flipped to keep their outside. If only some parts have normals or texture attributes, those of the others are zero.
 Polygons mergeInstances(const SourceScene& scene);
 // The same for some of them: indices of instances.
 Polygons mergeInstances(const SourceScene& scene, std::span<const std::size_t> instances);

@@ -114,6 +114,33 @@ TEST(ReadGltfDraco, SkipsOtherAttributesAndSeams) {
   }
 }
 
+// Texture coordinates of the corners are those of their positions, moved by 1 at the seam.
+TEST(ReadGltfDraco, ReadsTextureCoordinates) {
+  for (const bool sequential : {false, true}) {
+    GltfFile gltf = makeFile(encodedSphere(sequential));
+    json& primitive = gltf.document["meshes"][0]["primitives"][0];
+    primitive["attributes"]["TEXCOORD_0"] = 0;
+    primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"]["TEXCOORD_0"] = 0;
+    const TemporaryFile file(".glb", gltf.glb());
+    const SourceScene scene = readGltf(file.path(), false, false, KeepTextures::all);
+    const Polygons& polygons = scene.parts.at(0).polygons;
+    ASSERT_EQ(polygons.textureCoordinates[0].size(), polygons.corners.size());
+    std::size_t moved = 0;
+    for (std::size_t corner = 0; corner < polygons.corners.size(); ++corner) {
+      const glm::vec2 uv = polygons.textureCoordinates[0][corner];
+      const glm::vec2 expected(polygons.positions[polygons.corners[corner]]);
+      const bool isMoved = uv.x - expected.x > 0.5f;
+      moved += isMoved ? 1 : 0;
+      EXPECT_LT(glm::distance(uv, expected + glm::vec2(isMoved ? 1 : 0, 0)), 5e-3f) << corner;
+    }
+    EXPECT_EQ(moved, 60u);
+    primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"]["TEXCOORD_0"] = 77;
+    const TemporaryFile bad(".glb", gltf.glb());
+    EXPECT_CONTAINS(errorMessage([&] { readGltf(bad.path(), false, false, KeepTextures::all); }),
+                    "missing texture coordinate");
+  }
+}
+
 TEST(ReadGltfDraco, RequiresTheCountsOfTheAccessors) {
   for (const bool sequential : {false, true}) {
     const GltfFile good = makeFile(encodedSphere(sequential));

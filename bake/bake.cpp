@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -18,9 +17,12 @@
 #include "bake/materials/absorption_precision.h"
 #include "bake/materials/film_precision.h"
 #include "bake/meshes/coincident_faces.h"
+#include "bake/meshes/instances.h"
 #include "bake/meshes/meshes.h"
 #include "bake/model/model_scene.h"
 #include "bake/pack/format.h"
+#include "bake/pack/instances.h"
+#include "bake/placement/placement.h"
 #include "bake/textures/texture.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
@@ -76,12 +78,16 @@ pack::Camera makeCamera(const SceneDescription& d, const glm::dvec3& origin) {
 }
 
 // Throws Error if the axis of a polarizing element or a polarized emitter is parallel to the normal of a face: its
-// projection across a ray along the normal has no direction.
-void requireAxisInPlane(const pack::Mesh& mesh, const pack::Material& material, const std::filesystem::path& file) {
+// projection across a ray along the normal has no direction. linear: of the mesh's transform.
+void requireAxisInPlane(const pack::Mesh& mesh, const glm::dmat3& linear, const std::vector<pack::Material>& materials,
+                        const std::filesystem::path& file) {
+  const pack::Material& material = materials[mesh.material];
   if (material.axis == glm::dvec3(0.0)) return;
+  const glm::dmat3 normalMatrix = pack::cofactors(linear);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& t = mesh.triangles[i];
-    const glm::dvec3 p0 = mesh.positions[t.x], across = glm::cross(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0);
+    const glm::dvec3 p0 = mesh.positions[t.x],
+                     across = normalMatrix * glm::cross(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0);
     const double length = glm::length(across);
     if (length > 0 && std::abs(glm::dot(across / length, material.axis)) > 1 - 1e-6)
       throw Error(file.string(),
@@ -171,10 +177,14 @@ void addFilmNotes(const pack::Scene& scene, std::vector<std::string>& notes) {
 // Reports media whose absorption the single-precision renderers do not reproduce, the worst mesh of each material.
 void addAbsorptionNotes(const pack::Scene& scene, std::vector<std::string>& notes) {
   std::map<std::uint32_t, std::pair<std::string, AbsorptionPrecision>> worst;
-  for (const pack::Mesh& mesh : scene.meshes)
+  const auto inspect = [&](const pack::Mesh& mesh) {
     if (const auto found = insufficientAbsorptionPrecision(mesh, scene.materials[mesh.material]);
         found && (!worst.contains(mesh.material) || worst.at(mesh.material).second.error < found->error))
       worst.insert_or_assign(mesh.material, std::pair(mesh.name, *found));
+  };
+  for (const pack::Mesh& mesh : scene.meshes) inspect(mesh);
+  for (const pack::Instance& instance : scene.instances)
+    if (absorbs(scene.materials[scene.meshes[instance.mesh].material])) inspect(pack::placedMesh(scene, instance));
   for (const auto& [material, named] : worst) {
     const auto& [mesh, found] = named;
     const std::string subject =
@@ -213,6 +223,39 @@ void addFaintLightNotes(const pack::Scene& scene, std::vector<std::string>& note
     check(fmt::format("light {}", i), scene.lights[i].intensity, "raise its intensity");
 }
 
+// Adds the meshes and instances, relative to the scene's origin. Throws Error: more meshes than a pack can contain, an
+// axis across a face.
+void addMeshes(const SceneDescription& d, bool keepMap, std::vector<PlacedMesh> placed, const InstanceChoice& choice,
+               Baked& baked) {
+  pack::Scene& scene = baked.scene;
+  std::vector<std::uint32_t> meshOf(placed.size());
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    PlacedMesh& source = placed[i];
+    if (const std::size_t first = choice.first[i]; first != i) {
+      pack::Instance& instance = scene.instances.emplace_back();
+      instance.name = std::move(source.packed.name);
+      instance.mesh = meshOf[first];
+      setPlace(placed[first].worldFromObject, source.worldFromObject, scene.origin, instance);
+      requireAxisInPlane(scene.meshes[instance.mesh], instance.linear, scene.materials, d.file);
+      continue;
+    }
+    if (scene.meshes.size() == pack::kMaxMeshes)
+      throw Error(d.file.string(), "has too many meshes", fmt::format("at most {}", pack::kMaxMeshes));
+    if (source.isGlassBody) baked.glassBodies.push_back(scene.meshes.size());
+    meshOf[i] = static_cast<std::uint32_t>(scene.meshes.size());
+    pack::Mesh& mesh = scene.meshes.emplace_back(std::move(source.packed));
+    prep::Mesh world = bake::placed(*source.source, source.worldFromObject);
+    mesh.positions = std::move(world.positions);
+    for (glm::dvec3& p : mesh.positions) p -= scene.origin;
+    mesh.normals = std::move(world.normals);
+    mesh.textureCoordinates = std::move(world.textureCoordinates);
+    mesh.tangents = std::move(world.tangents);
+    mesh.triangles = std::move(world.triangles);
+    if (keepMap) mesh.sourceVertices = source.source->sourceVertices, mesh.sourceFaces = source.source->sourceFaces;
+    requireAxisInPlane(mesh, glm::dmat3(1.0), scene.materials, d.file);
+  }
+}
+
 // Light from infinity.
 void addEnvironment(const SceneDescription& d, const std::function<void(std::string_view)>& progress,
                     pack::Environment& environment, std::vector<std::string>& notes) {
@@ -246,11 +289,12 @@ Baked bake(const SceneDescription& asked, const pack::WriteSettings& settings,
   baked.reports = std::move(placed.reports);
   baked.notes = std::move(placed.notes);
   addFilmNotes(scene, baked.notes);
-  glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
-  for (const PlacedMesh& mesh : placed.meshes)
-    for (const glm::dvec3& p : mesh.world.positions) low = glm::min(low, p), high = glm::max(high, p);
+  const InstanceChoice instances = chooseInstances(placed.meshes, scene.materials);
+  const pack::Box box = instances.box;
   if (d.model)
-    completeModel(d, {std::move(placed.cameras), std::move(placed.lights), low, high}, baked.notes, baked.choices);
+    completeModel(d, {std::move(placed.cameras), std::move(placed.lights), box.low, box.high}, baked.notes,
+                  baked.choices);
+  baked.choices.insert(baked.choices.end(), instances.reasons.begin(), instances.reasons.end());
   scene.name = d.name;
   scene.title = d.title;
   scene.width = d.width;
@@ -259,18 +303,8 @@ Baked bake(const SceneDescription& asked, const pack::WriteSettings& settings,
   scene.exposureEv = d.exposureEv;
 
   // Make positions relative to the origin. Writing the pack rounds them to a grid.
-  scene.origin = d.origin.value_or((low + high) * 0.5);
-  for (PlacedMesh& source : placed.meshes) {
-    if (source.isGlassBody) baked.glassBodies.push_back(scene.meshes.size());
-    pack::Mesh& mesh = scene.meshes.emplace_back(std::move(source.packed));
-    mesh.positions = std::move(source.world.positions);
-    for (glm::dvec3& p : mesh.positions) p -= scene.origin;
-    mesh.normals = std::move(source.world.normals);
-    mesh.textureCoordinates = std::move(source.world.textureCoordinates);
-    mesh.tangents = std::move(source.world.tangents);
-    mesh.triangles = std::move(source.world.triangles);
-    requireAxisInPlane(mesh, scene.materials[mesh.material], d.file);
-  }
+  scene.origin = d.origin.value_or((box.low + box.high) * 0.5);
+  addMeshes(d, settings.keepMap, std::move(placed.meshes), instances, baked);
   addAbsorptionNotes(scene, baked.notes);
   scene.camera = makeCamera(d, scene.origin);
   scene.lights = d.lights;

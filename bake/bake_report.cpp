@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/pack/instances.h"
 #include "meshprep/base/text.h"
 
 namespace malus::bake {
@@ -69,6 +70,7 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
                         {"flipped", m.deviation.flipped},
                         {"degenerate", m.deviation.newDegenerate}}}});
   }
+  const pack::InstanceCounts counts = pack::countInstances(baked.scene);
   json preparation = json::array();
   for (const prep::Report& report : baked.reports) preparation.push_back(prep::toJson(report));
   return {{"name", baked.scene.name},
@@ -77,6 +79,8 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
           {"sizeBytes", written.bytes.size()},
           {"vertices", baked.scene.vertexCount()},
           {"triangles", baked.scene.triangleCount()},
+          {"placedTriangles", counts.placedTriangles},
+          {"instances", counts.placements},
           {"bytesPerTriangle", perTriangle(totals.geometryBytes, baked.scene.triangleCount())},
           {"positionBits", written.positionBits},
           {"reencoded", totals.reencoded},
@@ -97,10 +101,10 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
   // Step 1: all of it.
   const Totals totals = addUp(written);
   std::string text = fmt::format(
-      "{}: {} meshes, {} vertices, {} triangles -> {} ({} bytes, geometry {:.1f} bytes per triangle,\n"
+      "{}: {} meshes, {} vertices, {} -> {} ({} bytes, geometry {:.1f} bytes per triangle,\n"
       "  positions of {} bits within {:.3g} m, normals within {:.3g} degrees, faces tilted by at most {:.3g} "
       "degrees)\n",
-      baked.scene.name, baked.scene.meshes.size(), baked.scene.vertexCount(), baked.scene.triangleCount(),
+      baked.scene.name, baked.scene.meshes.size(), baked.scene.vertexCount(), pack::triangleText(baked.scene),
       printable(output), written.bytes.size(), perTriangle(totals.geometryBytes, baked.scene.triangleCount()),
       written.positionBits, totals.worst.positionMax, totals.worst.normalMaxDegrees, totals.worst.tiltMaxDegrees);
   if (rebaked)

@@ -52,6 +52,7 @@ std::map<std::string, json> collectLeaves(const pack::Pack& pack) {
   json document = sceneJson(pack);
   document.erase("packHash");
   document["meshes"] = keyed(document["meshes"]);
+  if (document.contains("instances")) document["instances"] = keyed(document["instances"]);
   for (json& mesh : document["meshes"]) mesh.erase("file"), mesh.erase("map");
   document["effects"] = effectsJson(pack.scene.effects);
   document["provenance"] = provenanceJson(pack.scene);

@@ -8,6 +8,7 @@
 #include "bake/effects/deepest_bounce.h"
 #include "bake/effects/effects.h"
 #include "bake/effects/polarization_bound.h"
+#include "bake/pack/instances.h"
 #include "bake/scene_json.h"
 #include "meshprep/base/text.h"
 
@@ -21,6 +22,13 @@ glm::dvec3 errorBound(const pack::Scene& scene) {
   ImageRequest request;
   request.depth = scene.depth;
   return polarizationErrorBound(scene, request);
+}
+
+// Of each mesh.
+std::vector<std::size_t> countPlaces(const pack::Scene& scene) {
+  std::vector<std::size_t> places(scene.meshes.size(), 1);
+  for (const pack::Instance& instance : scene.instances) ++places[instance.mesh];
+  return places;
 }
 
 json errorsJson(const compress::Deviation& deviation) {
@@ -64,6 +72,7 @@ std::vector<pack::Effect> currentEffects(const pack::Scene& scene) {
 
 json infoJson(const pack::Pack& pack, double tolerance) {
   const pack::Scene& scene = pack.scene;
+  const std::vector<std::size_t> places = countPlaces(scene);
   json meshes = json::array(), materials = json::array(), sections = json::array();
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const pack::Mesh& m = scene.meshes[i];
@@ -72,6 +81,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                       {"triangles", m.triangles.size()},
                       {"material", scene.materials[m.material].name},
                       {"openSurface", m.openSurface},
+                      {"placements", places[i]},
                       {"encoding", pack.compression[i]},
                       {"positionBits", pack.encodings.known() ? json(pack.encodings.meshes[i].positionBits) : json()},
                       {"origin", {m.origin.x, m.origin.y, m.origin.z}},
@@ -86,6 +96,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                         {"sizeBytes", s.sizeBytes},
                         {"hash", hex(s.hash)}});
   const glm::dvec3 bound = errorBound(scene);
+  const pack::InstanceCounts counts = pack::countInstances(scene);
   const json provenance = provenanceJson(pack.scene);
   return {{"formatVersion", pack.formatVersion},
           {"hash", hex(pack.hash)},
@@ -95,6 +106,8 @@ json infoJson(const pack::Pack& pack, double tolerance) {
           {"depth", scene.depth},
           {"vertices", scene.vertexCount()},
           {"triangles", scene.triangleCount()},
+          {"placedTriangles", counts.placedTriangles},
+          {"instances", counts.placements},
           {"geometryHash", hex(pack::canonicalGeometryHash(scene))},
           {"positionBits", pack.encodings.known() ? json(pack.encodings.positionBits()) : json()},
           {"sourceMap", pack.hasSourceMap()},
@@ -113,19 +126,21 @@ json infoJson(const pack::Pack& pack, double tolerance) {
 std::string infoText(const pack::Pack& pack, double tolerance) {
   const pack::Scene& scene = pack.scene;
   std::string text =
-      fmt::format("{}  {}\n{} vertices, {} triangles, {} lights, {} x {} pixels, depth {}\npack {} (format {})\n",
-                  printable(scene.name), printable(scene.title), scene.vertexCount(), scene.triangleCount(),
+      fmt::format("{}  {}\n{} vertices, {}, {} lights, {} x {} pixels, depth {}\npack {} (format {})\n",
+                  printable(scene.name), printable(scene.title), scene.vertexCount(), pack::triangleText(scene),
                   scene.lights.size(), scene.width, scene.height, scene.depth, hex(pack.hash), pack.formatVersion);
   if (const std::vector<std::string> warnings = bakeWarnings(scene); !warnings.empty()) {
     text += "\nwarnings of the bake\n";
     for (const std::string& warning : warnings) text += fmt::format("  {}\n", printable(warning));
   }
   text += "\nmeshes\n";
+  const std::vector<std::size_t> places = countPlaces(scene);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const pack::Mesh& m = scene.meshes[i];
-    text += fmt::format("  {:<24} {:>8} vertices {:>8} triangles  {}{}, {}\n", printable(m.name), m.positions.size(),
+    text += fmt::format("  {:<24} {:>8} vertices {:>8} triangles  {}{}, {}{}\n", printable(m.name), m.positions.size(),
                         m.triangles.size(), printable(scene.materials[m.material].name),
-                        m.openSurface ? " (open surface)" : "", pack.compression[i]);
+                        m.openSurface ? " (open surface)" : "", pack.compression[i],
+                        places[i] > 1 ? fmt::format(", placed {} times", places[i]) : "");
   }
   text += encodingText(pack);
   text += "\nmaterials\n";

@@ -145,6 +145,11 @@ json sceneJson(const pack::Pack& pack) {
   document["materials"] = std::move(materials);
   document["textures"] = std::move(textures);
   document["meshes"] = meshesJson(pack);
+  for (const pack::Instance& instance : scene.instances) {
+    json& entry = document["instances"].emplace_back();
+    pack::visitInstance(JsonWriter(entry), instance);
+    entry["mesh"] = scene.meshes[instance.mesh].name;
+  }
   return document;
 }
 

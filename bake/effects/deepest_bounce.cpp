@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "bake/effects/mutual_visibility.h"
+#include "bake/pack/instances.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::bake {
@@ -70,12 +71,13 @@ bool isFlatMirror(const Material& m, const pack::Mesh& mesh) {
 
 std::uint32_t deepestBounce(const pack::Scene& scene, std::uint32_t depth, double tolerance) {
   std::vector<Face> faces;
-  for (const pack::Mesh& mesh : scene.meshes) {
+  for (const pack::Placement& placement : pack::placements(scene)) {
+    const pack::Mesh& mesh = *placement.mesh;
     const Material& m = scene.materials[mesh.material];
     if (!pack::isInterface(m.kind)) continue;
     for (const glm::uvec3& t : mesh.triangles) {
       if (faces.size() == kMostFaces) return depth;
-      const glm::dvec3 p0(mesh.positions[t.x]), p1(mesh.positions[t.y]), p2(mesh.positions[t.z]);
+      const glm::dvec3 p0 = placement.point(t.x), p1 = placement.point(t.y), p2 = placement.point(t.z);
       const glm::dvec3 across = glm::cross(p1 - p0, p2 - p0);
       const double length = glm::length(across);
       faces.push_back(

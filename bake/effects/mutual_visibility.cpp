@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "bake/pack/instances.h"
 
 namespace malus::bake {
 
@@ -44,10 +45,8 @@ bool allClosed(const pack::Scene& scene) {
 }  // namespace
 
 double flatness(const pack::Scene& scene) {
-  glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
-  for (const pack::Mesh& mesh : scene.meshes)
-    for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  const glm::dvec3 extent = high - low, far = glm::max(glm::abs(low), glm::abs(high));
+  const pack::Box box = pack::sceneBox(scene);
+  const glm::dvec3 extent = box.high - box.low, far = glm::max(glm::abs(box.low), glm::abs(box.high));
   return 2e-6 * std::max({0.0, extent.x, extent.y, extent.z}) + 2.5e-7 * std::max({0.0, far.x, far.y, far.z});
 }
 
@@ -58,23 +57,26 @@ bool interfacesMutuallyVisible(const pack::Scene& scene) {
     glm::dvec3 point, normal;
   };
   std::vector<Face> faces;
-  for (const pack::Mesh& mesh : scene.meshes) {
+  constexpr std::size_t kMostTests = 20'000'000;
+  for (const pack::Placement& placement : pack::placements(scene)) {
+    const pack::Mesh& mesh = *placement.mesh;
     if (!isInterface(scene, mesh)) continue;
-    if (pack::transmits(scene.materials[mesh.material].kind)) return true;
+    if (pack::transmits(scene.materials[mesh.material].kind) || faces.size() * corners.size() > kMostTests) return true;
     std::vector<bool> used(mesh.positions.size(), false);
     for (const glm::uvec3& t : mesh.triangles) used[t.x] = used[t.y] = used[t.z] = true;
-    for (std::size_t i = 0; i < used.size(); ++i) {
+    for (std::uint32_t i = 0; i < used.size(); ++i) {
       if (!used[i]) continue;
-      corners.emplace_back(mesh.positions[i]);
+      corners.emplace_back(placement.point(i));
     }
+    const double side = placement.isMirrored() ? -1 : 1;
     for (const glm::uvec3& t : mesh.triangles) {
-      const glm::dvec3 p0 = mesh.positions[t.x], n = glm::cross(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0);
+      const glm::dvec3 p0 = placement.point(t.x),
+                       n = glm::cross(placement.point(t.y) - p0, placement.point(t.z) - p0) * side;
       if (glm::length(n) > 0) faces.push_back({p0, glm::normalize(n)});
     }
   }
 
   // Step 2: whether a corner is in front of a face.
-  constexpr std::size_t kMostTests = 20'000'000;
   if (faces.empty() || faces.size() * corners.size() > kMostTests) return true;
   const double tolerance = flatness(scene);
   bool before = false, behind = false;

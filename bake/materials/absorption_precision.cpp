@@ -27,13 +27,20 @@ double meanThickness(const pack::Mesh& mesh) {
   return area > 0 ? 2 * std::abs(volume) / area : 0;
 }
 
+// Of a body.
+double largestInside(const pack::Material& material) {
+  return pack::hasInside(material.kind) ? largest(material.absorption) : 0;
+}
+
 }  // namespace
+
+bool absorbs(const pack::Material& material) {
+  return std::max(largestInside(material), largest(material.outsideAbsorption)) > 0;
+}
 
 std::optional<AbsorptionPrecision> insufficientAbsorptionPrecision(const pack::Mesh& mesh,
                                                                    const pack::Material& material) {
-  const bool isBody = pack::hasInside(material.kind);
-  const double inside = isBody ? largest(material.absorption) : 0,
-               absorption = std::max(inside, largest(material.outsideAbsorption));
+  const double inside = largestInside(material), absorption = std::max(inside, largest(material.outsideAbsorption));
   if (!(absorption > 0) || mesh.positions.empty()) return std::nullopt;
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);

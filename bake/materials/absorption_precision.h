@@ -19,6 +19,9 @@ struct AbsorptionPrecision {
   double thickness;  // mean thickness of a body that rays may start beyond [m]; 0: they do not
 };
 
+// Whether a medium at surfaces of the material absorbs.
+bool absorbs(const pack::Material& material);
+
 // Nothing: the renderers are within kAbsorptionPrecision, or no medium at the mesh absorbs.
 std::optional<AbsorptionPrecision> insufficientAbsorptionPrecision(const pack::Mesh& mesh,
                                                                    const pack::Material& material);

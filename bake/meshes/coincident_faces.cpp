@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 
 #include "bake/meshes/body_contacts.h"
 #include "bake/meshes/face_rounding.h"
+#include "bake/pack/instances.h"
 #include "meshprep/clean/box_pairs.h"
 
 namespace malus::bake {
@@ -22,6 +23,7 @@ namespace malus::bake {
 namespace {
 
 constexpr double kLeastOverlap = 1e-6;          // share of the smaller face
+constexpr std::size_t kMostPlaced = 16;         // instances whose faces are kept
 constexpr std::uint64_t kMostPairs = 50000000;  // a second of tests
 
 Corners corners(const pack::Mesh& mesh, std::uint32_t face) {
@@ -125,20 +127,28 @@ Found findCoincident(const PlacedMesh& glass, const PlacedMesh& other) {
 
 std::vector<std::string> inspectCoincidentFaces(const pack::Scene& scene) {
   std::vector<std::string> warnings;
-  const auto isGlass = [&](std::size_t i) { return pack::hasInside(scene.materials[scene.meshes[i].material].kind); };
-  const PositionsOf positions = [&](std::size_t i) -> const std::vector<glm::dvec3>& {
-    return scene.meshes[i].positions;
+  const std::vector<pack::Placement> placements = pack::placements(scene);
+  const auto isGlass = [&](std::size_t i) {
+    return pack::hasInside(scene.materials[placements[i].mesh->material].kind);
   };
-  GlassBodies all(scene.meshes.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  const std::vector<prep::Box> boxes = meshBoxes(all, positions);
-  std::vector<prep::Box> wide;
-  for (std::size_t i = 0; i < boxes.size(); ++i) wide.push_back(widened(boxes[i], {scene.meshes[i], boxes[i]}));
+  std::vector<prep::Box> boxes, wide;
+  for (const pack::Box& box : pack::placementBoxes(scene)) {
+    boxes.push_back({box.low, box.high});
+    wide.push_back(widened(boxes.back(), {*placements[boxes.size() - 1].mesh, boxes.back()}));
+  }
+  // Instances are placed when they are compared.
+  std::map<std::size_t, pack::Mesh> placed;
+  const auto meshAt = [&](std::size_t i) -> const pack::Mesh& {
+    if (placements[i].instance == nullptr) return *placements[i].mesh;
+    const auto found = placed.find(i);
+    return found != placed.end() ? found->second
+                                 : placed.emplace(i, pack::placedMesh(scene, *placements[i].instance)).first->second;
+  };
   for (const auto& [first, second] : overlappingPairs(wide)) {
     if (isGlass(first) == isGlass(second)) continue;
     const std::size_t glassIndex = isGlass(first) ? first : second, otherIndex = isGlass(first) ? second : first;
-    const PlacedMesh glass{scene.meshes[glassIndex], boxes[glassIndex]},
-        other{scene.meshes[otherIndex], boxes[otherIndex]};
+    if (placed.size() > kMostPlaced) placed.clear();
+    const PlacedMesh glass{meshAt(glassIndex), boxes[glassIndex]}, other{meshAt(otherIndex), boxes[otherIndex]};
     const Found found = findCoincident(glass, other);
     if (!found.isComplete) {
       warnings.push_back(fmt::format(

@@ -52,7 +52,7 @@ class Placer {
                   "\"openSurface\": true beside \"asIs\": true, because it is not checked that the mesh is closed");
     options.strict = settings_.strict;
     prep::Report report;
-    const prep::Mesh prepared = prepare(mesh.file, options, report);
+    const auto prepared = std::make_shared<const prep::Mesh>(prepare(mesh.file, options, report));
     requireCertificate(mesh.file, mesh.name, report);
     const prep::Certificate certificate = report.certificate;
     addReport(mesh.file, std::move(report));
@@ -71,10 +71,12 @@ class Placer {
     result_.cameras.insert(result_.cameras.end(), imported.cameras.begin(), imported.cameras.end());
     result_.lights.insert(result_.lights.end(), imported.lights.begin(), imported.lights.end());
     std::vector<char> reported(imported.parts.size(), 0);
+    std::vector<std::shared_ptr<const prep::Mesh>> prepared(imported.parts.size());
     for (ImportedMesh& mesh : imported.meshes) {
-      const ImportedPart& part = imported.parts[mesh.part];
+      ImportedPart& part = imported.parts[mesh.part];
       if (std::exchange(reported[mesh.part], 1) == 0) requireCertificate(import.file, mesh.name, part.report);
-      place(part.mesh, mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.openSurface,
+      if (!prepared[mesh.part]) prepared[mesh.part] = std::make_shared<const prep::Mesh>(std::move(part.mesh));
+      place(prepared[mesh.part], mesh.worldFromObject, std::move(mesh.name), mesh.material, mesh.openSurface,
             part.report.certificate);
     }
     for (ImportedPart& part : imported.parts) addReport(import.file, std::move(part.report));
@@ -114,20 +116,17 @@ class Placer {
     result_.notes.push_back(fmt::format("{}: {}", file.string(), what));
   }
 
-  void place(const prep::Mesh& mesh, const glm::dmat4& worldFromObject, std::string name, std::uint32_t material,
-             bool openSurface, const prep::Certificate& certificate) {
-    if (result_.meshes.size() == pack::kMaxMeshes)
-      throw Error(description_.file.string(), "has too many meshes", fmt::format("at most {}", pack::kMaxMeshes));
+  void place(std::shared_ptr<const prep::Mesh> mesh, const glm::dmat4& worldFromObject, std::string name,
+             std::uint32_t material, bool openSurface, const prep::Certificate& certificate) {
+    if (result_.meshes.size() == pack::kMaxInstances)
+      throw Error(description_.file.string(), "has too many meshes", fmt::format("at most {}", pack::kMaxInstances));
     PlacedMesh placedMesh;
-    placedMesh.world = placed(mesh, worldFromObject);
+    placedMesh.source = std::move(mesh);
+    placedMesh.worldFromObject = worldFromObject;
     placedMesh.packed.name = std::move(name);
     placedMesh.packed.material = material;
     placedMesh.packed.openSurface = openSurface;
     placedMesh.isGlassBody = certificate.isGranted() && !openSurface;
-    if (settings_.keepMap) {
-      placedMesh.packed.sourceVertices = mesh.sourceVertices;
-      placedMesh.packed.sourceFaces = mesh.sourceFaces;
-    }
     result_.meshes.push_back(std::move(placedMesh));
   }
 

@@ -1,10 +1,13 @@
-// Meshes of a scene in world space: read, cleaned, certified if they are glass, and transformed.
+// Meshes of a scene: read, cleaned, certified if they are glass, and their places in world space.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <glm/mat4x4.hpp>
 
 #include "bake/pack/scene.h"
 #include "bake/scene_file/scene_file.h"
@@ -20,10 +23,10 @@ struct MeshSettings {
   bool strict = false;          // as BakeOptions
 };
 
-// In world space, in double: positions are rounded to float after the origin is subtracted. `packed` has everything but
-// the geometry.
+// A place of a mesh, which may have several. `packed` has everything but the geometry and the map to the source.
 struct PlacedMesh {
-  prep::Mesh world;
+  std::shared_ptr<const prep::Mesh> source;  // in its own space
+  glm::dmat4 worldFromObject{1.0};
   pack::Mesh packed;
   bool isGlassBody = false;  // certified as a closed body of glass
 };
@@ -37,7 +40,7 @@ struct PlacedMeshes {
 };
 
 // Adds the materials of imports to materials. Throws Error: a mesh that cannot be read or cleaned, glass that is not
-// certified, more meshes than a pack can contain.
+// certified, more places than a pack can contain.
 PlacedMeshes placeMeshes(const SceneDescription& description, const MeshSettings& settings,
                          std::vector<pack::Material>& materials, const std::function<void(std::string_view)>& progress);
 

@@ -28,6 +28,9 @@ inline constexpr double kMaxIrradiance = 4e15;      // of an environment of kMax
 inline constexpr double kMaxImageShift = 100;       // of the middle of an image from the axis, in its heights
 inline constexpr double kMaxUnitComponent = 1.001;  // of a unit vector before its length is checked
 inline constexpr std::uint32_t kMaxMeshes = 65536;
+inline constexpr std::uint32_t kMaxInstances = 1u << 20;
+inline constexpr double kMaxInstanceScale = 1e9;       // of the components of a transform
+inline constexpr double kMaxInstanceCondition = 1000;  // largest over smallest factor by which it scales lengths
 inline constexpr std::uint32_t kMaxMaterials = 4096;
 inline constexpr std::uint32_t kMaxLights = 4096;
 inline constexpr std::uint32_t kMaxEffects = 4096;
@@ -70,6 +73,7 @@ inline constexpr const char* kWavelengths = "WAVE";
 inline constexpr const char* kMeshes = "MESH";
 inline constexpr const char* kGeometry = "GEOM";
 inline constexpr const char* kTextureCoordinates = "TCRD";
+inline constexpr const char* kInstances = "INST";
 inline constexpr const char* kEncodings = "ENCD";
 inline constexpr const char* kSourceMap = "SMAP";
 inline constexpr const char* kEffects = "EFCT";
@@ -97,6 +101,7 @@ inline constexpr auto kKnownSections = std::to_array<SectionInfo>({
     {kMeshes, true, 0, "table of meshes"},
     {kGeometry, true, 0, "geometry of the meshes"},
     {kTextureCoordinates, false, 0, "texture coordinates and tangents of meshes; written if a mesh has any"},
+    {kInstances, false, 0, "further places of meshes; written if there are any"},
     {kEncodings, false, kOptional, "bits and errors of the encoded meshes"},
     {kSourceMap, false, kOptional, "map to the source files; written on request"},
     {kEffects, false, kOptional, "effects that the scene needs"},

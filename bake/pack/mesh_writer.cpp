@@ -10,6 +10,7 @@
 #include "bake/pack/encodings_section.h"
 #include "bake/pack/field_io.h"
 #include "bake/pack/format.h"
+#include "bake/pack/instances.h"
 #include "bake/pack/record_fields.h"
 #include "bake/pack/texture_coordinates.h"
 #include "meshprep/base/error.h"
@@ -99,12 +100,30 @@ compress::Encoded encodeMesh(const Mesh& mesh, const compress::RoundedMesh& roun
   return encoded;
 }
 
+// Per mesh. A map that scales lengths by factors within 1:c changes the angle of two normals by at most a factor of c.
+std::vector<compress::Magnification> magnifications(const Scene& scene) {
+  std::vector<compress::Magnification> result(scene.meshes.size());
+  for (const Instance& instance : scene.instances) {
+    const Stretch stretch = stretchOf(instance.linear);
+    compress::Magnification& m = result[instance.mesh];
+    m.isPlaced = true;
+    m.smallest = std::min(m.smallest, stretch.smallest);
+    m.largest = std::max(m.largest, stretch.largest);
+    m.angle = std::max(m.angle, stretch.condition());
+  }
+  return result;
+}
+
 }  // namespace
 
 EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const PreviousPack* previous) {
   // Round the meshes.
   std::vector<compress::MeshView> views;
-  for (const Mesh& mesh : scene.meshes) views.emplace_back(mesh.positions, mesh.normals, mesh.triangles);
+  const std::vector<compress::Magnification> magnified = magnifications(scene);
+  for (const Mesh& mesh : scene.meshes) {
+    views.emplace_back(mesh.positions, mesh.normals, mesh.triangles);
+    views.back().magnification = magnified[views.size() - 1];
+  }
   const std::vector<compress::RoundedMesh> rounded =
       compress::roundMeshes(views, settings.bounds, compress::Precision::floats, settings.inspection);
   EncodedMeshes all;
@@ -117,7 +136,8 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
   table.u32(static_cast<std::uint32_t>(scene.meshes.size()));
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
-    const compress::Settings codec{rounded[i].grid, rounded[i].normalBits, compress::kLeastFloatCross};
+    const compress::Settings codec{rounded[i].grid, rounded[i].normalBits,
+                                   compress::kLeastFloatCross / (magnified[i].smallest * magnified[i].smallest)};
     MeshCompression report;
     MeshEncoding encoding;
     compress::Encoded encoded;
@@ -137,8 +157,8 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
       }
     }
     const bool glass = mesh.material < scene.materials.size() && hasInside(scene.materials[mesh.material].kind);
-    for (std::string& warning :
-         compress::checkBounds(encoding.deviation, codec, settings.bounds, glass, fmt::format("mesh '{}'", mesh.name)))
+    for (std::string& warning : compress::checkBounds(compress::deviationAfter(magnified[i], encoding.deviation), codec,
+                                                      settings.bounds, glass, fmt::format("mesh '{}'", mesh.name)))
       all.warnings.push_back(std::move(warning));
 
     // Write its entry, its bytes and its map.

@@ -10,6 +10,7 @@
 #include "bake/pack/encodings_section.h"
 #include "bake/pack/field_io.h"
 #include "bake/pack/half.h"
+#include "bake/pack/instances.h"
 #include "bake/pack/material_reader.h"
 #include "bake/pack/mesh_reader.h"
 #include "bake/pack/record_fields.h"
@@ -122,6 +123,33 @@ void readTextures(ByteReader r, std::vector<Texture>& textures) {
   r.end();
 }
 
+void readInstances(ByteReader r, const std::vector<Mesh>& meshes, std::vector<Instance>& instances) {
+  FieldSizes sizes;
+  const Instance any{};
+  visitInstance(sizes, any);
+  instances.resize(r.count(sizes.bytes(), kMaxInstances, "number of instances"));
+  std::vector<Box> boxes(meshes.size());
+  for (std::size_t i = 0; i < meshes.size(); ++i) boxes[i] = boxOf(meshes[i].positions);
+  for (Instance& instance : instances) {
+    visitInstance(FieldReader(r), instance);
+    if (instance.mesh >= meshes.size())
+      r.fail(fmt::format("mesh of instance '{}' is out of range", instance.name),
+             fmt::format("an index below {}", meshes.size()), fmt::format("{}", instance.mesh));
+    const Stretch stretch = stretchOf(instance.linear);
+    if (!(stretch.condition() <= kMaxInstanceCondition * (1 + 1e-6)))
+      r.fail(fmt::format("linear part of instance '{}'", instance.name),
+             fmt::format("lengths scaled by factors within 1:{:g}", kMaxInstanceCondition),
+             fmt::format("{:g} to {:g}", stretch.smallest, stretch.largest));
+    const Box box = placedBox(boxes[instance.mesh], instance);
+    const double farthest = farthestCoordinate(box);
+    if (!(farthest <= kMaxCoordinate))
+      r.fail(fmt::format("place of instance '{}'", instance.name),
+             fmt::format("coordinates within {:g} m of the scene's origin", kMaxCoordinate),
+             fmt::format("{:g} m", farthest));
+  }
+  r.end();
+}
+
 void readEffects(ByteReader r, std::vector<Effect>& effects) {
   FieldSizes sizes;
   const Effect any{};
@@ -176,6 +204,7 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
   const Section& meshes = *find(kMeshes);
   readMeshes(reader(meshes), meshes.version, body(geometry), geometry.offset, where, pack);
   if (const Section* at = find(kTextureCoordinates)) readTextureAttributes(reader(*at), scene.meshes);
+  if (const Section* at = find(kInstances)) readInstances(reader(*at), scene.meshes, scene.instances);
   if (const Section* at = find(kEncodings))
     pack.encodings = readEncodings(reader(*at), at->version, scene.meshes.size());
   if (const Section* at = find(kSourceMap)) readSourceMap(reader(*at), scene.meshes);
@@ -204,6 +233,11 @@ std::uint64_t canonicalGeometryHash(const Scene& scene) {
     for (const std::vector<glm::vec2>& set : mesh.textureCoordinates)
       for (const glm::vec2& uv : set) w.f32(uv.x), w.f32(uv.y);
     for (const glm::vec4& t : mesh.tangents) w.f32(t.x), w.f32(t.y), w.f32(t.z), w.f32(t.w);
+  }
+  for (const Instance& instance : scene.instances) {
+    w.u32(instance.mesh);
+    for (int column = 0; column < 3; ++column) w.dvec3(instance.linear[column]);
+    w.dvec3(instance.translation);
   }
   return hashBytes(w.take());
 }

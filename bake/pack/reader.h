@@ -32,7 +32,8 @@ struct Pack {
 Pack parse(std::span<const std::byte> bytes, std::string_view where);
 Pack read(const std::filesystem::path& path);
 
-// Hash of the geometry that the renderers see: decoded positions, normals and triangles of every mesh, and its origin.
+// Hash of the geometry that the renderers see: decoded positions, normals and triangles of every mesh, its origin, and
+// the instances.
 std::uint64_t canonicalGeometryHash(const Scene& scene);
 
 }  // namespace malus::pack

@@ -258,6 +258,31 @@ void visitMeshEntry(Visitor&& visit, Entries&... m) {
 }
 inline constexpr std::uint32_t kNewestMeshes = 2;
 
+// INST, per instance
+template <class Visitor, class... Instances>
+void visitInstance(Visitor&& visit, Instances&... i) {
+  visit(Field{.name = "name", .text = "name"}, i.name...);
+  visit(Field{.name = "mesh", .high = kMaxMeshes - 1, .text = "index into MESH"}, i.mesh...);
+  visit(Field{.name = "linear.x",
+              .low = -kMaxInstanceScale,
+              .high = kMaxInstanceScale,
+              .text = "image of the x axis: the first column of the linear part of the transform"},
+        i.linear[0]...);
+  visit(Field{.name = "linear.y", .low = -kMaxInstanceScale, .high = kMaxInstanceScale, .text = "that of the y axis"},
+        i.linear[1]...);
+  visit(Field{.name = "linear.z",
+              .low = -kMaxInstanceScale,
+              .high = kMaxInstanceScale,
+              .text = "that of the z axis; the linear part scales lengths by factors within 1:1000"},
+        i.linear[2]...);
+  visit(Field{.name = "translation",
+              .low = -kMaxLength,
+              .high = kMaxLength,
+              .unit = "m",
+              .text = "position of the point that the mesh has at the scene's origin"},
+        i.translation...);
+}
+
 // ENCD of version 1: the grid that all meshes shared, then the number of meshes
 struct SharedGrid {
   glm::vec3 origin{0};

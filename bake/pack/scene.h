@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -127,7 +128,7 @@ struct Environment {
   std::array<glm::dvec3, 9> irradiance{};  // coefficients of irradiancePolynomial (shaders/optics/environment.h)
 };
 
-// One instance in world space with one material.
+// A mesh at its first place, with one material.
 struct Mesh {
   std::string name;
   std::uint32_t material = 0;  // index into materials
@@ -153,6 +154,15 @@ struct Mesh {
   std::vector<std::uint32_t> sourceVertices, sourceFaces;
 };
 
+// A further place of a mesh (bake/pack/instances.h): a point p of the mesh is at linear p + translation. A negative
+// determinant mirrors; the side that was outside stays outside.
+struct Instance {
+  std::string name;
+  std::uint32_t mesh = 0;       // index into meshes
+  glm::dmat3 linear{1.0};       // with an inverse
+  glm::dvec3 translation{0.0};  // metres, relative to the scene's origin
+};
+
 // One effect, with the reason for its being on or off.
 struct Effect {
   std::string name;
@@ -175,12 +185,14 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
   std::vector<Effect> effects;
   // Share of the image's light that arrives after more than i specular interactions, decreasing; 0 past the end. Empty:
   // not measured.
   std::vector<double> lightBeyond;
   std::string provenance;  // JSON: source hashes, settings, versions
 
+  // Of the meshes, each once.
   std::uint64_t vertexCount() const;
   std::uint64_t triangleCount() const;
 };

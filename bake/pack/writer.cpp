@@ -93,6 +93,13 @@ std::vector<std::byte> textureBytes(const std::vector<Texture>& textures) {
   return w.take();
 }
 
+std::vector<std::byte> instanceBytes(const std::vector<Instance>& instances) {
+  ByteWriter w;
+  w.u32(static_cast<std::uint32_t>(instances.size()));
+  for (const Instance& instance : instances) visitInstance(FieldWriter(w), instance);
+  return w.take();
+}
+
 std::vector<std::byte> effectBytes(const std::vector<Effect>& effects) {
   ByteWriter w;
   w.u32(static_cast<std::uint32_t>(effects.size()));
@@ -172,6 +179,7 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
   bodies.push_back({kMeshes, std::move(encoded.table), kNewestMeshes});
   bodies.push_back({kGeometry, std::move(encoded.geometry)});
   if (!encoded.coordinates.empty()) bodies.push_back({kTextureCoordinates, std::move(encoded.coordinates)});
+  if (!scene.instances.empty()) bodies.push_back({kInstances, instanceBytes(scene.instances)});
   bodies.push_back({kEncodings, encodingBytes(encoded.encodings), kNewestEncodings});
   if (settings.keepMap) bodies.push_back({kSourceMap, std::move(encoded.map)});
   bodies.push_back({kEffects, effectBytes(scene.effects)});

@@ -1,5 +1,6 @@
 #include "meshprep/compress/bounds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -58,6 +59,22 @@ DeviationLimits deviationLimits(const Bounds& bounds) {
   limits.tiltDegrees = kDefaultTiltDegrees;
   limits.newDegenerate = false;
   return limits;
+}
+
+DeviationLimits limitsBefore(const Magnification& m, DeviationLimits limits) {
+  limits.position /= m.largest;
+  limits.normalDegrees /= m.angle;
+  limits.tiltDegrees /= m.angle;
+  limits.leastCross /= m.smallest * m.smallest;
+  return limits;
+}
+
+Deviation deviationAfter(const Magnification& m, Deviation deviation) {
+  deviation.positionMax *= m.largest;
+  deviation.normalMaxDegrees *= m.angle;
+  deviation.tiltMaxDegrees *= m.angle;
+  if (deviation.tiltMaxDegrees > kDefaultTiltDegrees) deviation.tilted = std::max<std::uint64_t>(deviation.tilted, 1);
+  return deviation;
 }
 
 std::vector<std::string> checkBounds(const Deviation& deviation, const Settings& used, const Bounds& bounds, bool glass,

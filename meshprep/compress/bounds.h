@@ -30,6 +30,12 @@ void requireValid(const Bounds& bounds);
 // Limits of positions, normals and faces that the bounds demand.
 DeviationLimits deviationLimits(const Bounds& bounds);
 
+// Limits that a mesh must keep, so that it keeps `limits` at all of its places.
+DeviationLimits limitsBefore(const Magnification& magnification, DeviationLimits limits);
+
+// Bounds on the deviation of a mesh at all of its places, from that of the mesh. Areas are those of the mesh.
+Deviation deviationAfter(const Magnification& magnification, Deviation deviation);
+
 // Checks an encoded mesh. glass: light is refracted at its faces. Returns a warning for each exceeded default bound,
 // with the value and the number of bits. Throws Error if a bound that was given is exceeded or a face is upside down,
 // and for glass if a face is tilted by more than the default or lost its area. Texts begin with `where`.

@@ -35,11 +35,21 @@ struct TriangleMesh {
   std::vector<glm::uvec3> triangles;
 };
 
+// Factors by which the places of a mesh in a scene change its lengths and may change its angles. Bounds of errors hold
+// at the place where they are tightest.
+struct Magnification {
+  bool isPlaced = false;  // by transforms, beside its own place
+  double smallest = 1;    // factors of lengths; of its own place: 1
+  double largest = 1;
+  double angle = 1;  // at least 1
+};
+
 // Reference to a mesh, which must outlive it.
 struct MeshView {
   std::span<const glm::dvec3> positions;
   std::span<const glm::vec3> normals;
   std::span<const glm::uvec3> triangles;
+  Magnification magnification = {};
 
   MeshView(std::span<const glm::dvec3> p, std::span<const glm::vec3> n, std::span<const glm::uvec3> t)
       : positions(p), normals(n), triangles(t) {}

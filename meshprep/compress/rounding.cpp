@@ -75,7 +75,8 @@ class Rounder {
         finest = stepExponent(mesh.positions, bounds_.positionBits.value_or(kMaxPositionBits));
         first = bounds_.positionBits    ? finest
                 : bounds_.positionError ? stepExponent(mesh.positions, 1)
-                                        : std::min(sceneStep, stepExponent(mesh.positions, kFirstMeshBits));
+                                        : std::min(sceneStep - std::ilogb(mesh.magnification.largest),
+                                                   stepExponent(mesh.positions, kFirstMeshBits));
       }
       finest_.push_back(finest);
       steps_.push_back(std::max(first, finest));
@@ -133,7 +134,10 @@ class Rounder {
       coarsest = std::max(coarsest, steps_[i]);
       farthest = std::max(farthest, findExtent(meshes_[i].positions).farthest());
     }
-    if (farthest == 0 || farthest <= power(finest + kFloatBits)) return glm::dvec3(0);
+    // Transforms would round positions far from the mesh, so that a mesh with instances has an origin of its own.
+    const bool isPlaced =
+        std::any_of(group.begin(), group.end(), [&](std::uint32_t i) { return meshes_[i].magnification.isPlaced; });
+    if (farthest == 0 || (!isPlaced && farthest <= power(finest + kFloatBits))) return glm::dvec3(0);
     glm::dvec3 median(0);
     std::vector<double> coordinates;
     for (int axis = 0; axis < 3; ++axis) {
@@ -183,7 +187,8 @@ class Rounder {
       failing.clear();
       for (std::size_t i = 0; i < meshes_.size(); ++i) {
         if (withinBounds_[i] != 0) continue;
-        if (!positionsWithin(meshes_[i], rounded_[i].positions, limits_)) failing.push_back(i);
+        if (!positionsWithin(meshes_[i], rounded_[i].positions, limitsBefore(meshes_[i].magnification, limits_)))
+          failing.push_back(i);
         withinBounds_[i] = 1;  // or as good as it gets, unless it is refined
       }
     } while (refineAll(failing));
@@ -193,7 +198,8 @@ class Rounder {
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
       int bits = bounds_.normalErrorDegrees ? kMinNormalBits : kFirstNormalBits;
       const auto& normals = meshes_[i].normals;
-      while (bits < kMaxNormalBits && !normalsWithin(meshes_[i], roundNormals(normals, bits), limits_)) ++bits;
+      const DeviationLimits limits = limitsBefore(meshes_[i].magnification, limits_);
+      while (bits < kMaxNormalBits && !normalsWithin(meshes_[i], roundNormals(normals, bits), limits)) ++bits;
       rounded_[i].normalBits = bounds_.normalBits.value_or(bits);
     }
   }

@@ -6,7 +6,7 @@
 // from its source, tilt of a face; no face may lose its area or flip; and until the caller accepts the result.
 //
 // For the renderers, the positions of a group relative to the group's origin are floats. The origin is 0 if floats
-// relative to 0 are fine enough.
+// relative to 0 are fine enough and no mesh of the group is placed by transforms.
 #pragma once
 
 #include <functional>

@@ -8,6 +8,7 @@
 #include <commit.h>
 #include <fmt/format.h>
 
+#include "bake/pack/instances.h"
 #include "render/compare/machine.h"
 #include "render/scene/methods.h"
 
@@ -229,9 +230,12 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
   json scenes = json::object(), references = json::array(), rows = json::array(), everything = json::array(),
        secondPath = json::array(), effects = json::array(), paths = json::array(), exposure = json::object();
   for (const auto& [name, pack] : comparison.packs) {
+    const pack::InstanceCounts instances = pack::countInstances(pack.scene);
     scenes[name] = {{"title", pack.scene.title},
                     {"vertices", pack.scene.vertexCount()},
                     {"triangles", pack.scene.triangleCount()},
+                    {"placedTriangles", instances.placedTriangles},
+                    {"instances", instances.placements},
                     {"packHash", fmt::format("{:016x}", pack.hash)},
                     {"exposureEv", pack.scene.exposureEv}};
     exposure[name] = pack.scene.exposureEv;

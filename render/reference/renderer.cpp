@@ -11,6 +11,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "bake/pack/instances.h"
 #include "render/embree/embree.h"
 #include "render/reference/depth_paths.h"
 #include "render/reference/tracer.h"
@@ -112,16 +113,18 @@ struct Renderer::Impl {
   Impl(const pack::Scene& source, unsigned threadCount) : Impl(source, render::makeRenderScene(source), threadCount) {}
 
   Impl(const pack::Scene& source, render::RenderScene&& renderScene, unsigned threadCount)
-      : scene(source),
+      : expanded(source.instances.empty() ? pack::Scene() : pack::withoutInstances(source)),
+        scene(source.instances.empty() ? source : expanded),
         threads(threadCount),
         bvh(renderScene, threadCount),
         sourceMeshes(std::move(renderScene.sourceMeshes)) {
-    for (const pack::Material& m : source.materials)
+    for (const pack::Material& m : scene.materials)
       hemisphereTransmittance.push_back(render::hemisphereTransmittance(m, scene.wavelengthsNm));
-    for (const pack::Mesh& mesh : source.meshes) faces.push_back(computeFaces(mesh));
+    for (const pack::Mesh& mesh : scene.meshes) faces.push_back(computeFaces(mesh));
     lightReach = render::lightReach(source);
   }
 
+  pack::Scene expanded;  // if the scene has instances
   const pack::Scene& scene;
   unsigned threads;
   embree::Bvh bvh;

@@ -11,6 +11,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "bake/effects/effects.h"
+#include "bake/pack/instances.h"
 #include "render/scene/image_plane.h"
 #include "shaders/optics/optics.h"
 
@@ -129,6 +130,23 @@ void addLights(const pack::Scene& scene, RenderScene& result) {
   if (result.lightShapes.empty()) result.lightShapes.push_back({glm::vec3(0), 0, 1, 0});
 }
 
+void addMeshes(const pack::Scene& scene, RenderScene& result) {
+  result.sourceMeshes = sortByOrigin(scene.meshes);
+  for (const std::uint32_t source : result.sourceMeshes) {
+    const pack::Mesh& mesh = scene.meshes[source];
+    result.meshes.push_back({static_cast<std::uint32_t>(result.triangles.size()),
+                             static_cast<std::uint32_t>(result.positions.size()), mesh.material,
+                             mesh.normals.empty() ? 0u : 1u, glm::vec3(mesh.origin)});
+    const bool isTraced = !isInvisible(scene.materials[mesh.material]);
+    result.meshTriangles.push_back(isTraced ? static_cast<std::uint32_t>(mesh.triangles.size()) : 0u);
+    result.meshVertices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+    for (const glm::dvec3& p : mesh.positions) result.positions.emplace_back(p - mesh.origin);
+    result.normals.insert(result.normals.end(), mesh.normals.begin(), mesh.normals.end());
+    result.normals.resize(result.positions.size(), glm::vec3(0));
+    result.triangles.insert(result.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+  }
+}
+
 }  // namespace
 
 RenderScene makeRenderScene(const pack::Scene& scene) {
@@ -151,20 +169,7 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     result.extras.push_back(makeExtra(m, scene.wavelengthsNm));
   }
   addLights(scene, result);
-  result.sourceMeshes = sortByOrigin(scene.meshes);
-  for (const std::uint32_t source : result.sourceMeshes) {
-    const pack::Mesh& mesh = scene.meshes[source];
-    result.meshes.push_back({static_cast<std::uint32_t>(result.triangles.size()),
-                             static_cast<std::uint32_t>(result.positions.size()), mesh.material,
-                             mesh.normals.empty() ? 0u : 1u, glm::vec3(mesh.origin)});
-    const bool isTraced = !isInvisible(scene.materials[mesh.material]);
-    result.meshTriangles.push_back(isTraced ? static_cast<std::uint32_t>(mesh.triangles.size()) : 0u);
-    result.meshVertices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-    for (const glm::dvec3& p : mesh.positions) result.positions.emplace_back(p - mesh.origin);
-    result.normals.insert(result.normals.end(), mesh.normals.begin(), mesh.normals.end());
-    result.normals.resize(result.positions.size(), glm::vec3(0));
-    result.triangles.insert(result.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
-  }
+  addMeshes(scene.instances.empty() ? scene : pack::withoutInstances(scene), result);
   for (const pack::Texture& t : scene.textures) {
     result.textures.push_back({static_cast<std::uint32_t>(result.textureTexels.size()), t.width, t.height});
     result.textureTexels.insert(result.textureTexels.end(), t.texels.begin(), t.texels.end());
@@ -179,10 +184,8 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
 }
 
 double lightReach(const pack::Scene& scene) {
-  glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
-  for (const pack::Mesh& mesh : scene.meshes)
-    for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  return low.x <= high.x ? std::max(2 * glm::length(high - low), 1e-3) : 1;
+  const pack::Box box = pack::sceneBox(scene);
+  return box.isEmpty() ? 1 : std::max(2 * glm::length(box.high - box.low), 1e-3);
 }
 
 glm::dvec2 facetPoint(std::size_t i) {

@@ -154,6 +154,8 @@ inline pack::Scene unusualScene() {
     mesh.textureCoordinates[1].emplace_back(-step, step * 2);
     mesh.tangents.emplace_back(0.6f, 0, i % 2 == 0 ? 0.8f : -0.8f, i < 2 ? 1.0f : -1.0f);
   }
+  scene.instances = {{"mirrored", 1, {{-2, 0, 0}, {0, 2, 0}, {0, 0.5, 2}}, {1, 2, 3}},
+                     {"far", 1, glm::dmat3(0.5), {1e5, 0, 0}}};
   scene.lightBeyond = {0.75, 0.25, 0.25, 0.001};
   scene.materials.push_back(polarizer);
   scene.materials.push_back(plate);

@@ -90,6 +90,7 @@ std::map<std::string, std::string> formatTables() {
           {"WAVE", formatTable<pack::Scene>(MALUS_DESCRIBED(visitWavelengths))},
           {"SKYP", formatTable<pack::Environment>(MALUS_DESCRIBED(visitSky))},
           {"MESH", formatTable<pack::MeshEntry>(MALUS_DESCRIBED(visitMeshEntry), {pack::kMeshes, pack::kNewestMeshes})},
+          {"INST", formatTable<pack::Instance>(MALUS_DESCRIBED(visitInstance))},
           {"ENCD grid", formatTable<pack::SharedGrid>(MALUS_DESCRIBED(visitSharedGrid))},
           {"ENCD", formatTable<pack::MeshEncoding>(MALUS_DESCRIBED(visitMeshEncoding),
                                                    {pack::kEncodings, pack::kNewestEncodings})},

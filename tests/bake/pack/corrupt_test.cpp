@@ -460,6 +460,15 @@ TEST(CorruptPack, UnusualSectionsOutOfBounds) {
   EXPECT_TRUE(contains(unusualErrorWith("SKYP", 0, 0.5), "sky.sun"));
   EXPECT_TRUE(contains(unusualErrorWith("SKYP", 24, 1.5), "sky.maxDegree"));
   EXPECT_TRUE(contains(unusualErrorWith("WAVE", 8, 0.5), "wavelengthsNm"));
+  constexpr std::size_t kInstance = 4 + 4 + 8;  // after the name of the first
+  EXPECT_TRUE(contains(unusualErrorWith("INST", 0, 1u << 21), "number of instances"));
+  EXPECT_TRUE(contains(unusualErrorWith("INST", kInstance, 2u), "'mirrored' is out of range"));
+  EXPECT_TRUE(contains(unusualErrorWith("INST", kInstance + 4, kNan), "not finite"));
+  EXPECT_TRUE(contains(unusualErrorWith("INST", kInstance + 4, 1e10), "linear.x"));
+  EXPECT_TRUE(contains(unusualErrorWith("INST", kInstance + 4, 0.0), "linear part"));  // without an inverse
+  EXPECT_TRUE(contains(unusualErrorWith("INST", kInstance + 4, 1e4), "1:1000"));
+  EXPECT_TRUE(contains(unusualErrorWith("INST", kInstance + 76, 1e16), "translation"));
+  EXPECT_TRUE(contains(unusualErrorWith("INST", kInstance + 76, 2e9), "place of instance"));
   // A polarizer without an axis.
   std::vector<RawSection> sections = unusualSections();
   std::erase_if(sections, [](const RawSection& s) { return s.id == "SRFX"; });
@@ -469,7 +478,8 @@ TEST(CorruptPack, UnusualSectionsOutOfBounds) {
 TEST(CorruptPack, EveryFlippedBitOfOptionalSectionsWithMatchingHashesIsHarmless) {
   std::size_t rejected = 0, accepted = 0;
   for (std::size_t s = 0; s < unusualSections().size(); ++s) {
-    if (const std::string& id = unusualSections()[s].id; id != "SRFX" && id != "TEXR" && id != "SKYP" && id != "WAVE")
+    if (const std::string& id = unusualSections()[s].id;
+        id != "SRFX" && id != "TEXR" && id != "SKYP" && id != "WAVE" && id != "INST")
       continue;
     for (std::size_t i = 0; i < unusualSections()[s].bytes.size(); ++i)
       for (int bit = 0; bit < 8; ++bit) {
@@ -477,7 +487,9 @@ TEST(CorruptPack, EveryFlippedBitOfOptionalSectionsWithMatchingHashesIsHarmless)
         sections[s].bytes[i] ^= static_cast<std::byte>(1 << bit);
         const Bytes bytes = test::putTogether(sections);
         const std::string error = errorMessage([&] {
-          for (const Material& m : parse(bytes, "file.pack").scene.materials)
+          const Scene scene = parse(bytes, "file.pack").scene;
+          for (const Instance& instance : scene.instances) ASSERT_LT(instance.mesh, 2u);
+          for (const Material& m : scene.materials)
             for (const std::int32_t map : {m.maps.albedo, m.maps.eta, m.maps.k}) ASSERT_LT(map, 2);
         });
         error.empty() ? ++accepted : ++rejected;

@@ -162,6 +162,36 @@ TEST(PackRoundTrip, OptionalSections) {
     EXPECT_EQ(m.maps.u, truth.maps.u);
     EXPECT_EQ(m.maps.v, truth.maps.v);
   }
+  ASSERT_EQ(s.instances.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(s.instances[i].name, scene.instances[i].name);
+    EXPECT_EQ(s.instances[i].mesh, scene.instances[i].mesh);
+    EXPECT_EQ(s.instances[i].linear, scene.instances[i].linear);
+    EXPECT_EQ(s.instances[i].translation, scene.instances[i].translation);
+  }
+}
+
+TEST(PackRoundTrip, MeshesWithInstancesKeepTheirBoundsAtEveryPlace) {
+  Scene scene = bake::test::smallScene();
+  scene.instances = {{"large", 0, glm::dmat3(1e3), {50, 0, 0}}};
+  WriteSettings settings;
+  settings.bounds.positionError = 1e-3;
+  const Pack small = parse(serialize(scene, settings).bytes, "test");
+  EXPECT_LE(small.encodings.meshes[0].deviation.positionMax * 1e3, 1e-3);
+  // Relative to an origin among their vertices, so that transforms round little.
+  EXPECT_EQ(small.scene.meshes[1].origin, glm::dvec3(0.0));
+  scene.meshes[0].positions[0] = {1e-6, 0.5, 0};  // the median is not 0
+  for (glm::dvec3& p : scene.meshes[0].positions) p.x += 3;
+  EXPECT_NE(parse(serialize(scene, settings).bytes, "test").scene.meshes[0].origin, glm::dvec3(0.0));
+}
+
+TEST(PackRoundTrip, InstancesChangeTheHashOfTheGeometry) {
+  const Scene scene = bake::test::unusualScene();
+  Scene fewer = scene, moved = scene;
+  fewer.instances.pop_back();
+  moved.instances[0].linear[2].y = 0.25;
+  EXPECT_NE(canonicalGeometryHash(scene), canonicalGeometryHash(fewer));
+  EXPECT_NE(canonicalGeometryHash(scene), canonicalGeometryHash(moved));
 }
 
 TEST(PackRoundTrip, TexelsOfEveryStorage) {

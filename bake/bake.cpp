@@ -146,6 +146,8 @@ std::string makeProvenance(const SceneDescription& d, const pack::WriteSettings&
         {"strict", options.strict}}},
       {"warnings", nlohmann::json::array()},
   };
+  if (settings.bounds.uvErrorTexels)  // packs without it keep their bytes
+    provenance["settings"]["maxUvErrorTexels"] = *settings.bounds.uvErrorTexels;
   if (d.model) provenance["model"] = {{"camera", d.model->camera}};
   return jsonText(provenance, -1);
 }

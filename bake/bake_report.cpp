@@ -65,6 +65,8 @@ json bakeJson(const Baked& baked, const pack::Written& written, const std::strin
                        {{"positionMax", m.deviation.positionMax},
                         {"normalMaxDegrees", m.deviation.normalMaxDegrees},
                         {"tiltMaxDegrees", m.deviation.tiltMaxDegrees},
+                        {"uvMaxTexels", m.texture.deviation.uvTexels},
+                        {"tangentMaxDegrees", m.texture.deviation.tangentDegrees},
                         {"tilted", m.deviation.tilted},
                         {"tiltedArea", m.deviation.tiltedArea},
                         {"flipped", m.deviation.flipped},
@@ -124,6 +126,15 @@ std::string bakeText(const Baked& baked, const pack::Written& written, const std
                         m.sequentialReason.empty() ? "" : ": ", m.sequentialReason);
   }
 
+  std::size_t textured = 0;
+  double uvTexels = 0;
+  for (const pack::MeshCompression& m : written.meshes) {
+    textured += m.texture.grids.any() ? 1 : 0;
+    uvTexels = std::max(uvTexels, m.texture.deviation.uvTexels);
+  }
+  if (textured > 0)
+    text += fmt::format("  {} with texture coordinates, within {:.3g} texels\n",
+                        textured == 1 ? "1 mesh" : fmt::format("{} meshes", textured), uvTexels);
   for (const std::string& choice : baked.choices) text += fmt::format("  {}\n", printable(choice));
   if (baked.probe)
     text += fmt::format("  light beyond depth {}: {:.3g} %, measured by {} rays in {:.0f} ms\n", baked.scene.depth,

@@ -133,6 +133,13 @@ void addBakeCommand(CLI::App& app, MeasureDepth measure) {
                    "Largest angle of a normal from its source [degrees]; without it 0.05 is a goal")
       ->transform(positiveNumber())
       ->type_name("DEGREES");
+  command
+      ->add_option(
+          "--max-uv-error", job.settings.bounds.uvErrorTexels,
+          "Largest error of a texture coordinate [texels of the largest image of the mesh]; without it 1/16 is "
+          "a goal")
+      ->transform(positiveNumber())
+      ->type_name("TEXELS");
   command->add_option("--position-bits", job.settings.bounds.positionBits, "Exact number of bits per coordinate")
       ->transform(wholeNumberBetween(1, compress::kMaxPositionBits))
       ->type_name("N");

@@ -69,6 +69,20 @@ std::uint64_t hashMesh(const pack::Mesh& mesh) {
   return pack::canonicalGeometryHash(alone);
 }
 
+// Describes how the attributes of two meshes with the same positions and triangles differ.
+std::string describeAttributes(const pack::Mesh& a, const pack::Mesh& b) {
+  if (a.normals != b.normals) return "other normals";
+  if (a.tangents != b.tangents) return "other tangents";
+  double farthest = 0;
+  for (std::size_t set = 0; set < a.textureCoordinates.size(); ++set) {
+    const std::vector<glm::vec2>&from = a.textureCoordinates[set], &to = b.textureCoordinates[set];
+    if (from.size() != to.size()) return "other sets of texture coordinates";
+    for (std::size_t i = 0; i < from.size(); ++i)
+      farthest = std::max(farthest, glm::distance(glm::dvec2(from[i]), glm::dvec2(to[i])));
+  }
+  return fmt::format("texture coordinates moved by up to {:.3g}", farthest);
+}
+
 // Adds the meshes whose geometry differs.
 void compareGeometry(const pack::Scene& a, const pack::Scene& b, json& changes) {
   for (const pack::Mesh& mesh : a.meshes) {
@@ -88,7 +102,7 @@ void compareGeometry(const pack::Scene& a, const pack::Scene& b, json& changes) 
     changes.push_back({{"where", where},
                        {"a", "the same triangles"},
                        {"b", farthest > 0 ? fmt::format("corners moved by up to {:.3g} m", farthest)
-                                          : std::string("other normals")}});
+                                          : describeAttributes(mesh, *other)}});
   }
 }
 

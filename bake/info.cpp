@@ -37,6 +37,32 @@ json errorsJson(const compress::Deviation& deviation) {
           {"tiltMaxDegrees", deviation.tiltMaxDegrees}};
 }
 
+// Texture attributes of a mesh: null without any.
+json textureJson(const pack::Pack& pack, std::size_t mesh) {
+  const pack::Mesh& m = pack.scene.meshes[mesh];
+  if (!m.hasTextureAttributes()) return {};
+  const pack::TextureEncoding& texture = pack.textures[mesh];
+  return {{"sets", (m.textureCoordinates[0].empty() ? 0 : 1) + (m.textureCoordinates[1].empty() ? 0 : 1)},
+          {"steps", {texture.grids.sets[0].step, texture.grids.sets[1].step}},
+          {"tangentBits", texture.grids.tangentBits},
+          {"texels", texture.texels},
+          {"uvMaxTexels", texture.deviation.uvTexels},
+          {"tangentMaxDegrees", texture.deviation.tangentDegrees}};
+}
+
+// Number of meshes with texture coordinates and their largest error; empty without any.
+std::string textureText(const pack::Pack& pack) {
+  std::size_t meshes = 0;
+  double worst = 0;
+  for (const pack::TextureEncoding& texture : pack.textures) {
+    meshes += texture.grids.any() ? 1 : 0;
+    worst = std::max(worst, texture.deviation.uvTexels);
+  }
+  if (meshes == 0) return {};
+  return fmt::format("  texture coordinates of {} within {:.3g} texels\n",
+                     meshes == 1 ? "1 mesh" : fmt::format("{} meshes", meshes), worst);
+}
+
 // Bits and the largest errors over all meshes, if the pack has ENCD.
 std::string encodingText(const pack::Pack& pack) {
   std::string text;
@@ -52,6 +78,7 @@ std::string encodingText(const pack::Pack& pack) {
         "degrees\n",
         pack.encodings.positionBits(), worst.positionMax, worst.normalMaxDegrees, worst.tiltMaxDegrees);
   }
+  text += textureText(pack);
   if (pack.hasSourceMap()) text += "  the map to the source's vertices and faces is kept\n";
   return text;
 }
@@ -86,6 +113,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                       {"positionBits", pack.encodings.known() ? json(pack.encodings.meshes[i].positionBits) : json()},
                       {"origin", {m.origin.x, m.origin.y, m.origin.z}},
                       {"normalBits", pack.encodings.known() ? json(pack.encodings.meshes[i].normalBits) : json()},
+                      {"textureCoordinates", textureJson(pack, i)},
                       {"errors", pack.encodings.known() ? errorsJson(pack.encodings.meshes[i].deviation) : json()}});
   }
   for (const pack::Material& m : scene.materials) materials.push_back(materialJson(m));

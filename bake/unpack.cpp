@@ -25,8 +25,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the PLY files are written as little-endian");
 
-// Polygon File Format, binary little-endian: x y z (float if no digit is lost, else double), float nx ny nz, faces as
-// lists of int.
+// Polygon File Format, binary little-endian: x y z (float if no digit is lost, else double), float nx ny nz, s t and s1
+// t1 (sets of texture coordinates), tx ty tz tw (tangent and sign of the bitangent), faces as lists of int.
 std::string plyText(const pack::Mesh& mesh) {
   const bool floats = std::all_of(mesh.positions.begin(), mesh.positions.end(),
                                   [](const glm::dvec3& p) { return compress::isFloat(p); });
@@ -34,6 +34,10 @@ std::string plyText(const pack::Mesh& mesh) {
       "ply\nformat binary_little_endian 1.0\nelement vertex {0}\nproperty {1} x\nproperty {1} y\nproperty {1} z\n",
       mesh.positions.size(), floats ? "float" : "double");
   if (!mesh.normals.empty()) text += "property float nx\nproperty float ny\nproperty float nz\n";
+  for (std::size_t set = 0; set < mesh.textureCoordinates.size(); ++set)
+    if (!mesh.textureCoordinates[set].empty())
+      text += fmt::format("property float s{0}\nproperty float t{0}\n", set == 0 ? "" : "1");
+  if (!mesh.tangents.empty()) text += "property float tx\nproperty float ty\nproperty float tz\nproperty float tw\n";
   text += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size());
   const auto append = [&](const auto& value) {
     char bytes[sizeof value];
@@ -46,6 +50,9 @@ std::string plyText(const pack::Mesh& mesh) {
     else
       append(mesh.positions[i]);
     if (!mesh.normals.empty()) append(mesh.normals[i]);
+    for (const std::vector<glm::vec2>& set : mesh.textureCoordinates)
+      if (!set.empty()) append(set[i]);
+    if (!mesh.tangents.empty()) append(mesh.tangents[i]);
   }
   for (const glm::uvec3& triangle : mesh.triangles) {
     append(std::uint8_t{3});

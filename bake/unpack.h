@@ -1,5 +1,7 @@
 // Unpacks a scene pack into files that other programs read: scene.json, a binary PLY per mesh, and the environment's
-// octahedral map and the textures as EXR. Numbers are those of the pack, relative to its origin and not rounded.
+// octahedral map and the textures as EXR. Texture coordinates are the properties s, t and s1, t1 of vertices, with v
+// down as in the pack; tangents are tx, ty, tz, tw. Numbers are those of the pack, relative to its origin and not
+// rounded.
 //
 // scene.json has the fields of the pack by their names in bake/FORMAT.md: name, title, origin, depth, exposureEv,
 // camera {...}, lights [{type, ...}], materials [{...}], textures [{..., file}], with packHash, resolution [width,

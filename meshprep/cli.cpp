@@ -136,6 +136,19 @@ compress::Inspection certificateInspection(const Arguments& arguments, const Mes
   return inspection;
 }
 
+// Rounds the texture attributes of a mesh, checks their errors and adds them to the report.
+compress::RoundedTextures roundTextures(const Arguments& arguments, const Mesh& mesh, Report& report,
+                                        std::vector<std::string>& warnings) {
+  const compress::TextureView view{{mesh.textureCoordinates[0], mesh.textureCoordinates[1]}, mesh.tangents};
+  compress::RoundedTextures rounded =
+      compress::roundTextures(view, compress::kDefaultTexels, arguments.bounds, arguments.input);
+  const compress::TextureDeviation deviation = compress::measureTextures(view, rounded, compress::kDefaultTexels);
+  warnings = compress::checkTextures(deviation, rounded.grids, arguments.bounds, arguments.input);
+  report.errors.uvMaxTexels = deviation.uvTexels;
+  report.errors.tangentMaxDegrees = deviation.tangentDegrees;
+  return rounded;
+}
+
 void runPrep(const Arguments& arguments) {
   checkFiles(arguments);
   // Clean.
@@ -146,6 +159,7 @@ void runPrep(const Arguments& arguments) {
   options.findJunctions = !skips(arguments, kJunctions);
   options.findIntersections = !skips(arguments, kIntersections);
   options.certifyGlass = arguments.certify == "glass";
+  options.keepTextures = arguments.bounds.uvErrorTexels.has_value();
   const Mesh mesh = prepare(arguments.input, options, report);
   requireCertificate(arguments, report);
 
@@ -156,13 +170,16 @@ void runPrep(const Arguments& arguments) {
                                       certificateInspection(arguments, mesh))
                     .front());
   const compress::Settings settings{rounded.grid, rounded.normalBits};
-  const compress::Encoded encoded = compress::encode(view, rounded.positions, settings);
+  std::vector<std::string> textureWarnings;
+  const compress::RoundedTextures textures = roundTextures(arguments, mesh, report, textureWarnings);
+  const compress::Encoded encoded = compress::encode(view, rounded.positions, settings, textures);
   const bool glass = arguments.certify == "glass";
   report.compression.warnings =
       compress::checkBounds(encoded.deviation, settings, arguments.bounds, glass, arguments.input);
+  report.compression.warnings.insert(report.compression.warnings.end(), textureWarnings.begin(), textureWarnings.end());
   setErrors(encoded.deviation, report);
   report.compression.method = encoded.method;
-  const std::vector<std::byte> file = compress::meshFileBytes(encoded.bytes, settings.grid);
+  const std::vector<std::byte> file = compress::meshFileBytes(encoded.bytes, settings.grid, textures.grids);
   report.compression.bytes = file.size();
   report.compression.sequentialReason = encoded.sequentialReason;
   report.compression.positionBits = settings.grid.positionBits;
@@ -233,6 +250,10 @@ void addCompressionOptions(CLI::App& prep, compress::Bounds& bounds) {
                   "Largest angle of a normal from its source [degrees]; without it 0.05 is a goal")
       ->transform(positiveNumber())
       ->type_name("DEGREES");
+  prep.add_option("--max-uv-error", bounds.uvErrorTexels,
+                  "Keep texture coordinates and tangents; largest error of a coordinate [texels of an image of 4096]")
+      ->transform(positiveNumber())
+      ->type_name("TEXELS");
   prep.add_option("--position-bits", bounds.positionBits, "Exact number of bits per coordinate")
       ->transform(wholeNumberBetween(1, compress::kMaxPositionBits))
       ->type_name("N");

@@ -75,11 +75,15 @@ nlohmann::json toJson(const Report& report) {
           {{"component", p.component}, {"what", p.what}, {"where", p.where}, {"repair", p.repair}});
   }
   if (report.compression.bytes > 0) {
-    json["errors"] = {
-        {"positionMax", report.errors.positionMax},       {"normalMaxDegrees", report.errors.normalMaxDegrees},
-        {"tiltMaxDegrees", report.errors.tiltMaxDegrees}, {"tilted", report.errors.tilted},
-        {"tiltedArea", report.errors.tiltedArea},         {"flipped", report.errors.flipped},
-        {"degenerate", report.errors.degenerate}};
+    json["errors"] = {{"positionMax", report.errors.positionMax},
+                      {"normalMaxDegrees", report.errors.normalMaxDegrees},
+                      {"tiltMaxDegrees", report.errors.tiltMaxDegrees},
+                      {"tilted", report.errors.tilted},
+                      {"tiltedArea", report.errors.tiltedArea},
+                      {"flipped", report.errors.flipped},
+                      {"degenerate", report.errors.degenerate},
+                      {"uvMaxTexels", report.errors.uvMaxTexels},
+                      {"tangentMaxDegrees", report.errors.tangentMaxDegrees}};
     json["compression"] = {
         {"method", report.compression.method},
         {"sequentialReason", report.compression.sequentialReason},
@@ -148,6 +152,8 @@ std::string toText(const Report& report) {
     text += fmt::format("  {:<34}{:>12.1f} ms to encode, {:.1f} ms to decode\n", "  time", c.encodeMs, c.decodeMs);
     text += fmt::format("  {:<34}{:>12.3g} m\n", "position error, at most", report.errors.positionMax);
     text += fmt::format("  {:<34}{:>12.3g} degrees\n", "normal error, at most", report.errors.normalMaxDegrees);
+    if (report.errors.uvMaxTexels > 0)
+      text += fmt::format("  {:<34}{:>12.3g} texels\n", "texture coordinates, at most", report.errors.uvMaxTexels);
     text += fmt::format("  {:<34}{:>12.3g} degrees\n", "tilt of a face, at most", report.errors.tiltMaxDegrees);
     for (const std::string& warning : c.warnings) text += fmt::format("  warning: {}\n", warning);
   }

@@ -53,6 +53,8 @@ struct Report {
     double positionMax = 0;        // metres
     double normalMaxDegrees = 0;   // degrees
     double tiltMaxDegrees = 0;     // of faces with area
+    double uvMaxTexels = 0;        // of texture coordinates, if there are any
+    double tangentMaxDegrees = 0;  // of tangents
     std::uint64_t tilted = 0;      // faces tilted by more than 0.1 degrees
     double tiltedArea = 0;         // their area, square metres
     std::uint64_t flipped = 0;     // faces tilted by more than 90 degrees
@@ -79,10 +81,10 @@ struct Report {
 //  components[{triangles, closed, orientable, flipped, signedVolume, hasVolume, at, firstFace}],
 //  simplification{trianglesBefore, trianglesAfter, maxDeviation, maxNormalDegrees, warnings},
 //  certificate{granted, problems[{component, what, where, repair}]}, errors{positionMax, normalMaxDegrees,
-//  tiltMaxDegrees, tilted, tiltedArea, flipped, degenerate}, compression{method, sequentialReason, bytes,
-//  bytesPerTriangle, positionBits, origin, step, normalBits, encodeMs, decodeMs, warnings}}; simplification and
-//  certificate only if requested, errors and compression only if the mesh was compressed, findings and their members
-//  only if they are not empty.
+//  tiltMaxDegrees, tilted, tiltedArea, flipped, degenerate, uvMaxTexels, tangentMaxDegrees}, compression{method,
+//  sequentialReason, bytes, bytesPerTriangle, positionBits, origin, step, normalBits, encodeMs, decodeMs, warnings}};
+//  simplification and certificate only if requested, errors and compression only if the mesh was compressed, findings
+//  and their members only if they are not empty.
 nlohmann::json toJson(const Report& report);
 
 // Returns a table for a terminal, which ends with a newline. Contains the steps with findings, and the first of each.

@@ -47,7 +47,8 @@ std::uint32_t Encodings::positionBits() const {
   return most;
 }
 
-std::uint64_t inputHash(const Mesh& mesh, const compress::RoundedMesh& rounded, bool keepMap) {
+std::uint64_t inputHash(const Mesh& mesh, const compress::RoundedMesh& rounded,
+                        const compress::RoundedTextures& textures, bool keepMap) {
   ByteWriter codec;
   codec.dvec3(rounded.grid.origin);
   codec.f64(rounded.grid.step);
@@ -62,6 +63,15 @@ std::uint64_t inputHash(const Mesh& mesh, const compress::RoundedMesh& rounded, 
   hash.add(mesh.normals);
   hash.add(mesh.triangles);
   if (keepMap) hash.add(mesh.sourceVertices), hash.add(mesh.sourceFaces);
+  if (textures.grids.any()) {
+    ByteWriter grids;
+    for (const compress::CoordinateGrid& grid : textures.grids.sets)
+      grids.f64(grid.origin.x), grids.f64(grid.origin.y), grids.f64(grid.step);
+    grids.u32(static_cast<std::uint32_t>(textures.grids.tangentBits));
+    hash.add(grids.take());
+    for (const std::vector<glm::ivec2>& set : textures.coordinates) hash.add(set);
+    hash.add(textures.tangents);
+  }
   return hash.value();
 }
 

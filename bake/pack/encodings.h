@@ -24,6 +24,13 @@ struct MeshEncoding {
   std::string sequentialReason;  // empty for edgebreaker
 };
 
+// Grids, bits and errors of the texture attributes of a mesh, from section TCRD.
+struct TextureEncoding {
+  compress::TextureGrids grids;
+  double texels = 0;  // longer side of the image in which errors are counted
+  compress::TextureDeviation deviation;
+};
+
 struct Encodings {
   std::vector<MeshEncoding> meshes;    // per mesh; empty if the pack has no section ENCD
   std::uint32_t positionBits() const;  // the largest of the meshes

@@ -13,8 +13,10 @@
 namespace malus::pack {
 
 // XXH3 of positions before and after rounding, normals, triangles, grid, origin and bits, and of the map to the source
-// if it is kept. Equal inputs give equal bytes and deviations with the same version of the codec.
-std::uint64_t inputHash(const Mesh& mesh, const compress::RoundedMesh& rounded, bool keepMap);
+// if it is kept; of texture attributes too if there are any. Equal inputs give equal bytes and deviations with the same
+// version of the codec.
+std::uint64_t inputHash(const Mesh& mesh, const compress::RoundedMesh& rounded,
+                        const compress::RoundedTextures& textures, bool keepMap);
 
 std::vector<std::byte> encodingBytes(const Encodings& encodings);
 

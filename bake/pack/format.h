@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "meshprep/compress/texture_rounding.h"
+
 namespace malus::pack {
 
 inline constexpr std::array<char, 8> kMagic = {'M', 'A', 'L', 'U', 'S', 'P', 'A', 'K'};
@@ -36,8 +38,8 @@ inline constexpr std::uint32_t kMaxLights = 4096;
 inline constexpr std::uint32_t kMaxEffects = 4096;
 inline constexpr std::uint32_t kMaxVertices = 1u << 28;
 inline constexpr std::uint32_t kMaxTriangles = 1u << 28;
-inline constexpr double kMaxCoordinate = 1e9;         // metres; the squared area of a face still fits a float
-inline constexpr double kMaxTextureCoordinate = 1e6;  // repeats of the image; floats resolve 1/16 of one
+inline constexpr double kMaxCoordinate = 1e9;  // metres; the squared area of a face still fits a float
+inline constexpr double kMaxTextureCoordinate = compress::kMaxTextureCoordinate;
 inline constexpr std::uint32_t kMaxDepth = 255;
 inline constexpr std::uint32_t kMaxResolution = 16384;
 inline constexpr std::uint32_t kMaxEnvironmentSize = 8192;

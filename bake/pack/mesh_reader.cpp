@@ -35,17 +35,18 @@ void checkEntry(const ByteReader& r, const MeshEntry& entry, std::size_t materia
 }
 
 // version: that of the section MESH; in version 1, positions are floats.
-compress::TriangleMesh decodeGeometry(const MeshEntry& entry, std::uint32_t version, std::span<const std::byte> bytes,
-                                      std::string_view where) {
+compress::TriangleMesh decodeGeometry(const MeshEntry& entry, const compress::TextureGrids& textures,
+                                      std::uint32_t version, std::span<const std::byte> bytes, std::string_view where) {
   const std::string location = fmt::format("{}, mesh '{}'", where, entry.name);
   const compress::Limits limits{entry.vertices, entry.triangles};
   if (version == 1) return compress::decodeFloats(bytes, limits, location);
-  return compress::decode(bytes, limits, {entry.gridOrigin, entry.gridStep, compress::kMaxPositionBits}, location);
+  return compress::decode(bytes, limits, {entry.gridOrigin, entry.gridStep, compress::kMaxPositionBits}, location,
+                          textures);
 }
 
-Mesh decodeMesh(const ByteReader& r, const MeshEntry& entry, std::uint32_t version, std::span<const std::byte> bytes,
-                std::string_view where) {
-  compress::TriangleMesh decoded = decodeGeometry(entry, version, bytes, where);
+Mesh decodeMesh(const ByteReader& r, const MeshEntry& entry, const compress::TextureGrids& textures,
+                std::uint32_t version, std::span<const std::byte> bytes, std::string_view where) {
+  compress::TriangleMesh decoded = decodeGeometry(entry, textures, version, bytes, where);
   const bool hasNormals = (entry.flags & kNormalsFlag) != 0;
   if (decoded.normals.empty() == hasNormals)
     r.fail(fmt::format("normals of mesh '{}'", entry.name), hasNormals ? "normals, by its flags" : "none, by its flags",
@@ -70,6 +71,8 @@ Mesh decodeMesh(const ByteReader& r, const MeshEntry& entry, std::uint32_t versi
   mesh.positions = std::move(decoded.positions);
   mesh.normals = std::move(decoded.normals);
   mesh.triangles = std::move(decoded.triangles);
+  mesh.textureCoordinates = std::move(decoded.textureCoordinates);
+  mesh.tangents = std::move(decoded.tangents);
   return mesh;
 }
 
@@ -79,8 +82,8 @@ struct ReadEntry {
 };
 
 // Decodes all meshes in parallel, the largest first. Throws the error of the first mesh that has one.
-std::vector<Mesh> decodeMeshes(std::span<const ReadEntry> entries, std::uint32_t version,
-                               std::span<const std::byte> geometry, std::string_view where) {
+std::vector<Mesh> decodeMeshes(std::span<const ReadEntry> entries, const std::vector<TextureEncoding>& textures,
+                               std::uint32_t version, std::span<const std::byte> geometry, std::string_view where) {
   namespace tbb = oneapi::tbb;
   std::vector<std::size_t> order(entries.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -95,7 +98,7 @@ std::vector<Mesh> decodeMeshes(std::span<const ReadEntry> entries, std::uint32_t
     const MeshEntry& entry = entries[i].entry;
     try {
       meshes[i] = decodeMesh(
-          entries[i].end, entry, version,
+          entries[i].end, entry, i < textures.size() ? textures[i].grids : compress::TextureGrids{}, version,
           geometry.subspan(static_cast<std::size_t>(entry.offset), static_cast<std::size_t>(entry.sizeBytes)), where);
     } catch (...) {
       errors[i] = std::current_exception();
@@ -140,9 +143,12 @@ std::exception_ptr readEntries(ByteReader r, std::uint32_t version, std::size_t 
 void readMeshes(ByteReader r, std::uint32_t version, std::span<const std::byte> geometry, std::uint64_t geometryOffset,
                 std::string_view where, Pack& pack) {
   std::vector<ReadEntry> entries;
-  const std::exception_ptr error = readEntries(std::move(r), version, geometry.size(), geometryOffset, pack, entries);
+  const std::exception_ptr error = readEntries(r, version, geometry.size(), geometryOffset, pack, entries);
   // An error of a mesh precedes those of the table behind it.
-  pack.scene.meshes = decodeMeshes(entries, version, geometry, where);
+  if (!pack.textures.empty() && pack.textures.size() != entries.size() && !error)
+    r.fail(fmt::format("number of entries of section {}", kTextureCoordinates),
+           fmt::format("{}, the number of meshes", entries.size()), fmt::format("{}", pack.textures.size()));
+  pack.scene.meshes = decodeMeshes(entries, pack.textures, version, geometry, where);
   if (error) std::rethrow_exception(error);
 }
 

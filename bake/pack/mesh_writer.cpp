@@ -1,6 +1,5 @@
 #include "bake/pack/mesh_writer.h"
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
@@ -82,11 +81,12 @@ std::string gridChange(const Scene& before, const Scene& after, std::uint32_t bi
 }
 
 // Encodes a mesh and fills its encoding and its report.
-compress::Encoded encodeMesh(const Mesh& mesh, const compress::RoundedMesh& rounded, const compress::Settings& codec,
+compress::Encoded encodeMesh(const Mesh& mesh, const compress::RoundedMesh& rounded,
+                             const compress::RoundedTextures& textures, const compress::Settings& codec,
                              MeshEncoding& encoding, MeshCompression& report) {
   compress::Encoded encoded;
   try {
-    encoded = compress::encode({mesh.positions, mesh.normals, mesh.triangles}, rounded.positions, codec);
+    encoded = compress::encode({mesh.positions, mesh.normals, mesh.triangles}, rounded.positions, codec, textures);
   } catch (const Error& error) {
     throw Error(fmt::format("mesh '{}'", mesh.name), error.what());
   }
@@ -114,6 +114,18 @@ std::vector<compress::Magnification> magnifications(const Scene& scene) {
   return result;
 }
 
+// Rounds the texture attributes of a mesh and fills their encoding.
+compress::RoundedTextures roundTextures(const Scene& scene, const Mesh& mesh, const compress::Bounds& bounds,
+                                        const std::string& where, TextureEncoding& encoding) {
+  if (!mesh.hasTextureAttributes()) return {};
+  const compress::TextureView view = textureView(mesh);
+  encoding.texels = textureTexels(scene, mesh);
+  compress::RoundedTextures textures = compress::roundTextures(view, encoding.texels, bounds, where);
+  encoding.grids = textures.grids;
+  encoding.deviation = compress::measureTextures(view, textures, encoding.texels);
+  return textures;
+}
+
 }  // namespace
 
 EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const PreviousPack* previous) {
@@ -130,9 +142,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
   const ReusableMeshes reusable(previous);
 
   // Encode or reuse each mesh.
-  const bool textured = std::any_of(scene.meshes.begin(), scene.meshes.end(),
-                                    [](const Mesh& mesh) { return mesh.hasTextureAttributes(); });
-  ByteWriter table, geometry, map, coordinates;
+  ByteWriter table, geometry, map;
   table.u32(static_cast<std::uint32_t>(scene.meshes.size()));
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
@@ -142,13 +152,14 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
     MeshEncoding encoding;
     compress::Encoded encoded;
     Result result;
-    const std::uint64_t hash = inputHash(mesh, rounded[i], settings.keepMap);
-    // The order of the vertices of a mesh in the previous pack is not known.
-    const bool canReuse = !mesh.hasTextureAttributes();
-    if (const auto at = canReuse ? reusable.find(hash, mesh, settings.keepMap) : std::nullopt) {
+    const std::string where = fmt::format("mesh '{}'", mesh.name);
+    TextureEncoding& texture = all.textures.emplace_back();
+    const compress::RoundedTextures textures = roundTextures(scene, mesh, settings.bounds, where, texture);
+    const std::uint64_t hash = inputHash(mesh, rounded[i], textures, settings.keepMap);
+    if (const auto at = reusable.find(hash, mesh, settings.keepMap)) {
       result = reusable.take(*at, encoding, report);
     } else {
-      encoded = encodeMesh(mesh, rounded[i], codec, encoding, report);
+      encoded = encodeMesh(mesh, rounded[i], textures, codec, encoding, report);
       encoding.inputHash = hash;
       result = {encoded.bytes, encoded.decoded.positions.size(), encoded.decoded.triangles.size(), {}, {}};
       if (settings.keepMap) {
@@ -157,9 +168,12 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
       }
     }
     const bool glass = mesh.material < scene.materials.size() && hasInside(scene.materials[mesh.material].kind);
-    for (std::string& warning : compress::checkBounds(compress::deviationAfter(magnified[i], encoding.deviation), codec,
-                                                      settings.bounds, glass, fmt::format("mesh '{}'", mesh.name)))
-      all.warnings.push_back(std::move(warning));
+    const auto warn = [&](std::vector<std::string> warnings) {
+      all.warnings.insert(all.warnings.end(), warnings.begin(), warnings.end());
+    };
+    warn(compress::checkBounds(compress::deviationAfter(magnified[i], encoding.deviation), codec, settings.bounds,
+                               glass, where));
+    warn(compress::checkTextures(texture.deviation, texture.grids, settings.bounds, where));
 
     // Write its entry, its bytes and its map.
     geometry.padTo(kAlignment);
@@ -178,12 +192,12 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
     geometry.raw(result.bytes);
     for (const std::uint32_t v : result.sourceVertices) map.u32(v);
     for (const std::uint32_t f : result.sourceFaces) map.u32(f);
-    if (textured) writeTextureAttributes(coordinates, mesh, encoded.sourceVertices);
     report.sequentialReason = encoding.sequentialReason;
     report.sizeBytes = result.bytes.size();
     report.positionBits = static_cast<int>(encoding.positionBits);
     report.normalBits = static_cast<int>(encoding.normalBits);
     report.deviation = encoding.deviation;
+    report.texture = texture;
     all.report.push_back(std::move(report));
     all.encodings.meshes.push_back(std::move(encoding));
   }
@@ -193,7 +207,6 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
   all.table = table.take();
   all.geometry = geometry.take();
   all.map = map.take();
-  all.coordinates = coordinates.take();
   return all;
 }
 

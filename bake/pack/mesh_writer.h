@@ -19,11 +19,11 @@
 namespace malus::pack {
 
 struct EncodedMeshes {
-  std::vector<std::byte> table;        // contents of MESH
-  std::vector<std::byte> geometry;     // of GEOM
-  std::vector<std::byte> map;          // of SMAP; empty unless requested
-  std::vector<std::byte> coordinates;  // of TCRD; empty if no mesh has any
-  Encodings encodings;                 // of ENCD
+  std::vector<std::byte> table;           // contents of MESH
+  std::vector<std::byte> geometry;        // of GEOM
+  std::vector<std::byte> map;             // of SMAP; empty unless requested
+  Encodings encodings;                    // of ENCD
+  std::vector<TextureEncoding> textures;  // of TCRD, per mesh
   std::vector<MeshCompression> report;
   std::vector<std::string> warnings;
   std::string fullRebakeReason;

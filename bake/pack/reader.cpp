@@ -202,8 +202,9 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
   if (const Section* at = find(kWavelengths)) readWavelengths(reader(*at), scene);
   const Section& geometry = *find(kGeometry);
   const Section& meshes = *find(kMeshes);
+  if (const Section* at = find(kTextureCoordinates))
+    pack.textures = readTextureEncodings(reader(*at), fmt::format("{}, section {}", where, at->id));
   readMeshes(reader(meshes), meshes.version, body(geometry), geometry.offset, where, pack);
-  if (const Section* at = find(kTextureCoordinates)) readTextureAttributes(reader(*at), scene.meshes);
   if (const Section* at = find(kInstances)) readInstances(reader(*at), scene.meshes, scene.instances);
   if (const Section* at = find(kEncodings))
     pack.encodings = readEncodings(reader(*at), at->version, scene.meshes.size());

@@ -21,9 +21,10 @@ struct Pack {
   std::vector<Section> sections;  // in file order
   std::uint64_t hash = 0;         // over the header's and the table's bytes, hence over all hashes
   Scene scene;
-  std::vector<std::string> compression;  // per mesh: "edgebreaker" or "sequential"
-  std::vector<DracoData> geometry;       // per mesh: the place of its bytes
-  Encodings encodings;                   // parameters and errors of the encoding; see known()
+  std::vector<std::string> compression;   // per mesh: "edgebreaker" or "sequential"
+  std::vector<DracoData> geometry;        // per mesh: the place of its bytes
+  std::vector<TextureEncoding> textures;  // per mesh: grids and errors of texture attributes; empty without any
+  Encodings encodings;                    // parameters and errors of the encoding; see known()
   bool hasSourceMap() const { return !scene.meshes.empty() && !scene.meshes.front().sourceVertices.empty(); }
 };
 
@@ -32,8 +33,8 @@ struct Pack {
 Pack parse(std::span<const std::byte> bytes, std::string_view where);
 Pack read(const std::filesystem::path& path);
 
-// Hash of the geometry that the renderers see: decoded positions, normals and triangles of every mesh, its origin, and
-// the instances.
+// Hash of the geometry that the renderers see: decoded positions, normals and triangles of every mesh, its origin, the
+// instances, and texture coordinates and tangents if it has any.
 std::uint64_t canonicalGeometryHash(const Scene& scene);
 
 }  // namespace malus::pack

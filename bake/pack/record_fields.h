@@ -283,6 +283,35 @@ void visitInstance(Visitor&& visit, Instances&... i) {
         i.translation...);
 }
 
+// TCRD, per mesh
+struct TextureEntry : TextureEncoding {
+  std::uint32_t tangentBits = 0;
+};
+
+template <class Visitor, class... Entries>
+void visitTextureEntry(Visitor&& visit, Entries&... t) {
+  constexpr double kMost = compress::kMaxTextureCoordinate;
+  constexpr const char* kOrigin = "coordinate of the integer 0, a whole number of steps";
+  constexpr const char* kStep = "distance of neighbouring integers, a power of two; 0: the mesh does not have the set";
+  visit(Field{.name = "set0.u", .low = -2 * kMost, .high = 2 * kMost, .text = kOrigin}, t.grids.sets[0].origin.x...);
+  visit(Field{.name = "set0.v", .low = -2 * kMost, .high = 2 * kMost, .text = kOrigin}, t.grids.sets[0].origin.y...);
+  visit(Field{.name = "set0.step", .high = kMost, .unit = "repeats", .text = kStep}, t.grids.sets[0].step...);
+  visit(Field{.name = "set1.u", .low = -2 * kMost, .high = 2 * kMost, .text = kOrigin}, t.grids.sets[1].origin.x...);
+  visit(Field{.name = "set1.v", .low = -2 * kMost, .high = 2 * kMost, .text = kOrigin}, t.grids.sets[1].origin.y...);
+  visit(Field{.name = "set1.step", .high = kMost, .unit = "repeats", .text = kStep}, t.grids.sets[1].step...);
+  visit(Field{.name = "tangentBits", .high = compress::kMaxTangentBits, .text = "bits of a tangent; 0: none"},
+        t.tangentBits...);
+  visit(Field{.name = "texels", .high = 1e9, .text = "longer side of the image in which errors are counted"},
+        t.texels...);
+  visit(Field{.name = "uvMaxTexels", .high = 1e15, .unit = "texels", .text = "largest error of a coordinate"},
+        t.deviation.uvTexels...);
+  visit(Field{.name = "tangentMaxDegrees",
+              .high = 180,
+              .unit = "degrees",
+              .text = "largest angle between a tangent and its source"},
+        t.deviation.tangentDegrees...);
+}
+
 // ENCD of version 1: the grid that all meshes shared, then the number of meshes
 struct SharedGrid {
   glm::vec3 origin{0};

@@ -1,21 +1,30 @@
-// Section TCRD: texture coordinates and tangents of the meshes.
+// Section TCRD: what the integers of texture coordinates and tangents in GEOM mean.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "bake/pack/bytes.h"
+#include "bake/pack/encodings.h"
 #include "bake/pack/scene.h"
+#include "meshprep/compress/texture_rounding.h"
 
 namespace malus::pack {
 
-// Appends the attributes of a mesh whose vertices the pack stores in another order: order[i] is the mesh's vertex of
-// the pack's vertex i.
-void writeTextureAttributes(ByteWriter& writer, const Mesh& mesh, std::span<const std::uint32_t> order);
+// Longer side in texels of the largest texture of a mesh's material, or compress::kDefaultTexels without any.
+double textureTexels(const Scene& scene, const Mesh& mesh);
 
-// Fills the attributes of the meshes. Throws Error: counts that differ from those of the meshes, values that are not
-// finite or out of range.
-void readTextureAttributes(ByteReader reader, std::vector<Mesh>& meshes);
+// Attributes of a mesh, which must outlive the view.
+compress::TextureView textureView(const Mesh& mesh);
+
+// One entry per mesh. Empty unless one of them has texture attributes.
+std::vector<std::byte> textureBytes(const std::vector<TextureEncoding>& textures);
+
+// Throws Error: a number of entries that is not that of the meshes, numbers out of range, invalid grids. Leaves the
+// list empty without a section.
+std::vector<TextureEncoding> readTextureEncodings(ByteReader reader, std::string_view where);
 
 }  // namespace malus::pack

@@ -13,6 +13,7 @@
 #include "bake/pack/mesh_writer.h"
 #include "bake/pack/reader.h"
 #include "bake/pack/record_fields.h"
+#include "bake/pack/texture_coordinates.h"
 #include "meshprep/base/atomic_file.h"
 
 namespace malus::pack {
@@ -178,7 +179,8 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
   if (scene.wavelengthsNm != kDefaultWavelengthsNm) bodies.push_back({kWavelengths, wavelengthBytes(scene)});
   bodies.push_back({kMeshes, std::move(encoded.table), kNewestMeshes});
   bodies.push_back({kGeometry, std::move(encoded.geometry)});
-  if (!encoded.coordinates.empty()) bodies.push_back({kTextureCoordinates, std::move(encoded.coordinates)});
+  if (std::vector<std::byte> bytes = textureBytes(encoded.textures); !bytes.empty())
+    bodies.push_back({kTextureCoordinates, std::move(bytes)});
   if (!scene.instances.empty()) bodies.push_back({kInstances, instanceBytes(scene.instances)});
   bodies.push_back({kEncodings, encodingBytes(encoded.encodings), kNewestEncodings});
   if (settings.keepMap) bodies.push_back({kSourceMap, std::move(encoded.map)});

@@ -38,6 +38,7 @@ struct MeshCompression {
   int positionBits = 0;
   int normalBits = 0;  // 0 without normals
   compress::Deviation deviation;
+  TextureEncoding texture;
   double encodeMs = 0, decodeMs = 0;  // processor time; 0 if reused
   bool reused = false;                // taken from the previous pack
 };

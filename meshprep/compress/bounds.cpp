@@ -48,6 +48,7 @@ std::string repair(const Settings& used, const Bounds& bounds) {
 void requireValid(const Bounds& bounds) {
   requireBound(bounds.positionError, "position error out of range");
   requireBound(bounds.normalErrorDegrees, "normal error out of range");
+  requireBound(bounds.uvErrorTexels, "error of texture coordinates out of range");
   requireBits(bounds.positionBits, 1, kMaxPositionBits, "number of position bits out of range");
   requireBits(bounds.normalBits, kMinNormalBits, kMaxNormalBits, "number of normal bits out of range");
 }
@@ -110,6 +111,35 @@ std::vector<std::string> checkBounds(const Deviation& deviation, const Settings&
     report(fmt::format("{} of {:.3g} m^2 lose their area with {} position bits, first face {}",
                        deviation.newDegenerate == 1 ? "1 face" : fmt::format("{} faces", deviation.newDegenerate),
                        deviation.degenerateArea, used.grid.positionBits, deviation.degenerateFace));
+  return warnings;
+}
+
+RoundedTextures roundTextures(const TextureView& source, double texels, const Bounds& bounds, std::string_view where) {
+  requireValid(bounds);
+  return roundTextures(source, texels, bounds.uvErrorTexels.value_or(kDefaultUvErrorTexels),
+                       bounds.normalErrorDegrees.value_or(kDefaultNormalErrorDegrees), where);
+}
+
+std::vector<std::string> checkTextures(const TextureDeviation& deviation, const TextureGrids& used,
+                                       const Bounds& bounds, std::string_view where) {
+  const std::string uv = fmt::format("{:.3g} texels with steps of {:g}", deviation.uvTexels,
+                                     std::max(used.sets[0].step, used.sets[1].step));
+  const std::string tangent = fmt::format("{:.3g} degrees with {} bits", deviation.tangentDegrees, used.tangentBits);
+  if (bounds.uvErrorTexels && !(deviation.uvTexels <= *bounds.uvErrorTexels))
+    throw Error(
+        where, "error of texture coordinates exceeds the bound",
+        fmt::format("at most {:g} texels (--max-uv-error), or a smaller range of coordinates", *bounds.uvErrorTexels),
+        uv);
+  if (bounds.normalErrorDegrees && !(deviation.tangentDegrees <= *bounds.normalErrorDegrees))
+    throw Error(where, "error of tangents exceeds the bound",
+                fmt::format("at most {:g} degrees (--normal-error)", *bounds.normalErrorDegrees), tangent);
+  std::vector<std::string> warnings;
+  if (!bounds.uvErrorTexels && deviation.uvTexels > kDefaultUvErrorTexels)
+    warnings.push_back(
+        fmt::format("{}: error of texture coordinates, {}, exceeds {:g}", where, uv, kDefaultUvErrorTexels));
+  if (!bounds.normalErrorDegrees && deviation.tangentDegrees > kDefaultNormalErrorDegrees)
+    warnings.push_back(
+        fmt::format("{}: error of tangents, {}, exceeds {:g} degrees", where, tangent, kDefaultNormalErrorDegrees));
   return warnings;
 }
 

@@ -20,6 +20,7 @@ inline constexpr double kDefaultTiltDegrees = 0.1;
 struct Bounds {
   std::optional<double> positionError;       // largest distance of a vertex from its source, metres, > 0
   std::optional<double> normalErrorDegrees;  // largest angle of a normal from its source, degrees, > 0
+  std::optional<double> uvErrorTexels;       // largest error of a texture coordinate, texels, > 0
   std::optional<int> positionBits;           // exact number, 1 to kMaxPositionBits; positionError is still checked
   std::optional<int> normalBits;             // exact number, kMinNormalBits to kMaxNormalBits
 };
@@ -41,5 +42,12 @@ Deviation deviationAfter(const Magnification& magnification, Deviation deviation
 // and for glass if a face is tilted by more than the default or lost its area. Texts begin with `where`.
 std::vector<std::string> checkBounds(const Deviation& deviation, const Settings& used, const Bounds& bounds, bool glass,
                                      std::string_view where);
+
+// Rounds the attributes of textures of a mesh by the bounds. texels: longer side of the largest image of the mesh.
+RoundedTextures roundTextures(const TextureView& source, double texels, const Bounds& bounds, std::string_view where);
+
+// Checks them as checkBounds() does.
+std::vector<std::string> checkTextures(const TextureDeviation& deviation, const TextureGrids& used,
+                                       const Bounds& bounds, std::string_view where);
 
 }  // namespace malus::compress

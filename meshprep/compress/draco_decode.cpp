@@ -30,20 +30,43 @@ bool hasType(const draco::PointAttribute& attribute, draco::DataType type) {
   return attribute.num_components() == 3 && attribute.data_type() == type;
 }
 
-// Returns true if the attributes are one position of the given type, at most one float normal, and for integers at most
-// one generic attribute of integers, the low bits of the positions.
-bool hasExpectedAttributes(const draco::PointCloud& cloud, draco::DataType positionType) {
+// Attributes that a file must have.
+struct ExpectedAttributes {
+  draco::DataType positionType = draco::DT_INT32;
+  TextureGrids textures;
+  int sets() const { return (textures.sets[0].step > 0 ? 1 : 0) + (textures.sets[1].step > 0 ? 1 : 0); }
+  int tangents() const { return textures.tangentBits > 0 ? 1 : 0; }
+};
+
+bool isTangent(const draco::PointAttribute& attribute) {
+  return attribute.attribute_type() == draco::GeometryAttribute::GENERIC &&
+         attribute.num_components() == kTangentComponents;
+}
+
+bool hasExpectedType(const draco::PointAttribute& attribute, const ExpectedAttributes& expected) {
+  const int components = attribute.num_components();
+  if (attribute.attribute_type() == draco::GeometryAttribute::NORMAL) return hasType(attribute, draco::DT_FLOAT32);
+  if (attribute.attribute_type() == draco::GeometryAttribute::TEX_COORD)
+    return attribute.data_type() == draco::DT_INT32 && (components == 2 || components == 4);
+  if (isTangent(attribute)) return attribute.data_type() == draco::DT_INT32;
+  return hasType(attribute, expected.positionType);
+}
+
+// Returns true if the attributes are one position of the given type, at most one float normal, for integers at most one
+// generic attribute of three integers, the low bits of the positions, and the attributes of textures.
+bool hasExpectedAttributes(const draco::PointCloud& cloud, const ExpectedAttributes& expected) {
   if (cloud.NumNamedAttributes(draco::GeometryAttribute::POSITION) != 1) return false;
   const int normals = cloud.NumNamedAttributes(draco::GeometryAttribute::NORMAL);
-  const int lows = cloud.NumNamedAttributes(draco::GeometryAttribute::GENERIC);
-  if (normals > 1 || lows > (positionType == draco::DT_INT32 ? 1 : 0) || cloud.num_attributes() != 1 + normals + lows)
-    return false;
+  const int generics = cloud.NumNamedAttributes(draco::GeometryAttribute::GENERIC);
+  const int sets = cloud.NumNamedAttributes(draco::GeometryAttribute::TEX_COORD);
+  int tangents = 0;
   for (int i = 0; i < cloud.num_attributes(); ++i) {
-    const draco::PointAttribute& attribute = *cloud.attribute(i);
-    const bool isNormal = attribute.attribute_type() == draco::GeometryAttribute::NORMAL;
-    if (!hasType(attribute, isNormal ? draco::DT_FLOAT32 : positionType)) return false;
+    if (!hasExpectedType(*cloud.attribute(i), expected)) return false;
+    tangents += isTangent(*cloud.attribute(i)) ? 1 : 0;
   }
-  return true;
+  const int lows = generics - tangents;
+  return normals <= 1 && lows <= (expected.positionType == draco::DT_INT32 ? 1 : 0) && sets == expected.sets() &&
+         tangents == expected.tangents() && cloud.num_attributes() == 1 + normals + generics + sets;
 }
 
 // Decoder of Draco that checks the attributes' descriptions before it decodes their values: a few bytes can declare
@@ -51,7 +74,7 @@ bool hasExpectedAttributes(const draco::PointCloud& cloud, draco::DataType posit
 template <class Base>
 class CheckedDecoder : public Base {
  public:
-  CheckedDecoder(const Limits& limits, draco::DataType positionType) : limits_(limits), positionType_(positionType) {}
+  CheckedDecoder(const Limits& limits, const ExpectedAttributes& expected) : limits_(limits), expected_(expected) {}
 
  protected:
   bool DecodeConnectivity() override {
@@ -59,18 +82,18 @@ class CheckedDecoder : public Base {
            this->mesh()->num_faces() == limits_.triangles;
   }
   bool DecodeAllAttributes() override {
-    return hasExpectedAttributes(*this->point_cloud(), positionType_) && Base::DecodeAllAttributes();
+    return hasExpectedAttributes(*this->point_cloud(), expected_) && Base::DecodeAllAttributes();
   }
 
  private:
   Limits limits_;
-  draco::DataType positionType_;
+  ExpectedAttributes expected_;
 };
 
 template <class Base>
-void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, draco::DataType positionType, draco::Mesh& mesh,
-                std::string_view where) {
-  CheckedDecoder<Base> decoder(limits, positionType);
+void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, const ExpectedAttributes& expected,
+                draco::Mesh& mesh, std::string_view where) {
+  CheckedDecoder<Base> decoder(limits, expected);
   const draco::DecoderOptions options;
   draco::Status status;
   try {
@@ -81,11 +104,10 @@ void runDecoder(draco::DecoderBuffer& buffer, const Limits& limits, draco::DataT
   if (!status.ok()) throw Error(where, fmt::format("Draco data is corrupt: {}", status.error_msg_string()), kExpected);
 }
 
-// Returns the values of an attribute, one per vertex. Vector: three values of the attribute's type.
+// Returns the values of an attribute, one per vertex. Vector: as many values of the attribute's type as it has.
 template <class Vector>
 std::vector<Vector> attributeValues(const draco::PointAttribute& attribute, std::uint32_t vertices,
                                     std::string_view what, std::string_view where) {
-  static_assert(sizeof(Vector) == 12);
   std::vector<Vector> values(vertices);
   const std::size_t available = attribute.buffer() == nullptr ? 0 : attribute.buffer()->data_size() / sizeof(Vector);
   // Copy at once if values are contiguous and in vertex order, as in files by encode().
@@ -111,6 +133,55 @@ std::vector<glm::vec3> finiteValues(const draco::PointAttribute& attribute, std:
     if (!std::isfinite(values[i].x) || !std::isfinite(values[i].y) || !std::isfinite(values[i].z))
       throw Error(where, fmt::format("{} of vertex {} is not finite", what, i), kExpected);
   return values;
+}
+
+// Decodes the attributes of textures. Corrupt integers give values out of range.
+void readTextures(const draco::Mesh& mesh, const TextureGrids& grids, std::string_view where, TriangleMesh& result) {
+  const std::uint32_t vertices = mesh.num_points();
+  int id = 0;
+  for (std::size_t set = 0; set < grids.sets.size(); ++set) {
+    if (grids.sets[set].step == 0) continue;
+    const draco::PointAttribute& attribute = *mesh.GetNamedAttribute(draco::GeometryAttribute::TEX_COORD, id++);
+    std::vector<glm::ivec2> integers;
+    if (attribute.num_components() == 2) {
+      integers = attributeValues<glm::ivec2>(attribute, vertices, "texture coordinate", where);
+    } else {
+      for (const glm::ivec4& k : attributeValues<glm::ivec4>(attribute, vertices, "texture coordinate", where)) {
+        constexpr int kHigh = 1 << (kMaxCoordinateBits - kLowBits);
+        const bool isValid =
+            std::min({k.x, k.y, k.z, k.w}) >= 0 && std::max(k.x, k.y) < kHigh && std::max(k.z, k.w) < 1 << kLowBits;
+        integers.push_back(isValid ? glm::ivec2(k.x << kLowBits | k.z, k.y << kLowBits | k.w) : glm::ivec2(-1));
+      }
+    }
+    for (const glm::ivec2& k : integers) {
+      const glm::vec2 uv = decodedCoordinate(grids.sets[set], k);
+      if (std::min(k.x, k.y) < 0 || std::max(k.x, k.y) >= 1 << kMaxCoordinateBits ||
+          !(std::max(std::abs(uv.x), std::abs(uv.y)) <=
+            static_cast<float>(kMaxTextureCoordinate + grids.sets[set].step)))
+        throw Error(where, "texture coordinate is out of range", fmt::format("up to {:g}", kMaxTextureCoordinate),
+                    fmt::format("({}, {}) steps of {:g}", k.x, k.y, grids.sets[set].step));
+      result.textureCoordinates[set].push_back(uv);
+    }
+  }
+  if (grids.tangentBits == 0) return;
+  int generic = 0;
+  while (!isTangent(*mesh.GetNamedAttribute(draco::GeometryAttribute::GENERIC, generic))) ++generic;
+  const int most = (1 << grids.tangentBits) - 2;
+  for (const glm::ivec2& k : attributeValues<glm::ivec2>(
+           *mesh.GetNamedAttribute(draco::GeometryAttribute::GENERIC, generic), vertices, "tangent", where)) {
+    if (std::min(k.x, k.y) < 0 || k.x > most || k.y / 2 > most)
+      throw Error(where, "tangent is out of range", fmt::format("0 to {}", most),
+                  fmt::format("({}, {})", k.x, k.y / 2));
+    result.tangents.push_back(decodedTangent(k, grids.tangentBits));
+  }
+}
+
+// Returns the low bits of the positions, or nullptr.
+const draco::PointAttribute* lowBits(const draco::Mesh& mesh) {
+  for (int i = 0; i < mesh.NumNamedAttributes(draco::GeometryAttribute::GENERIC); ++i)
+    if (const auto* attribute = mesh.GetNamedAttribute(draco::GeometryAttribute::GENERIC, i); !isTangent(*attribute))
+      return attribute;
+  return nullptr;
 }
 
 // Returns the positions of integers on the grid. low: attribute of their low bits, or nullptr.
@@ -159,19 +230,19 @@ void checkCounts(const DracoHeader& header, std::size_t size, const Limits& limi
 
 // grid: of integer positions; nullptr: positions are floats.
 TriangleMesh decodeMesh(std::span<const std::byte> bytes, const Limits& limits, const Grid* grid,
-                        std::string_view where) {
+                        const TextureGrids& textures, std::string_view where) {
   const DracoHeader header = parseHeader(bytes, where);
   checkCounts(header, bytes.size(), limits, where);
 
   // Decode.
-  const draco::DataType positionType = grid != nullptr ? draco::DT_INT32 : draco::DT_FLOAT32;
+  const ExpectedAttributes expected{grid != nullptr ? draco::DT_INT32 : draco::DT_FLOAT32, textures};
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Mesh mesh;
   if (header.method == Method::kSequential) {
-    runDecoder<draco::MeshSequentialDecoder>(buffer, limits, positionType, mesh, where);
+    runDecoder<draco::MeshSequentialDecoder>(buffer, limits, expected, mesh, where);
   } else {
-    runDecoder<draco::MeshEdgebreakerDecoder>(buffer, limits, positionType, mesh, where);
+    runDecoder<draco::MeshEdgebreakerDecoder>(buffer, limits, expected, mesh, where);
   }
   if (mesh.num_points() != limits.vertices || mesh.num_faces() != limits.triangles)
     throw Error(where, "Draco data decodes to unexpected counts",
@@ -182,8 +253,7 @@ TriangleMesh decodeMesh(std::span<const std::byte> bytes, const Limits& limits, 
   TriangleMesh result;
   const draco::PointAttribute& positions = *mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
   if (grid != nullptr) {
-    result.positions = gridPositions(positions, mesh.GetNamedAttribute(draco::GeometryAttribute::GENERIC),
-                                     limits.vertices, *grid, where);
+    result.positions = gridPositions(positions, lowBits(mesh), limits.vertices, *grid, where);
   } else {
     for (const glm::vec3& p : finiteValues(positions, limits.vertices, "position", where))
       result.positions.emplace_back(p);
@@ -197,6 +267,7 @@ TriangleMesh decodeMesh(std::span<const std::byte> bytes, const Limits& limits, 
       result.normals[i] /= length;
     }
   }
+  readTextures(mesh, textures, where, result);
   result.triangles.resize(limits.triangles);
   for (std::uint32_t i = 0; i < limits.triangles; ++i) {
     const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
@@ -215,13 +286,15 @@ Limits declaredCounts(std::span<const std::byte> bytes, std::string_view where) 
   return {header.vertices, header.triangles};
 }
 
-TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, const Grid& grid, std::string_view where) {
+TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, const Grid& grid, std::string_view where,
+                    const TextureGrids& textures) {
   requireValid(grid, where);
-  return decodeMesh(bytes, limits, &grid, where);
+  requireValid(textures, where);
+  return decodeMesh(bytes, limits, &grid, textures, where);
 }
 
 TriangleMesh decodeFloats(std::span<const std::byte> bytes, const Limits& limits, std::string_view where) {
-  return decodeMesh(bytes, limits, nullptr, where);
+  return decodeMesh(bytes, limits, nullptr, {}, where);
 }
 
 }  // namespace malus::compress

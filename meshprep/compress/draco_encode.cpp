@@ -80,9 +80,24 @@ std::vector<glm::ivec3> gridIntegers(std::span<const glm::dvec3> rounded, const 
   return integers;
 }
 
+// Requires the decoded attributes of textures to be the rounded ones.
+void compareTextures(const RoundedTextures& textures, const TriangleMesh& decoded) {
+  bool isEqual = decoded.tangents.size() == textures.tangents.size();
+  for (std::size_t i = 0; isEqual && i < textures.tangents.size(); ++i)
+    isEqual = decoded.tangents[i] == decodedTangent(textures.tangents[i], textures.grids.tangentBits);
+  for (std::size_t set = 0; set < textures.coordinates.size(); ++set) {
+    const std::vector<glm::ivec2>& integers = textures.coordinates[set];
+    const std::vector<glm::vec2>& found = decoded.textureCoordinates[set];
+    isEqual = isEqual && found.size() == integers.size();
+    for (std::size_t i = 0; isEqual && i < integers.size(); ++i)
+      isEqual = found[i] == decodedCoordinate(textures.grids.sets[set], integers[i]);
+  }
+  if (!isEqual) throw Error(kLocation, "Draco changed texture coordinates or tangents", "the integers of the input");
+}
+
 // Requires the sequential result to have the triangles and the rounded positions of the input, and measures it.
 void compareWithSource(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings,
-                       Encoded& encoded) {
+                       const RoundedTextures& textures, Encoded& encoded) {
   const TriangleMesh& decoded = encoded.decoded;
   if (!std::equal(decoded.triangles.begin(), decoded.triangles.end(), mesh.triangles.begin(), mesh.triangles.end()) ||
       decoded.positions.size() != mesh.positions.size() || decoded.normals.size() != mesh.normals.size())
@@ -91,6 +106,7 @@ void compareWithSource(const MeshView& mesh, std::span<const glm::dvec3> rounded
     if (decoded.positions[i] != rounded[i])
       throw Error(kLocation, fmt::format("Draco moved position {}", i), "the integers of the input",
                   fmt::format("{:g} m", glm::distance(decoded.positions[i], rounded[i])));
+  compareTextures(textures, decoded);
   encoded.deviation = measureDeviation(mesh, decoded.positions, decoded.normals, settings.leastCross);
   if (!(encoded.deviation.normalMaxDegrees <= normalTolerance(settings.normalBits)))
     throw Error(kLocation, "Draco rotated a normal too far",
@@ -113,18 +129,20 @@ std::vector<std::uint32_t> identity(std::size_t size) {
 
 // Encodes sequentially and compares with the input.
 Encoded encodeSequentially(const MeshView& mesh, std::span<const glm::dvec3> rounded,
-                           std::span<const glm::ivec3> integers, const Settings& settings, const Limits& limits) {
+                           std::span<const glm::ivec3> integers, const Settings& settings,
+                           const RoundedTextures& textures, const Limits& limits) {
   Encoded encoded;
   const double start = threadMs();
-  std::optional<std::vector<std::byte>> bytes = encodeDraco(Method::kSequential, mesh, integers, settings.normalBits);
+  std::optional<std::vector<std::byte>> bytes =
+      encodeDraco(Method::kSequential, mesh, integers, settings.normalBits, textures);
   encoded.encodeMs = threadMs() - start;
   if (!bytes) throw Error(kLocation, "Draco cannot encode the mesh");
   encoded.bytes = std::move(*bytes);
   encoded.method = "sequential";
   const double decoding = threadMs();
-  encoded.decoded = decode(encoded.bytes, limits, settings.grid, kLocation);
+  encoded.decoded = decode(encoded.bytes, limits, settings.grid, kLocation, textures.grids);
   encoded.decodeMs = threadMs() - decoding;
-  compareWithSource(mesh, rounded, settings, encoded);
+  compareWithSource(mesh, rounded, settings, textures, encoded);
   return encoded;
 }
 
@@ -136,15 +154,15 @@ struct Edgebreaker {
 };
 
 Edgebreaker encodeByEdgebreaker(const MeshView& mesh, std::span<const glm::ivec3> integers, const Settings& settings,
-                                const Limits& limits) {
+                                const RoundedTextures& textures, const Limits& limits) {
   Edgebreaker result;
   const double start = threadMs();
-  result.bytes = encodeDraco(Method::kEdgebreaker, mesh, integers, settings.normalBits);
+  result.bytes = encodeDraco(Method::kEdgebreaker, mesh, integers, settings.normalBits, textures);
   result.encodeMs = threadMs() - start;
   if (!result.bytes) return result;
   const double decoding = threadMs();
   try {
-    result.decoded = decode(*result.bytes, limits, settings.grid, kLocation);
+    result.decoded = decode(*result.bytes, limits, settings.grid, kLocation, textures.grids);
   } catch (const Error&) {  // see preferEdgebreaker
   }
   result.decodeMs = threadMs() - decoding;
@@ -154,7 +172,7 @@ Edgebreaker encodeByEdgebreaker(const MeshView& mesh, std::span<const glm::ivec3
 // Replaces the sequential encoding by the edgebreaker one if that is smaller and equivalent: the decoded mesh is a
 // permutation of the sequential result. Otherwise returns the reason.
 std::string preferEdgebreaker(Edgebreaker&& candidate, const MeshView& mesh, std::span<const glm::ivec3> integers,
-                              const Limits& limits, Encoded& encoded) {
+                              const RoundedTextures& textures, const Limits& limits, Encoded& encoded) {
   auto& [bytes, decoded, encodeMs, decodeMs] = candidate;
   if (!bytes) return "edgebreaker refuses the mesh";
   if (bytes->size() >= encoded.bytes.size()) return "edgebreaker is not smaller";
@@ -162,7 +180,7 @@ std::string preferEdgebreaker(Edgebreaker&& candidate, const MeshView& mesh, std
     return "edgebreaker makes the mesh smaller than a reader trusts";
   if (!decoded) return "edgebreaker changes the counts: faces that are degenerate or not manifold, or loose vertices";
   std::optional<std::vector<std::uint32_t>> vertices = matchVertices(encoded.decoded, *decoded);
-  if (!vertices) vertices = edgebreakerOrder(mesh, integers);  // several vertices have equal values
+  if (!vertices) vertices = edgebreakerOrder(mesh, integers, textures);  // several vertices have equal values
   if (!vertices) return "edgebreaker gives an unknown order of vertices";
   std::optional<std::vector<std::uint32_t>> triangles = sourceTriangles(encoded.decoded, *decoded, *vertices);
   if (!triangles) return "edgebreaker changes the triangles";
@@ -238,8 +256,15 @@ Encoded encode(const MeshView& mesh, const Settings& settings) {
   return encode(mesh, roundPositions(mesh.positions, settings.grid.step), settings);
 }
 
-Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings) {
+Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings,
+               const RoundedTextures& textures) {
   checkInput(mesh, settings);
+  requireValid(textures.grids, kLocation);
+  for (const std::size_t size :
+       {textures.coordinates[0].size(), textures.coordinates[1].size(), textures.tangents.size()})
+    if (size != 0 && size != mesh.positions.size())
+      throw Error(kLocation, "wrong number of texture coordinates or tangents", fmt::to_string(mesh.positions.size()),
+                  fmt::to_string(size));
   if (rounded.size() != mesh.positions.size()) throw Error(kLocation, "wrong number of rounded positions");
   const std::vector<glm::ivec3> integers = gridIntegers(rounded, settings.grid);
   const Limits limits{static_cast<std::uint32_t>(mesh.positions.size()),
@@ -247,9 +272,10 @@ Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const 
 
   Encoded encoded;
   Edgebreaker candidate;
-  oneapi::tbb::parallel_invoke([&] { encoded = encodeSequentially(mesh, rounded, integers, settings, limits); },
-                               [&] { candidate = encodeByEdgebreaker(mesh, integers, settings, limits); });
-  encoded.sequentialReason = preferEdgebreaker(std::move(candidate), mesh, integers, limits, encoded);
+  oneapi::tbb::parallel_invoke(
+      [&] { encoded = encodeSequentially(mesh, rounded, integers, settings, textures, limits); },
+      [&] { candidate = encodeByEdgebreaker(mesh, integers, settings, textures, limits); });
+  encoded.sequentialReason = preferEdgebreaker(std::move(candidate), mesh, integers, textures, limits, encoded);
   if (!encoded.sequentialReason.empty()) {
     encoded.sourceVertices = identity(mesh.positions.size());
     encoded.sourceTriangles = identity(mesh.triangles.size());

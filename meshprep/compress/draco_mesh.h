@@ -18,6 +18,7 @@
 // Draco bitstream specification 2.2, https://google.github.io/draco/spec/.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,7 +26,11 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "meshprep/compress/texture_rounding.h"
 
 namespace malus::compress {
 
@@ -33,6 +38,8 @@ struct TriangleMesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> normals;  // unit length, one per vertex; or empty
   std::vector<glm::uvec3> triangles;
+  std::array<std::vector<glm::vec2>, 2> textureCoordinates;  // one per vertex, or empty
+  std::vector<glm::vec4> tangents;                           // unit length, and the sign of the bitangent; or empty
 };
 
 // Factors by which the places of a mesh in a scene change its lengths and may change its angles. Bounds of errors hold
@@ -134,8 +141,9 @@ struct Encoded {
 Encoded encode(const MeshView& mesh, const Settings& settings);
 
 // The same for positions that the caller rounded: one point of the grid per vertex of mesh. The deviation is that from
-// mesh.
-Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings);
+// mesh. textures: rounded attributes, which Draco stores without a change.
+Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings,
+               const RoundedTextures& textures = {});
 
 // Largest number of vertices, and of triangles, per byte of a Draco file. Draco allocates its tables for the declared
 // counts before it reads the data; files that declare more are refused, so that memory is proportional to the file
@@ -155,10 +163,11 @@ struct Limits {
 Limits declaredCounts(std::span<const std::byte> bytes, std::string_view where);
 
 // Decodes files by encode(): one attribute of positions, three integers of the grid (draco_write.h: above 20 bits
-// in two attributes), and at most one of normals, three floats. All values of the result are finite, indices are below
-// the number of vertices and normals have unit length. Throws Error (begins with `where`). Corrupt bytes may decode to
-// a different valid mesh: store a hash to detect them.
-TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, const Grid& grid, std::string_view where);
+// in two attributes), at most one of normals, three floats, and those of textures that have a grid. All values of the
+// result are finite, indices are below the number of vertices and normals have unit length. Throws Error (begins with
+// `where`). Corrupt bytes may decode to a different valid mesh: store a hash to detect them.
+TriangleMesh decode(std::span<const std::byte> bytes, const Limits& limits, const Grid& grid, std::string_view where,
+                    const TextureGrids& textures = {});
 
 // Decodes the files of packs of format version 1, whose positions are three floats that Draco quantized.
 TriangleMesh decodeFloats(std::span<const std::byte> bytes, const Limits& limits, std::string_view where);

@@ -20,19 +20,42 @@ namespace {
 // transferred. The scanned engine has 6.0 to 6.1 bytes per triangle with all of them.
 constexpr int kSpeed = 6;
 
-// Adds an attribute of the values valueAt(0) to valueAt(count - 1), three components of type T, which dataType names.
-template <class T, class ValueAt>
+// Adds an attribute of the vectors valueAt(0) to valueAt(count - 1) with components of the type that dataType names.
+template <class ValueAt>
 int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType dataType, std::size_t count,
                  ValueAt valueAt) {
+  using Vector = decltype(valueAt(std::size_t{0}));
   draco::GeometryAttribute description;
-  description.Init(type, nullptr, 3, dataType, false, 3 * sizeof(T), 0);
+  description.Init(type, nullptr, static_cast<std::int8_t>(Vector::length()), dataType, false, sizeof(Vector), 0);
   const int id = mesh.AddAttribute(description, true, static_cast<std::uint32_t>(count));
   for (std::uint32_t i = 0; i < count; ++i) {
-    const auto v = valueAt(i);
-    const std::array<T, 3> value{v.x, v.y, v.z};
-    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), value.data());
+    const Vector value = valueAt(i);
+    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &value);
   }
   return id;
+}
+
+constexpr int kLowMask = (1 << kLowBits) - 1;
+
+bool areSplit(std::span<const glm::ivec2> coordinates) {
+  return std::any_of(coordinates.begin(), coordinates.end(),
+                     [](const glm::ivec2& k) { return std::max(k.x, k.y) >= 1 << kPlainBits; });
+}
+
+// Adds the attributes of textures.
+void addTextures(draco::Mesh& mesh, const RoundedTextures& textures) {
+  for (const std::vector<glm::ivec2>& set : textures.coordinates) {
+    if (set.empty()) continue;
+    if (areSplit(set))
+      addAttribute(mesh, draco::GeometryAttribute::TEX_COORD, draco::DT_INT32, set.size(),
+                   [&](std::size_t i) { return glm::ivec4(set[i] >> kLowBits, set[i] & kLowMask); });
+    else
+      addAttribute(mesh, draco::GeometryAttribute::TEX_COORD, draco::DT_INT32, set.size(),
+                   [&](std::size_t i) { return set[i]; });
+  }
+  if (!textures.tangents.empty())
+    addAttribute(mesh, draco::GeometryAttribute::GENERIC, draco::DT_INT32, textures.tangents.size(),
+                 [&](std::size_t i) { return textures.tangents[i]; });
 }
 
 // Adds an attribute with the index of each vertex in all components.
@@ -68,22 +91,25 @@ bool areSplit(std::span<const glm::ivec3> positions) {
 }
 
 std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView& mesh,
-                                                  std::span<const glm::ivec3> positions, int normalBits) {
+                                                  std::span<const glm::ivec3> positions, int normalBits,
+                                                  const RoundedTextures& textures) {
   draco::Mesh source;
   setTriangles(source, mesh);
   const auto addIntegers = [&](draco::GeometryAttribute::Type type, auto integerAt) {
-    addAttribute<std::int32_t>(source, type, draco::DT_INT32, positions.size(), integerAt);
+    addAttribute(source, type, draco::DT_INT32, positions.size(), integerAt);
   };
   if (areSplit(positions)) {
     addIntegers(draco::GeometryAttribute::POSITION, [&](std::size_t i) { return positions[i] >> kLowBits; });
-    addIntegers(draco::GeometryAttribute::GENERIC, [&](std::size_t i) { return positions[i] & ((1 << kLowBits) - 1); });
+    addIntegers(draco::GeometryAttribute::GENERIC, [&](std::size_t i) { return positions[i] & kLowMask; });
   } else {
     addIntegers(draco::GeometryAttribute::POSITION, [&](std::size_t i) { return positions[i]; });
   }
   const int normals = mesh.normals.empty()
                           ? -1
-                          : addAttribute<float>(source, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32,
-                                                mesh.normals.size(), [&](std::size_t i) { return mesh.normals[i]; });
+                          : addAttribute(source, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32,
+                                         mesh.normals.size(), [&](std::size_t i) { return mesh.normals[i]; });
+
+  addTextures(source, textures);
 
   draco::ExpertEncoder encoder(source);
   encoder.SetSpeedOptions(kSpeed, kSpeed);
@@ -97,14 +123,15 @@ std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView&
   return std::vector<std::byte>(data, data + buffer.size());
 }
 
-std::optional<std::vector<std::uint32_t>> edgebreakerOrder(const MeshView& mesh,
-                                                           std::span<const glm::ivec3> positions) {
+std::optional<std::vector<std::uint32_t>> edgebreakerOrder(const MeshView& mesh, std::span<const glm::ivec3> positions,
+                                                           const RoundedTextures& textures) {
   // Encode the same connectivity and the same number of attributes, on which the order depends.
   draco::Mesh source;
   setTriangles(source, mesh);
   addNumbers(source, draco::GeometryAttribute::POSITION, 3, mesh.positions.size());
   if (areSplit(positions)) addNumbers(source, draco::GeometryAttribute::GENERIC, 3, mesh.positions.size());
   if (!mesh.normals.empty()) addNumbers(source, draco::GeometryAttribute::GENERIC, 1, mesh.positions.size());
+  addTextures(source, textures);
   draco::ExpertEncoder encoder(source);
   encoder.SetSpeedOptions(kSpeed, kSpeed);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);

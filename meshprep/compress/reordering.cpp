@@ -68,6 +68,31 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t bits) {
   return hash ^ hash >> 33u;
 }
 
+// Mixes the attributes of textures of a vertex into a hash.
+std::uint64_t mixedTextures(std::uint64_t hash, const TriangleMesh& mesh, std::size_t v) {
+  const auto add = [&](float value) { hash = mixed(hash, std::bit_cast<std::uint32_t>(value + 0.0f)); };
+  for (const std::vector<glm::vec2>& set : mesh.textureCoordinates)
+    if (!set.empty()) add(set[v].x), add(set[v].y);
+  if (!mesh.tangents.empty())
+    for (int i = 0; i < 4; ++i) add(mesh.tangents[v][i]);
+  return hash;
+}
+
+// Compares all values of two vertices of meshes with the same attributes.
+bool areEqual(const TriangleMesh& a, std::size_t i, const TriangleMesh& b, std::size_t j) {
+  if (a.positions[i] != b.positions[j] || (!a.normals.empty() && a.normals[i] != b.normals[j])) return false;
+  for (std::size_t set = 0; set < a.textureCoordinates.size(); ++set)
+    if (!a.textureCoordinates[set].empty() && a.textureCoordinates[set][i] != b.textureCoordinates[set][j])
+      return false;
+  return a.tangents.empty() || a.tangents[i] == b.tangents[j];
+}
+
+bool haveEqualSizes(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.positions.size() == b.positions.size() && a.normals.size() == b.normals.size() &&
+         a.textureCoordinates[0].size() == b.textureCoordinates[0].size() &&
+         a.textureCoordinates[1].size() == b.textureCoordinates[1].size() && a.tangents.size() == b.tangents.size();
+}
+
 // Hash table of the vertices of a mesh by their values.
 class VertexTable {
  public:
@@ -82,11 +107,9 @@ class VertexTable {
     if (!mesh.normals.empty())
       for (int axis = 0; axis < 3; ++axis)
         hash = mixed(hash, std::bit_cast<std::uint32_t>(mesh.normals[v][axis] + 0.0f));
-    for (std::size_t slot = hash;; ++slot) {
+    for (std::size_t slot = mixedTextures(hash, mesh, v);; ++slot) {
       std::uint32_t& number = slots_[slot & (slots_.size() - 1)];
-      if (number == kNone ||
-          (mesh_.positions[number] == p && (mesh.normals.empty() || mesh_.normals[number] == mesh.normals[v])))
-        return number;
+      if (number == kNone || areEqual(mesh_, number, mesh, v)) return number;
     }
   }
 
@@ -98,7 +121,7 @@ class VertexTable {
 }  // namespace
 
 std::optional<std::vector<std::uint32_t>> matchVertices(const TriangleMesh& source, const TriangleMesh& decoded) {
-  if (decoded.normals.size() != source.normals.size()) return std::nullopt;
+  if (!haveEqualSizes(source, decoded)) return std::nullopt;
   VertexTable table(source);
   for (std::size_t v = 0; v < source.positions.size(); ++v) {
     std::uint32_t& number = table.find(source, v);
@@ -117,16 +140,15 @@ std::optional<std::vector<std::uint32_t>> sourceTriangles(const TriangleMesh& so
                                                           std::span<const std::uint32_t> vertices) {
   // Compare counts.
   const std::size_t count = source.positions.size();
-  if (decoded.positions.size() != count || vertices.size() != count ||
-      decoded.normals.size() != source.normals.size() || decoded.triangles.size() != source.triangles.size())
+  if (!haveEqualSizes(source, decoded) || vertices.size() != count ||
+      decoded.triangles.size() != source.triangles.size())
     return std::nullopt;
 
   // Require each vertex once, with equal values.
   std::vector<bool> used(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t v = vertices[i];
-    if (v >= count || used[v] || decoded.positions[i] != source.positions[v]) return std::nullopt;
-    if (!source.normals.empty() && decoded.normals[i] != source.normals[v]) return std::nullopt;
+    if (v >= count || used[v] || !areEqual(source, v, decoded, i)) return std::nullopt;
     used[v] = true;
   }
 

@@ -14,6 +14,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "meshprep/compress/texture_rounding.h"
+
 namespace malus::prep {
 
 // Group of faces: a group or object of OBJ, a primitive of glTF.
@@ -27,8 +29,7 @@ struct Part {
 // is ignored.
 inline constexpr std::string_view kAcceptedNote = "accepted: ";
 
-// Largest texture coordinate that is read, in repeats of the image; beyond it floats resolve less than 1/16 of one.
-inline constexpr double kMaxTextureCoordinate = 1e6;
+using compress::kMaxTextureCoordinate;
 
 // Returns true if a texture coordinate is a finite number in the accepted range.
 inline bool isAcceptedCoordinate(double value) {

@@ -91,6 +91,7 @@ std::map<std::string, std::string> formatTables() {
           {"SKYP", formatTable<pack::Environment>(MALUS_DESCRIBED(visitSky))},
           {"MESH", formatTable<pack::MeshEntry>(MALUS_DESCRIBED(visitMeshEntry), {pack::kMeshes, pack::kNewestMeshes})},
           {"INST", formatTable<pack::Instance>(MALUS_DESCRIBED(visitInstance))},
+          {"TCRD", formatTable<pack::TextureEntry>(MALUS_DESCRIBED(visitTextureEntry))},
           {"ENCD grid", formatTable<pack::SharedGrid>(MALUS_DESCRIBED(visitSharedGrid))},
           {"ENCD", formatTable<pack::MeshEncoding>(MALUS_DESCRIBED(visitMeshEncoding),
                                                    {pack::kEncodings, pack::kNewestEncodings})},

@@ -1,6 +1,8 @@
 // Unpacking: the files contain the numbers of the pack.
 #include "bake/unpack.h"
 
+#include <cstring>
+
 #include "bake/pack/writer.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/image.h"
@@ -47,6 +49,24 @@ TEST(Unpack, WritesTheContentsOfThePack) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) EXPECT_EQ(read.face(t)[static_cast<std::size_t>(k)], mesh.triangles[t][k]);
   }
+}
+
+TEST(Unpack, WritesTextureCoordinatesAndTangents) {
+  const test::TemporaryFolder folder;
+  const pack::Pack pack = pack::parse(pack::serialize(test::unusualScene(), {}).bytes, "unusual");
+  unpack(pack, folder.path() / "out");
+  const pack::Mesh& mesh = pack.scene.meshes[0];
+  const std::string text = readTextFile(folder.path() / "out/meshes/000.ply"), end = "end_header\n";
+  EXPECT_CONTAINS(text, "float s\n", "float t1\n", "float tw\n");
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    float numbers[14];  // x y z, nx ny nz, s t, s1 t1, tx ty tz tw
+    std::memcpy(numbers, text.data() + text.find(end) + end.size() + v * sizeof numbers, sizeof numbers);
+    EXPECT_EQ(numbers[3], mesh.normals[v].x);
+    EXPECT_EQ(glm::vec2(numbers[6], numbers[7]), mesh.textureCoordinates[0][v]);
+    EXPECT_EQ(glm::vec2(numbers[8], numbers[9]), mesh.textureCoordinates[1][v]);
+    EXPECT_EQ(glm::vec4(numbers[10], numbers[11], numbers[12], numbers[13]), mesh.tangents[v]);
+  }
+  EXPECT_EQ(prep::readMesh(folder.path() / "out/meshes/000.ply").positions, mesh.positions);
 }
 
 TEST(Unpack, WritesTheSourceMapIfStored) {

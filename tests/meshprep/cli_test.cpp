@@ -65,6 +65,27 @@ TEST_F(PrepCommand, WritesAMeshAndAReport) {
   EXPECT_EQ(mesh.normals.size(), 24u);
 }
 
+TEST_F(PrepCommand, KeepsTextureCoordinatesOnRequest) {
+  std::string text = test::objText(test::cube());
+  text += "vt 0 0\nvt 0.3 0\nvt 0 0.7\nf 1/1 2/2 3/3\n";
+  const TemporaryFile file(".obj", text);
+  const std::vector<std::string> arguments = {file.path().string(), "-o", output_.string(), "--json", "--open-surface"};
+  run(arguments);
+  EXPECT_TRUE(compress::decodeMeshFile(readFile(output_), "file").textureCoordinates[0].empty());
+  for (const char* bound : {"0.0625", "4"}) {
+    std::vector<std::string> bounded = arguments;
+    bounded.insert(bounded.end(), {"--max-uv-error", bound});
+    const nlohmann::json json = nlohmann::json::parse(run(bounded));
+    const compress::TriangleMesh mesh = compress::decodeMeshFile(readFile(output_), "file");
+    EXPECT_EQ(mesh.textureCoordinates[0].size(), mesh.positions.size());
+    EXPECT_LE(json["errors"]["uvMaxTexels"].get<double>(), std::stod(bound));
+    EXPECT_GT(json["errors"]["uvMaxTexels"].get<double>(), 0);
+  }
+  std::vector<std::string> bad = arguments;
+  bad.insert(bad.end(), {"--max-uv-error", "0"});
+  EXPECT_ANY_THROW(run(bad));
+}
+
 TEST_F(PrepCommand, PrintsATable) {
   const std::string printed = run({input_.path().string(), "-o", output_.string(), "--flat"});
   EXPECT_TRUE(contains(printed, "before"));
@@ -160,7 +181,7 @@ TEST_F(PrepCommand, DeliversWhatIsCertified) {
   };
   EXPECT_NEAR(volume(delivered(test::cube(1, {2e7, 1, 1}))), 1, 1e-6);
   Mesh sphere = test::sphere(15, 32);
-  const double source = volume({sphere.positions, {}, sphere.triangles});
+  const double source = volume({sphere.positions, {}, sphere.triangles, {}, {}});
   for (glm::dvec3& p : sphere.positions) p += glm::dvec3(500000.3, 5400000.7, 100.2);
   EXPECT_NEAR(volume(delivered(sphere)), source, 1e-4);
   for (const double size : {1e-30, 1e30})

@@ -20,6 +20,7 @@
 #include "meshprep/clean/position_ids.h"
 #include "meshprep/halfedge/half_edge_mesh.h"
 #include "meshprep/simplify/keep_creases.h"
+#include "meshprep/simplify/seams.h"
 #include "meshprep/simplify/surface.h"
 #include "meshprep/simplify/surface_deviation.h"
 
@@ -137,42 +138,33 @@ Mesh decimate(const Mesh& mesh, const HalfEdgeMesh& marked, double scale, const 
 
 struct Deviation {
   double metres = 0, normalDegrees = 0;
+  double imageMetres = 0;  // by which the image moves on the surface
 };
 
+// seams: of a mesh with texture attributes, or nullptr.
 Deviation measure(const Mesh& before, const Surface& surfaceBefore, const Mesh& after, const SimplifyBounds& bounds,
-                  double size) {
+                  const Seams* seams, double size) {
   const Surface surfaceAfter(after);
   const double tolerance = bounds.maxError ? kMeasureTolerance * *bounds.maxError : kMinMeasureTolerance * size;
   Deviation deviation;
   deviation.metres =
       std::max(maxDistance(before, surfaceAfter, tolerance), maxDistance(after, surfaceBefore, tolerance));
   deviation.normalDegrees = maxNormalDeviation(before, surfaceAfter, deviation.metres);
+  if (seams != nullptr && bounds.maxError)
+    deviation.imageMetres = seams->imageDeviation(before, after, deviation.metres + kMinMeasureTolerance * size);
   return deviation;
 }
 
 // The largest ratio of a deviation to its bound.
 double excessOver(const SimplifyBounds& bounds, const Deviation& deviation) {
   double excess = 0;
-  if (bounds.maxError) excess = deviation.metres / *bounds.maxError;
+  if (bounds.maxError) excess = std::max(deviation.metres, deviation.imageMetres) / *bounds.maxError;
   if (bounds.maxNormalErrorDegrees) excess = std::max(excess, deviation.normalDegrees / *bounds.maxNormalErrorDegrees);
   return excess;
 }
 
-}  // namespace
-
-void checkSimplifyBounds(const SimplifyBounds& bounds) {
-  if (bounds.maxError && !(*bounds.maxError > 0 && std::isfinite(*bounds.maxError)))
-    throw Error("prep --simplify-error", "invalid bound", "a finite number of metres over 0",
-                fmt::to_string(*bounds.maxError));
-  if (bounds.triangles && *bounds.triangles == 0)
-    throw Error("prep --simplify-triangles", "invalid number of triangles", "1 or more", "0");
-  if (bounds.maxNormalErrorDegrees && !(*bounds.maxNormalErrorDegrees > 0 && *bounds.maxNormalErrorDegrees <= 180))
-    throw Error("prep --simplify-normal", "invalid bound", "over 0 and up to 180 degrees",
-                fmt::to_string(*bounds.maxNormalErrorDegrees));
-}
-
-Simplification simplify(Mesh& mesh, const SimplifyBounds& bounds, const SimplifyLines& lines) {
-  checkSimplifyBounds(bounds);
+// Simplifies a mesh without corner attributes of textures. seams: as for measure().
+Simplification simplifyCut(Mesh& mesh, const SimplifyBounds& bounds, const SimplifyLines& lines, const Seams* seams) {
   Simplification result;
   result.applied = true;
   result.trianglesBefore = result.trianglesAfter = mesh.triangles.size();
@@ -195,7 +187,7 @@ Simplification simplify(Mesh& mesh, const SimplifyBounds& bounds, const Simplify
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     Mesh simplified = decimate(mesh, halfEdges, scale, bounds, lines, factor);
     if (simplified.triangles.size() == mesh.triangles.size()) break;
-    const Deviation deviation = measure(mesh, surface, simplified, bounds, size);
+    const Deviation deviation = measure(mesh, surface, simplified, bounds, seams, size);
     const double excess = excessOver(bounds, deviation);
     if (excess <= 1) {
       result.maxDeviation = deviation.metres;
@@ -215,6 +207,31 @@ Simplification simplify(Mesh& mesh, const SimplifyBounds& bounds, const Simplify
         "{} triangles are left, expected {}: locked vertices and the other bounds allow no more collapses; raise "
         "--simplify-error, --simplify-normal or --crease",
         result.trianglesAfter, *bounds.triangles));
+  return result;
+}
+
+}  // namespace
+
+void checkSimplifyBounds(const SimplifyBounds& bounds) {
+  if (bounds.maxError && !(*bounds.maxError > 0 && std::isfinite(*bounds.maxError)))
+    throw Error("prep --simplify-error", "invalid bound", "a finite number of metres over 0",
+                fmt::to_string(*bounds.maxError));
+  if (bounds.triangles && *bounds.triangles == 0)
+    throw Error("prep --simplify-triangles", "invalid number of triangles", "1 or more", "0");
+  if (bounds.maxNormalErrorDegrees && !(*bounds.maxNormalErrorDegrees > 0 && *bounds.maxNormalErrorDegrees <= 180))
+    throw Error("prep --simplify-normal", "invalid bound", "over 0 and up to 180 degrees",
+                fmt::to_string(*bounds.maxNormalErrorDegrees));
+}
+
+Simplification simplify(Mesh& mesh, const SimplifyBounds& bounds, const SimplifyLines& lines) {
+  checkSimplifyBounds(bounds);
+  if (mesh.cornerTextures.empty()) return simplifyCut(mesh, bounds, lines, nullptr);
+  Mesh cut = mesh;
+  const Seams seams(cut);
+  Simplification result = simplifyCut(cut, bounds, lines, &seams);
+  if (result.trianglesAfter == result.trianglesBefore) return result;
+  seams.join(cut);
+  mesh = std::move(cut);
   return result;
 }
 

@@ -5,10 +5,11 @@
 // - vertices of boundaries and of material borders, and vertices at the position of another vertex, without exception;
 // - creases and borders of smoothing groups as lines: a vertex on a line moves along the line only, and ends and
 //   crossings of lines do not move. No collapse makes a new crease.
-// The deviation is measured afterwards (surface_deviation.h), in both directions, against the mesh before
-// simplification. If it exceeds a bound, the collapses are repeated with a smaller internal tolerance, at last not at
-// all. The result is the same for the same input on every machine with the same arithmetic. Source: M. Garland, P. S.
-// Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997.
+// Seams of texture coordinates and tangents do not move, and with maxError the image moves on the surface by no more
+// than that (seams.h). The deviation is measured afterwards (surface_deviation.h), in both directions, against the mesh
+// before simplification. If it exceeds a bound, the collapses are repeated with a smaller internal tolerance, at last
+// not at all. The result is the same for the same input on every machine with the same arithmetic. Source: M. Garland,
+// P. S. Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997.
 #pragma once
 
 #include <cstdint>

@@ -285,9 +285,17 @@ Baked bake(const SceneDescription& asked, const pack::WriteSettings& settings,
   scene.wavelengthsNm = d.wavelengthsNm;
   scene.materials = d.materials;
 
+  // Textures of the description, which imports add theirs to.
+  std::vector<std::string> textureNotes;
+  for (const TextureDescription& texture : d.textures) {
+    const std::string name = texture.file.lexically_relative(d.file.parent_path()).string();
+    progress(fmt::format("baking {}", name));
+    scene.textures.push_back(bakeTexture(image::read(texture.file), texture, name, textureNotes));
+  }
+
   // Meshes in world space.
-  PlacedMeshes placed =
-      placeMeshes(d, {options.allowOpenGlass, settings.keepMap, options.strict}, scene.materials, progress);
+  PlacedMeshes placed = placeMeshes(d, {options.allowOpenGlass, settings.keepMap, options.strict}, scene.materials,
+                                    scene.textures, progress);
   baked.reports = std::move(placed.reports);
   baked.notes = std::move(placed.notes);
   addFilmNotes(scene, baked.notes);
@@ -316,12 +324,7 @@ Baked bake(const SceneDescription& asked, const pack::WriteSettings& settings,
   addEnvironment(d, progress, scene.environment, baked.notes);
   addFaintLightNotes(scene, baked.notes);
 
-  // Textures of materials.
-  for (const TextureDescription& texture : d.textures) {
-    const std::string name = texture.file.lexically_relative(d.file.parent_path()).string();
-    progress(fmt::format("baking {}", name));
-    scene.textures.push_back(bakeTexture(image::read(texture.file), texture, name, baked.notes));
-  }
+  baked.notes.insert(baked.notes.end(), textureNotes.begin(), textureNotes.end());
   for (pack::Material& m : scene.materials) m.maps.origin -= m.maps.any() ? scene.origin : glm::dvec3(0.0);
   for (std::string& warning : inspectBodies(scene, baked.glassBodies, options.allowOpenGlass))
     baked.notes.push_back(std::move(warning));

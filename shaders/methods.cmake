@@ -70,7 +70,7 @@ function(malus_embed_shaders extra folder output_list)
   malus_read_methods("${extra}")
   set(generated_sources "")
   set(roots gpu/language.glsl gpu/constants.h gpu/scene.h gpu/fault.h optics/math.h optics/all.h stages/camera_path.rgen
-            stages/environment.rmiss stages/hit_record.rchit stages/hit_record.rmiss stages/raygen.rgen
+            stages/cut_out.rahit stages/environment.rmiss stages/hit_record.rchit stages/hit_record.rmiss stages/raygen.rgen
             stages/replay.rgen stages/shadow.rmiss stages/surface.rchit)
   list(TRANSFORM roots PREPEND shaders/)
   foreach(method IN LISTS methods)

@@ -11,9 +11,7 @@ using shaders::Effect;
 
 namespace {
 
-bool isDiffuse(const EffectQuery& q) {
-  return q.any([](const Material& m) { return isPositive(m.albedo); });
-}
+bool isDiffuse(const EffectQuery& q) { return q.any(isDiffuseMaterial); }
 
 bool hasHighlights(const EffectQuery& q) {
   return q.reflects() && !q.scene.lights.empty() && q.any([](const Material& m) { return m.highlightStrength > 0; });

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "bake/effects/rules.h"
@@ -48,31 +51,58 @@ EffectRule totalReflectionRule() {
   return rule;
 }
 
+// The same removal; without textures where no material has a map any more.
+std::function<void(pack::Scene&)> withoutUnusedTextures(std::function<void(pack::Scene&)> remove) {
+  return [remove = std::move(remove)](pack::Scene& scene) {
+    remove(scene);
+    const auto hasMaps = [](const Material& m) { return m.maps.any() || m.meshMaps.any(); };
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), hasMaps)) scene.textures.clear();
+  };
+}
+
 }  // namespace
 
 std::vector<EffectRule> materialRules() {
+  const auto emits = [](const Material& m) { return !pack::isEmitter(m.kind) && isPositive(m.radiance); };
+  EffectRule meshTextures = materialRule(
+      Effect::kMeshTextures, [emits](const Material& m) { return m.meshMaps.any() || emits(m); },
+      [emits](Material& m) {
+        m.meshMaps = {};
+        if (emits(m)) m.radiance = glm::dvec3(0.0);
+      });
+  meshTextures.remove = withoutUnusedTextures(meshTextures.remove);
   EffectRule textures = materialRule(
       Effect::kTextures, [](const Material& m) { return m.maps.any(); }, [](Material& m) { m.maps = {}; });
-  textures.remove = [remove = textures.remove](pack::Scene& scene) {
-    remove(scene);
-    scene.textures.clear();
-  };
+  textures.remove = withoutUnusedTextures(textures.remove);
   return {
       textures,
+      meshTextures,
+      materialRule(
+          Effect::kNormalMaps, [](const Material& m) { return m.meshMaps.normal.isUsed(); },
+          [](Material& m) { m.meshMaps.normal = {}; }),
+      materialRule(
+          Effect::kCutOuts, [](const Material& m) { return m.meshMaps.coverage.isUsed(); },
+          [](Material& m) { m.meshMaps.coverage = {}; }),
       materialRule(
           Effect::kAbsorption,
           [](const Material& m) { return isPositive(m.absorption) || isPositive(m.outsideAbsorption); },
           [](Material& m) { m.absorption = m.outsideAbsorption = glm::dvec3(0.0); }),
       materialRule(Effect::kCoatings, isCoated, [](Material& m) { m.coating = {}; }),
       ifReflecting(materialRule(
-          Effect::kRoughness, [](const Material& m) { return m.roughness > 0; }, [](Material& m) { m.roughness = 0; })),
+          Effect::kRoughness, [](const Material& m) { return m.roughness > 0 || m.meshMaps.roughness.isUsed(); },
+          [](Material& m) {
+            m.roughness = 0;
+            m.meshMaps.roughness = {};
+          })),
       materialRule(Effect::kPolarizedEmitters, isPolarizedEmitter,
                    [](Material& m) {
                      if (pack::isEmitter(m.kind)) m.polarization = 0;
                    }),
-      materialRule(
-          Effect::kDiffuse, [](const Material& m) { return isPositive(m.albedo); },
-          [](Material& m) { m.albedo = glm::dvec3(0.0); }),
+      materialRule(Effect::kDiffuse, isDiffuseMaterial,
+                   [](Material& m) {
+                     m.albedo = glm::dvec3(0.0);
+                     m.meshMaps.albedo = {};
+                   }),
       materialRule(
           Effect::kEmitters, [](const Material& m) { return pack::isEmitter(m.kind) && isPositive(m.radiance); },
           [](Material& m) { m.radiance = glm::dvec3(0.0); }),

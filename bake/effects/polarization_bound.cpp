@@ -30,10 +30,11 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
           std::max(result.interaction, ratio(m.transmittanceParallel[colour], m.transmittanceCrossed[colour]));
       continue;
     }
+    const bool leaves = m.albedo[colour] > 0 || m.radiance[colour] > 0 || m.meshMaps.albedo.isUsed();
     // Thin films and maps: their maximum is not bounded by samples.
-    if (m.coating.thicknessNm > 0 || m.maps.eta >= 0) {
+    if (m.coating.thicknessNm > 0 || m.maps.eta >= 0 || m.meshMaps.eta.isUsed() || m.meshMaps.reflectance.isUsed()) {
       result.interaction = 1;
-      if (m.albedo[colour] > 0) result.leaving = 1;
+      if (leaves) result.leaving = 1;
       continue;
     }
     constexpr int kSteps = 2000;
@@ -44,7 +45,7 @@ Diattenuation largest(const pack::Scene& scene, int colour) {
             k2 > 0 ? f64::conductorReflectance(c, n1, n2, k2) : f64::dielectricReflectance(c, n1, n2);
         result.interaction = std::max(result.interaction, ratio(r.rs, r.rp));
         if (transmits) result.interaction = std::max(result.interaction, ratio(1 - r.rs, 1 - r.rp));
-        if (m.albedo[colour] > 0) result.leaving = std::max(result.leaving, ratio(1 - r.rs, 1 - r.rp));
+        if (leaves) result.leaving = std::max(result.leaving, ratio(1 - r.rs, 1 - r.rp));
       }
     };
     if (pack::isConductor(m.kind)) {

@@ -34,7 +34,8 @@ PolarizingPaths findPolarizingPaths(const EffectQuery& q) {
   p.polarizedEmitters = q.names(isPolarizedEmitter);
   p.phaseShifters = findPhaseShifters(q);
   p.polarizedSky = q.scene.environment.skyDegree > 0 && q.hasEnvironment();
-  p.diffuseExit = q.any([](const Material& m) { return pack::isInterface(m.kind) && isPositive(m.albedo); });
+  p.diffuseExit = q.any(
+      [](const Material& m) { return pack::isInterface(m.kind) && (isDiffuseMaterial(m) || isPositive(m.radiance)); });
   if (!p.interfaces.empty()) {
     p.mutuallyVisible = interfacesMutuallyVisible(q.scene);
     p.interactions = p.mutuallyVisible ? q.request.depth : std::min(q.request.depth, 1u);

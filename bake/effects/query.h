@@ -12,6 +12,7 @@
 namespace malus::bake {
 
 inline bool isPositive(const glm::dvec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+inline bool isDiffuseMaterial(const pack::Material& m) { return isPositive(m.albedo) || m.meshMaps.albedo.isUsed(); }
 
 // Refers to the scene and the request; both must outlive it.
 class EffectQuery {

@@ -13,6 +13,7 @@ void removeInterface(Material& m) {
   m.eta = glm::dvec3(1.0);
   m.k = glm::dvec3(0.0);
   m.highlightStrength = 0;
+  m.meshMaps.eta = m.meshMaps.k = m.meshMaps.reflectance = m.meshMaps.metallic = m.meshMaps.roughness = {};
 }
 
 void removeSurface(Effect surface, Material& m) {
@@ -22,6 +23,7 @@ void removeSurface(Effect surface, Material& m) {
   } else if (pack::isClear(m.kind)) {  // not a body: invisible if its index is that of the medium
     m.eta = glm::dvec3(m.outsideEta);
     m.transmittanceParallel = m.transmittanceCrossed = glm::dvec3(1.0);
+    m.meshMaps.transmittance = {};
   } else if (surface == Effect::kPolarizingElement) {  // a grey filter of the same mean transmittance
     m.transmittanceParallel = m.transmittanceCrossed = (m.transmittanceParallel + m.transmittanceCrossed) * 0.5;
     m.retardanceDegrees = glm::dvec3(0.0);

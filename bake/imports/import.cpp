@@ -10,9 +10,11 @@
 
 #include "bake/imports/join_instances.h"
 #include "bake/imports/join_parts.h"
+#include "bake/materials/material_maps.h"
 #include "bake/materials/source_material.h"
 #include "bake/materials/texture_means.h"
 #include "bake/pack/format.h"
+#include "bake/pack/mesh_maps.h"
 #include "bake/placement/placement.h"
 #include "bake/scene_file/strict_object.h"
 #include "meshprep/base/error.h"
@@ -46,9 +48,16 @@ std::string shortened(std::string name) {
 // Indices of the file's materials in the scene, which are made at their first use.
 class MaterialIndices {
  public:
+  // factors: the materials of the source before the means of their images were applied.
   MaterialIndices(const ImportDescription& description, const prep::SourceScene& source,
-                  std::vector<pack::Material>& materials, UniqueNames& names, std::vector<std::string>& notes)
-      : description_(description), source_(source), materials_(materials), names_(names), notes_(notes) {
+                  const std::vector<prep::SourceMaterial>& factors, std::vector<pack::Material>& materials,
+                  UniqueNames& names, MaterialMaps& maps)
+      : description_(description),
+        source_(source),
+        factors_(factors),
+        materials_(materials),
+        names_(names),
+        maps_(maps) {
     std::vector<std::string> known = {""};
     for (const prep::SourceMaterial& material : source.materials) known.push_back(material.name);
     for (const auto& [name, ignored] : description.materials)
@@ -77,18 +86,31 @@ class MaterialIndices {
     if (materials_.size() >= pack::kMaxMaterials)
       throw Error(description_.file.string(), "has too many materials",
                   fmt::format("at most {} in a scene", pack::kMaxMaterials));
-    pack::Material made = material ? convertMaterial(source_.materials[*material], notes_) : defaultMaterial();
+    pack::Material made = material ? convertOne(*material) : defaultMaterial();
     if (made.name.empty()) made.name = fmt::format("material {}", *material);
     made.name = names_.take(made.name);
     materials_.push_back(std::move(made));
     return static_cast<std::uint32_t>(materials_.size() - 1);
   }
 
+  // Without the images that cannot be read, or whose variation is not drawn.
+  pack::Material convertOne(std::size_t index) {
+    const prep::SourceMaterial& means = source_.materials[index];
+    prep::SourceMaterial factors = factors_[index];
+    factors.baseColourImage = means.baseColourImage;
+    factors.metallicRoughnessImage = means.metallicRoughnessImage;
+    factors.emissiveImage = means.emissiveImage;
+    factors.normalImage = means.normalImage;
+    factors.coverageImage = means.coverageImage;
+    return maps_.convert(factors, means);
+  }
+
   const ImportDescription& description_;
   const prep::SourceScene& source_;
+  const std::vector<prep::SourceMaterial>& factors_;
   std::vector<pack::Material>& materials_;
   UniqueNames& names_;
-  std::vector<std::string>& notes_;
+  MaterialMaps& maps_;
   std::map<std::size_t, std::uint32_t> made_;
 };
 
@@ -126,16 +148,48 @@ void dropUnusedTextures(const ImportDescription& description, prep::SourceScene&
   if (anyDropped) prep::addNote(source.notes, std::string(prep::kTextureCoordinatesNote));
 }
 
-prep::SourceScene readSource(const ImportDescription& description, bool strict) {
+// factors: the materials before the means of their images are applied.
+prep::SourceScene readSource(const ImportDescription& description, bool strict,
+                             std::vector<prep::SourceMaterial>& factors) {
   prep::SourceScene source = prep::readSourceScene(description.file, strict, true);
+  factors = source.materials;
   applyTextureMeans(source, strict);
   dropUnusedTextures(description, source);
   removeInvisible(description, source);
   return source;
 }
 
+// Notes the parts without the coordinates or tangents that the maps of their materials are read by.
+void noteMissingAttributes(prep::SourceScene& source, const std::vector<PartUse>& uses,
+                           const std::vector<pack::Material>& materials) {
+  std::set<std::size_t> parts;
+  for (const prep::SourceInstance& instance : source.instances) parts.insert(instance.part);
+  std::vector<std::string> withoutCoordinates;
+  std::size_t withoutTangents = 0;
+  for (const std::size_t part : parts) {
+    const pack::MeshMaps& maps = materials[uses[part].material].meshMaps;
+    const prep::Polygons& polygons = source.parts[part].polygons;
+    bool isMissing = false;
+    pack::visitMeshMaps(
+        [&](const pack::MapRule&, const pack::MeshMap& map) {
+          isMissing = isMissing || (map.isUsed() && polygons.textureCoordinates[map.set].empty());
+        },
+        maps);
+    if (isMissing) withoutCoordinates.push_back(source.parts[part].name);
+    if (maps.normal.isUsed() && polygons.tangents.empty()) ++withoutTangents;
+  }
+  if (!withoutCoordinates.empty())
+    prep::addNote(source.notes, fmt::format("{}{}, read at (0, 0)", prep::kAcceptedNote,
+                                            prep::countedNote("textured parts without texture coordinates",
+                                                              withoutCoordinates.size(), withoutCoordinates)));
+  if (withoutTangents > 0)
+    prep::addNote(source.notes, fmt::format("{}{}", prep::kAcceptedNote,
+                                            prep::countedNote("tangents from the derivatives of texture coordinates",
+                                                              withoutTangents, {})));
+}
+
 // Returns the uses of the parts. Makes the materials in the order of the instances.
-std::vector<PartUse> findUses(const prep::SourceScene& source, const std::set<std::string>& openSurfaces,
+std::vector<PartUse> findUses(prep::SourceScene& source, const std::set<std::string>& openSurfaces,
                               MaterialIndices& indices, const std::vector<pack::Material>& materials) {
   std::vector<PartUse> uses(source.parts.size());
   std::vector<char> isBody(uses.size(), 1);
@@ -149,6 +203,7 @@ std::vector<PartUse> findUses(const prep::SourceScene& source, const std::set<st
     uses[instance.part].materialName = material.name;
     uses[instance.part].isGlassBody = isBody[instance.part] != 0 && pack::hasInside(material.kind);
   }
+  noteMissingAttributes(source, uses, materials);
   return uses;
 }
 
@@ -199,13 +254,14 @@ void finish(const ImportDescription& description, prep::SourceScene source, cons
 }  // namespace
 
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
-                     UniqueNames& materialNames, UniqueNames& meshNames, bool strict) {
+                     std::vector<pack::Texture>& textures, UniqueNames& materialNames, UniqueNames& meshNames,
+                     bool strict) {
   Imported result;
-  prep::SourceScene source = readSource(description, strict);
+  std::vector<prep::SourceMaterial> factors;
+  prep::SourceScene source = readSource(description, strict, factors);
   std::vector<std::string>& notes = source.notes;
 
-  // Find open surfaces by the name of a part or an instance.
-  std::vector<std::string> known;
+  std::vector<std::string> known;  // names of open surfaces: those of a part or an instance
   for (const prep::SourcePart& part : source.parts) known.push_back(part.name);
   for (const prep::SourceInstance& instance : source.instances) known.push_back(instance.name);
   for (const std::string& name : description.openSurfaces)
@@ -214,7 +270,8 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
   const std::set<std::string> openSurfaces(description.openSurfaces.begin(), description.openSurfaces.end());
 
   // Find the materials of the parts, in the order of the instances, and join the parts of glass bodies.
-  MaterialIndices indices(description, source, materials, materialNames, notes);
+  MaterialMaps maps(source.images, textures, notes, strict);
+  MaterialIndices indices(description, source, factors, materials, materialNames, maps);
   std::vector<PartUse> uses = findUses(source, openSurfaces, indices, materials);
   std::vector<std::string> joined = joinParts(source, uses, description.preparation);
   for (std::string& note : joinInstances(source, uses, description.preparation)) joined.push_back(std::move(note));

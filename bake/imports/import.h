@@ -51,11 +51,13 @@ struct Imported {
   std::vector<std::string> notes;  // "model.glb: left out: textures (2); animations (1: 'run')"
 };
 
-// Adds converted materials to materials. A part that the readers or prepare() refuse is left out with a note, or an
-// Error if `strict`; it is an Error too if no part is left. Throws Error: a file that the readers refuse as a whole, a
-// material or an open surface of the import that the file does not have, more materials than a pack can contain.
+// Adds converted materials to materials, and the textures of their maps to textures. A part that the readers or
+// prepare() refuse is left out with a note, or an Error if `strict`; it is an Error too if no part is left. Throws
+// Error: a file that the readers refuse as a whole, a material or an open surface of the import that the file does not
+// have, more materials than a pack can contain.
 Imported importScene(const ImportDescription& description, std::vector<pack::Material>& materials,
-                     UniqueNames& materialNames, UniqueNames& meshNames, bool strict = false);
+                     std::vector<pack::Texture>& textures, UniqueNames& materialNames, UniqueNames& meshNames,
+                     bool strict = false);
 
 // Notes of the readers about content that is left out or accepted, as sentences: one for all content that is left out,
 // one for each other note and for each invalid part of the file.

@@ -48,12 +48,6 @@ void setPerfectMirror(pack::Material& metal, int colour) {
   metal.k[colour] = pack::kMaxEta;
 }
 
-// Reflectance of a dielectric at normal incidence, per colour.
-glm::dvec3 normalReflectance(const prep::SourceMaterial& source) {
-  const double root = (source.ior - 1) / (source.ior + 1);
-  return glm::min(glm::dvec3(source.ior == 0 ? 1.0 : root * root) * source.specularColour, glm::dvec3(1.0));
-}
-
 // The index with this reflectance at normal incidence, as of Fresnel's equations: (1 + sqrt r) / (1 - sqrt r).
 glm::dvec3 dielectricIndex(const prep::SourceMaterial& source) {
   if (source.specularColour == glm::dvec3(1.0) && source.ior > 0)
@@ -84,8 +78,6 @@ void setOpaqueDielectric(const prep::SourceMaterial& source, double alpha, pack:
   }
 }
 
-double smoothedAlpha(double roughness) { return roughness * roughness < kLeastAlpha ? 0 : roughness * roughness; }
-
 // Adds the clear coat and the thin film of a material, or a note.
 void addLayers(const prep::SourceMaterial& source, pack::Material& result, std::vector<std::string>& notes) {
   using Kind = pack::MaterialKind;
@@ -101,7 +93,7 @@ void addLayers(const prep::SourceMaterial& source, pack::Material& result, std::
       // The base has the coat's index, so that only the coat reflects.
       result.kind = Kind::paint;
       result.eta = glm::dvec3(kCoatIor);
-      result.roughness = smoothedAlpha(source.clearcoatRoughness);
+      result.roughness = facetAlpha(source.clearcoatRoughness);
       if (source.clearcoat < 1) note("the uncoated part");
     }
   }
@@ -120,6 +112,13 @@ void addLayers(const prep::SourceMaterial& source, pack::Material& result, std::
 
 }  // namespace
 
+glm::dvec3 normalReflectance(const prep::SourceMaterial& source) {
+  const double root = (source.ior - 1) / (source.ior + 1);
+  return glm::min(glm::dvec3(source.ior == 0 ? 1.0 : root * root) * source.specularColour, glm::dvec3(1.0));
+}
+
+double facetAlpha(double roughness) { return roughness * roughness < kLeastAlpha ? 0 : roughness * roughness; }
+
 bool isInvisible(const prep::SourceMaterial& source) {
   if (source.alphaMode == prep::AlphaMode::mask) return source.alpha < source.alphaCutoff;
   return source.alphaMode == prep::AlphaMode::blend && source.alpha == 0;
@@ -129,7 +128,7 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
   using Kind = pack::MaterialKind;
   pack::Material result;
   result.name = source.name;
-  const double alpha = smoothedAlpha(source.roughness);
+  const double alpha = facetAlpha(source.roughness);
   const glm::dvec3 colour = glm::clamp(source.baseColour, 0.0, 1.0);
 
   // The metallic share of a material is opaque.
@@ -139,9 +138,6 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
 
   // A surface has either emission or reflection.
   const bool isEmitter = largest(source.emissive) > kLeastEmission * largest(colour);
-  if (source.emissive != glm::dvec3(0.0) && !isEmitter)
-    prep::addNote(notes, fmt::format("the faint emission of material '{}'", source.name));
-
   if (isEmitter) {
     result.kind = Kind::emitter;
     result.radiance = glm::clamp(source.emissive, 0.0, kMostRadiance);
@@ -176,6 +172,12 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
     result.roughness = std::min(alpha, 1.0);
   } else {
     setOpaqueDielectric(source, alpha, result);
+  }
+  if (source.emissive != glm::dvec3(0.0)) {
+    if (pack::canBeDiffuse(result.kind))
+      result.radiance = glm::clamp(source.emissive, 0.0, kMostRadiance);
+    else
+      prep::addNote(notes, fmt::format("the faint emission of material '{}'", source.name));
   }
   if (source.specular > 0 && source.specular < 1 && result.kind != Kind::lambert && source.metallic < 0.5)
     prep::addNote(notes, fmt::format("the specular factor of material '{}'", source.name));

@@ -47,6 +47,12 @@ namespace malus::bake {
 // alpha of masks is left out, with a note.
 bool isInvisible(const prep::SourceMaterial& source);
 
+// Reflectance of the dielectric at normal incidence, per colour.
+glm::dvec3 normalReflectance(const prep::SourceMaterial& source);
+
+// GGX alpha of a roughness.
+double facetAlpha(double roughness);
+
 // Keeps the name; values are within the bounds of a pack. Adds a note for everything that is left out.
 pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<std::string>& notes);
 

@@ -80,9 +80,15 @@ void applyTextureMeans(prep::SourceScene& scene, bool strict) {
   TextureMeans means(scene, strict);
   std::size_t applied = 0;
   const auto take = [&](std::optional<std::size_t>& image, Role role) -> std::optional<Mean> {
-    const std::optional<std::size_t> index = std::exchange(image, std::nullopt);
-    const std::optional<Mean> mean = index ? means(*index, role) : std::nullopt;
+    const std::optional<Mean> mean = image ? means(*image, role) : std::nullopt;
+    if (!mean) image.reset();
+    return mean;
+  };
+  // Images whose variation is not drawn.
+  const auto takeMean = [&](std::optional<std::size_t>& image, Role role) {
+    const std::optional<Mean> mean = take(image, role);
     applied += mean ? 1 : 0;
+    image.reset();
     return mean;
   };
   for (prep::SourceMaterial& m : scene.materials) {
@@ -96,10 +102,14 @@ void applyTextureMeans(prep::SourceScene& scene, bool strict) {
       m.roughness *= std::clamp((*mean)[1], 0.0, 1.0);
       m.metallic *= std::clamp((*mean)[2], 0.0, 1.0);
     }
-    if (const auto mean = take(m.specularGlossinessImage, Role::colour)) {
+    if (const auto mean = takeMean(m.specularGlossinessImage, Role::colour)) {
       m.specularColour *= toColour(*mean);
       m.roughness = 1 - (1 - m.roughness) * std::clamp((*mean)[3], 0.0, 1.0);
     }
+    if (const auto mean = takeMean(m.transmissionImage, Role::numbers))
+      m.transmission *= std::clamp((*mean)[0], 0.0, 1.0);
+    take(m.normalImage, Role::numbers);
+    take(m.coverageImage, Role::numbers);
     const auto emission = take(m.emissiveImage, Role::colour);
     if (emission) {
       m.emissive *= toColour(*emission);

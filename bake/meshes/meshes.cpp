@@ -33,8 +33,9 @@ std::string listProblems(const prep::Certificate& certificate) {
 
 class Placer {
  public:
-  Placer(const SceneDescription& description, const MeshSettings& settings, std::vector<pack::Material>& materials)
-      : description_(description), settings_(settings), materials_(materials) {
+  Placer(const SceneDescription& description, const MeshSettings& settings, std::vector<pack::Material>& materials,
+         std::vector<pack::Texture>& textures)
+      : description_(description), settings_(settings), materials_(materials), textures_(textures) {
     for (const pack::Material& material : materials) materialNames_.take(material.name);
   }
 
@@ -51,6 +52,7 @@ class Placer {
       throw Error(mesh.file.string(), fmt::format("mesh '{}' is a glass body with \"asIs\"", mesh.name),
                   "\"openSurface\": true beside \"asIs\": true, because it is not checked that the mesh is closed");
     options.strict = settings_.strict;
+    options.keepTextures = materials_[material].meshMaps.any();
     prep::Report report;
     const auto prepared = std::make_shared<const prep::Mesh>(prepare(mesh.file, options, report));
     requireCertificate(mesh.file, mesh.name, report);
@@ -66,7 +68,7 @@ class Placer {
   }
 
   void add(const ImportDescription& import) {
-    Imported imported = importScene(import, materials_, materialNames_, meshNames_, settings_.strict);
+    Imported imported = importScene(import, materials_, textures_, materialNames_, meshNames_, settings_.strict);
     result_.notes.insert(result_.notes.end(), imported.notes.begin(), imported.notes.end());
     result_.cameras.insert(result_.cameras.end(), imported.cameras.begin(), imported.cameras.end());
     result_.lights.insert(result_.lights.end(), imported.lights.begin(), imported.lights.end());
@@ -133,6 +135,7 @@ class Placer {
   const SceneDescription& description_;
   const MeshSettings& settings_;
   std::vector<pack::Material>& materials_;
+  std::vector<pack::Texture>& textures_;
   UniqueNames meshNames_, materialNames_;
   PlacedMeshes result_;
 };
@@ -140,9 +143,9 @@ class Placer {
 }  // namespace
 
 PlacedMeshes placeMeshes(const SceneDescription& description, const MeshSettings& settings,
-                         std::vector<pack::Material>& materials,
+                         std::vector<pack::Material>& materials, std::vector<pack::Texture>& textures,
                          const std::function<void(std::string_view)>& progress) {
-  Placer placer(description, settings, materials);
+  Placer placer(description, settings, materials, textures);
   try {
     for (const MeshDescription& mesh : description.meshes) {
       progress(fmt::format("preparing {}", mesh.name));

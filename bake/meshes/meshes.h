@@ -39,9 +39,10 @@ struct PlacedMeshes {
   std::vector<prep::SourceLight> lights;
 };
 
-// Adds the materials of imports to materials. Throws Error: a mesh that cannot be read or cleaned, glass that is not
-// certified, more places than a pack can contain.
+// Adds the materials of imports to materials, and their textures to textures. Throws Error: a mesh that cannot be read
+// or cleaned, glass that is not certified, more places than a pack can contain.
 PlacedMeshes placeMeshes(const SceneDescription& description, const MeshSettings& settings,
-                         std::vector<pack::Material>& materials, const std::function<void(std::string_view)>& progress);
+                         std::vector<pack::Material>& materials, std::vector<pack::Texture>& textures,
+                         const std::function<void(std::string_view)>& progress);
 
 }  // namespace malus::bake

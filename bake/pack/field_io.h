@@ -52,6 +52,7 @@ class FieldReader {
   void read(const Field& field, bool& value);
   void read(const Field& field, MaterialKind& value) { value = static_cast<MaterialKind>(integer(field)); }
   void read(const Field& field, LightKind& value) { value = static_cast<LightKind>(integer(field)); }
+  void read(const Field& field, Wrap& value) { value = static_cast<Wrap>(integer(field)); }
   void read(const Field& field, std::string& value);
   void read(const Field& field, std::int32_t& value);  // a number, or the index of a texture
 
@@ -88,6 +89,7 @@ class FieldWriter {
   void write(bool value) { w_.u32(value ? 1 : 0); }
   void write(MaterialKind value) { w_.u32(static_cast<std::uint32_t>(value)); }
   void write(LightKind value) { w_.u32(static_cast<std::uint32_t>(value)); }
+  void write(Wrap value) { w_.u32(static_cast<std::uint32_t>(value)); }
   void write(const std::string& value) { w_.text(value); }
 
   ByteWriter& w_;

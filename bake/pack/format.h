@@ -43,7 +43,7 @@ inline constexpr double kMaxTextureCoordinate = compress::kMaxTextureCoordinate;
 inline constexpr std::uint32_t kMaxDepth = 255;
 inline constexpr std::uint32_t kMaxResolution = 16384;
 inline constexpr std::uint32_t kMaxEnvironmentSize = 8192;
-inline constexpr std::uint32_t kMaxTextures = 256;
+inline constexpr std::uint32_t kMaxTextures = 4096;
 inline constexpr std::uint32_t kMaxTextureSide = 8192;
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 28;  // of all textures
 inline constexpr double kMaxAbsorption = 1e9;                        // 1/m
@@ -70,6 +70,7 @@ inline constexpr const char* kLights = "LGHT";
 inline constexpr const char* kMaterials = "MATL";
 inline constexpr const char* kSurfaces = "SRFX";
 inline constexpr const char* kTextures = "TEXR";
+inline constexpr const char* kMeshMaps = "MAPS";
 inline constexpr const char* kSky = "SKYP";
 inline constexpr const char* kWavelengths = "WAVE";
 inline constexpr const char* kMeshes = "MESH";
@@ -98,6 +99,7 @@ inline constexpr auto kKnownSections = std::to_array<SectionInfo>({
     {kMaterials, true, 0, "materials"},
     {kSurfaces, false, 0, "properties that few materials have; written if a material has one"},
     {kTextures, false, 0, "textures; written if a material has one"},
+    {kMeshMaps, false, 0, "maps by texture coordinates; written if a material has one"},
     {kSky, false, 0, "polarization of the sky; written if it is polarized"},
     {kWavelengths, false, 0, "wavelengths of the colours; written unless they are 630, 532 and 465 nm"},
     {kMeshes, true, 0, "table of meshes"},

@@ -1,6 +1,5 @@
 #include "bake/pack/material_reader.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +7,7 @@
 
 #include "bake/pack/field_io.h"
 #include "bake/pack/material_fields.h"
+#include "bake/pack/texel_range.h"
 
 namespace malus::pack {
 
@@ -25,28 +25,10 @@ void checkIndex(const ByteReader& r, const Material& m) {
   }
 }
 
-// Smallest and largest value of a texture.
-struct Range {
-  float low = 0, high = 0;
-};
-
-std::vector<Range> findRanges(const std::vector<Texture>& textures) {
-  std::vector<Range> ranges;
-  for (const Texture& texture : textures) {
-    Range range{texture.texels[0].x, texture.texels[0].x};
-    for (const glm::vec3& t : texture.texels) {
-      range.low = std::min({range.low, t.x, t.y, t.z});
-      range.high = std::max({range.high, t.x, t.y, t.z});
-    }
-    ranges.push_back(range);
-  }
-  return ranges;
-}
-
-void checkMaps(const ByteReader& r, const Material& m, const std::vector<Range>& ranges) {
+void checkMaps(const ByteReader& r, const Material& m, const std::vector<TexelRange>& ranges) {
   const auto check = [&](std::string_view name, std::int32_t index, double low, double high) {
     if (index < 0) return;
-    const Range& range = ranges[static_cast<std::size_t>(index)];
+    const TexelRange& range = ranges[static_cast<std::size_t>(index)];
     if (range.low < static_cast<float>(low) || range.high > static_cast<float>(high))
       r.fail(fmt::format("maps.{} of material '{}' names texture {}", name, m.name, index),
              fmt::format("values from {:g} to {:g}", low, high), fmt::format("{:g} to {:g}", range.low, range.high));
@@ -87,7 +69,7 @@ void readSurfaces(ByteReader r, std::uint32_t version, const std::vector<Texture
   if (count != materials.size())
     r.fail("number of surfaces", fmt::format("{}, the number of materials", materials.size()),
            fmt::format("{}", count));
-  const std::vector<Range> ranges = findRanges(textures);
+  const std::vector<TexelRange> ranges = findTexelRanges(textures);
   FieldReader read(r, filter);
   for (Material& m : materials) {
     read.ofMaterial(m.kind, static_cast<std::uint32_t>(textures.size()));

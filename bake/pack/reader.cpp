@@ -12,10 +12,12 @@
 #include "bake/pack/half.h"
 #include "bake/pack/instances.h"
 #include "bake/pack/material_reader.h"
+#include "bake/pack/mesh_maps.h"
 #include "bake/pack/mesh_reader.h"
 #include "bake/pack/record_fields.h"
 #include "bake/pack/table.h"
 #include "bake/pack/texture_coordinates.h"
+#include "bake/pack/texture_section.h"
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 
@@ -91,38 +93,6 @@ void readLights(ByteReader r, std::uint32_t version, std::vector<LightSource>& l
   r.end();
 }
 
-void readTexels(ByteReader& r, Texture& texture, std::uint64_t count) {
-  if (count * 12 > r.left())
-    r.fail(fmt::format("texels of texture '{}'", texture.name), fmt::format("{} bytes", count * 12),
-           fmt::format("{} left", r.left()));
-  texture.texels.resize(static_cast<std::size_t>(count));
-  for (glm::vec3& texel : texture.texels)
-    for (int c = 0; c < 3; ++c) {
-      texel[c] = r.f32();
-      if (!(texel[c] >= 0 && texel[c] <= static_cast<float>(kMaxEta)))
-        r.fail(fmt::format("texel of texture '{}' is out of range", texture.name), fmt::format("0 to {:g}", kMaxEta),
-               fmt::format("{}", texel[c]));
-    }
-}
-
-void readTextures(ByteReader r, std::vector<Texture>& textures) {
-  FieldSizes sizes;
-  const Texture any{};
-  visitTexture(sizes, any);
-  const std::uint32_t count = r.count(sizes.bytes() + 12, kMaxTextures, "number of textures");
-  std::uint64_t total = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    Texture& texture = textures.emplace_back();
-    visitTexture(FieldReader(r), texture);
-    const std::uint64_t texels = std::uint64_t{texture.width} * texture.height;
-    total += texels;
-    if (total > kMaxTexels)
-      r.fail("number of texels", fmt::format("at most {} in all textures", kMaxTexels), fmt::format("{}", total));
-    readTexels(r, texture, texels);
-  }
-  r.end();
-}
-
 void readInstances(ByteReader r, const std::vector<Mesh>& meshes, std::vector<Instance>& instances) {
   FieldSizes sizes;
   const Instance any{};
@@ -193,8 +163,9 @@ Pack parse(std::span<const std::byte> bytes, std::string_view where) {
   readLights(reader(lights), lights.version, scene.lights);
   readMaterials(reader(*find(kMaterials)), scene.materials);
   // Textures come before the surfaces, which bound their values.
-  if (const Section* at = find(kTextures)) readTextures(reader(*at), scene.textures);
+  if (const Section* at = find(kTextures)) readTextures(reader(*at), at->version, scene.textures);
   if (const Section* at = find(kSurfaces)) readSurfaces(reader(*at), at->version, scene.textures, scene.materials);
+  if (const Section* at = find(kMeshMaps)) readMeshMaps(reader(*at), scene.textures, scene.materials);
   for (const Material& m : scene.materials)
     if (isPolarizingElement(m.kind) && m.axis == glm::dvec3(0.0))
       throw Error(where, fmt::format("section {} is missing", kSurfaces), fmt::format("the axis of '{}'", m.name));

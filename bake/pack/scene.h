@@ -42,6 +42,40 @@ struct Maps {
   bool any() const { return albedo >= 0 || eta >= 0 || k >= 0; }
 };
 
+// Ways in which a texture continues beyond its edges.
+enum class Wrap : std::uint32_t { repeat, clamp, mirror };
+inline constexpr std::array<const char*, 3> kWrapNames = {"repeat", "clamp", "mirror"};
+
+// A texture by the texture coordinates (s, t) of the meshes, in place of a constant of the material. It is read at
+// (dot(u, p), dot(v, p)), p = (s, t, 1): (0, 0) is the upper left corner of the image, (1, 1) the lower right.
+struct MeshMap {
+  std::int32_t texture = -1;  // index into Scene::textures; -1: none
+  std::uint32_t set = 0;      // of Mesh::textureCoordinates
+  Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+  glm::dvec3 u{1.0, 0.0, 0.0}, v{0.0, 1.0, 0.0};
+  bool isUsed() const { return texture >= 0; }
+  friend bool operator==(const MeshMap&, const MeshMap&) = default;
+};
+
+// Maps of a material by texture coordinates. The constants that they replace are their means, for an image without the
+// effect mesh-textures.
+struct MeshMaps {
+  MeshMap albedo;
+  MeshMap eta, k;          // of a metal both
+  MeshMap reflectance;     // of a metal at normal incidence, in place of eta and k (conductorIndex in
+                           // shaders/optics/texture_map.h)
+  MeshMap metallic;        // red: edge tint of reflectance; none: 1
+  MeshMap roughness;       // red
+  MeshMap radiance;        // of an emitter or the diffuse layer
+  MeshMap transmittance;   // of thin glass
+  MeshMap normal;          // (n + 1) / 2, along the tangent, the bitangent and the normal
+  MeshMap coverage;        // red: there is no surface where it is below the cutoff, at level 0 of the texture
+  double normalScale = 1;  // factor of the first two components of the normal
+  double cutoff = 0.5;
+  bool any() const { return *this != MeshMaps{}; }
+  friend bool operator==(const MeshMaps&, const MeshMaps&) = default;
+};
+
 struct Material {
   std::string name;
   MaterialKind kind = MaterialKind::lambert;
@@ -65,6 +99,7 @@ struct Material {
   glm::dvec3 transmittanceCrossed{1.0};   // and crossed with it
   glm::dvec3 retardanceDegrees{0.0};      // of wave plates
   Maps maps;
+  MeshMaps meshMaps;     // section MAPS
   bool isPlain() const;  // has none of these properties
 };
 

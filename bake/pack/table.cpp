@@ -8,6 +8,7 @@
 #include "bake/pack/bytes.h"
 #include "bake/pack/material_fields.h"
 #include "bake/pack/record_fields.h"
+#include "bake/pack/texture_section.h"
 #include "meshprep/base/error.h"
 
 namespace malus::pack {
@@ -31,6 +32,7 @@ std::uint32_t newestVersion(std::string_view id) {
   if (id == kEnvironment) visitEnvironment(newest, environment);
   if (id == kCamera) return kNewestCamera;
   if (id == kLights) return kNewestLights;
+  if (id == kTextures) return kNewestTextures;
   if (id == kMeshes) visitMeshEntry(newest, mesh);
   if (id == kEncodings) visitMeshEncoding(newest, encoding);
   return newest.version;

@@ -10,10 +10,12 @@
 #include "bake/pack/format.h"
 #include "bake/pack/half.h"
 #include "bake/pack/material_fields.h"
+#include "bake/pack/mesh_maps.h"
 #include "bake/pack/mesh_writer.h"
 #include "bake/pack/reader.h"
 #include "bake/pack/record_fields.h"
 #include "bake/pack/texture_coordinates.h"
+#include "bake/pack/texture_section.h"
 #include "meshprep/base/atomic_file.h"
 
 namespace malus::pack {
@@ -84,13 +86,15 @@ std::vector<std::byte> materialBytes(const std::vector<Material>& materials, con
   return w.take();
 }
 
-std::vector<std::byte> textureBytes(const std::vector<Texture>& textures) {
+std::vector<std::byte> textureBytes(const Scene& scene) {
   ByteWriter w;
-  w.u32(static_cast<std::uint32_t>(textures.size()));
-  for (const Texture& t : textures) {
-    visitTexture(FieldWriter(w), t);
-    for (const glm::vec3& texel : t.texels) w.f32(texel.x), w.f32(texel.y), w.f32(texel.z);
-  }
+  writeTextures(w, texturesVersion(scene.materials), scene.textures);
+  return w.take();
+}
+
+std::vector<std::byte> meshMapBytes(const std::vector<Material>& materials) {
+  ByteWriter w;
+  writeMeshMaps(w, materials);
   return w.take();
 }
 
@@ -174,7 +178,8 @@ Written serialize(const Scene& scene, const WriteSettings& settings, const Previ
   // had before these sections and versions existed.
   if (const std::uint32_t version = surfaceVersion(scene.materials); version > 0)
     bodies.push_back({kSurfaces, materialBytes(scene.materials, {kSurfaces, version}), version});
-  if (!scene.textures.empty()) bodies.push_back({kTextures, textureBytes(scene.textures)});
+  if (!scene.textures.empty()) bodies.push_back({kTextures, textureBytes(scene), texturesVersion(scene.materials)});
+  if (hasMeshMaps(scene.materials)) bodies.push_back({kMeshMaps, meshMapBytes(scene.materials)});
   if (scene.environment.hasSun()) bodies.push_back({kSky, skyBytes(scene.environment)});
   if (scene.wavelengthsNm != kDefaultWavelengthsNm) bodies.push_back({kWavelengths, wavelengthBytes(scene)});
   bodies.push_back({kMeshes, std::move(encoded.table), kNewestMeshes});

@@ -207,6 +207,17 @@ Node toNode(const json& object) {
   return node;
 }
 
+void getTexture(const json& object, const char* key, TextureInfo& texture) {
+  const json& info = child(object, key);
+  get(info, "index", texture.index);
+  get(info, "texCoord", texture.texCoord);
+  const json& transform = child(child(info, "extensions"), "KHR_texture_transform");
+  get(transform, "offset", texture.offset);
+  get(transform, "scale", texture.scale);
+  get(transform, "rotation", texture.rotation);
+  get(transform, "texCoord", texture.texCoord);
+}
+
 Material toMaterial(const json& object) {
   Material material;
   get(object, "name", material.name);
@@ -216,14 +227,17 @@ Material toMaterial(const json& object) {
   get(object, "doubleSided", material.doubleSided);
   const json& pbr = child(object, "pbrMetallicRoughness");
   get(pbr, "baseColorFactor", material.baseColorFactor);
-  get(child(pbr, "baseColorTexture"), "index", material.baseColorTexture);
-  get(child(pbr, "metallicRoughnessTexture"), "index", material.metallicRoughnessTexture);
+  getTexture(pbr, "baseColorTexture", material.baseColorTexture);
+  getTexture(pbr, "metallicRoughnessTexture", material.metallicRoughnessTexture);
   get(pbr, "metallicFactor", material.metallicFactor);
   get(pbr, "roughnessFactor", material.roughnessFactor);
   const json& extensions = child(object, "extensions");
   get(child(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", material.emissiveStrength);
   get(child(extensions, "KHR_materials_ior"), "ior", material.ior);
-  get(child(object, "emissiveTexture"), "index", material.emissiveTexture);
+  getTexture(object, "emissiveTexture", material.emissiveTexture);
+  getTexture(object, "normalTexture", material.normalTexture);
+  get(child(object, "normalTexture"), "scale", material.normalScale);
+  getTexture(child(extensions, "KHR_materials_transmission"), "transmissionTexture", material.transmissionTexture);
   const json& specular = child(extensions, "KHR_materials_specular");
   get(specular, "specularFactor", material.specularFactor);
   get(specular, "specularColorFactor", material.specularColorFactor);
@@ -239,8 +253,8 @@ Material toMaterial(const json& object) {
     get(*found, "diffuseFactor", values.diffuseFactor);
     get(*found, "specularFactor", values.specularFactor);
     get(*found, "glossinessFactor", values.glossinessFactor);
-    get(child(*found, "diffuseTexture"), "index", values.diffuseTexture);
-    get(child(*found, "specularGlossinessTexture"), "index", values.specularGlossinessTexture);
+    getTexture(*found, "diffuseTexture", values.diffuseTexture);
+    getTexture(*found, "specularGlossinessTexture", values.specularGlossinessTexture);
   }
   get(child(extensions, "KHR_materials_transmission"), "transmissionFactor", material.transmissionFactor);
   const json& volume = child(extensions, "KHR_materials_volume");
@@ -339,7 +353,16 @@ Document toDocument(json document, const std::string& where, GltfLeftOut& leftOu
   lists.convert("bufferViews", result.bufferViews, toBufferView);
   lists.convert("buffers", result.buffers, [](json& buffer, const std::string&) { return toBuffer(buffer); });
   for (const json& material : lists.take("materials")) result.materials.push_back(toMaterial(material));
-  for (const json& texture : lists.take("textures")) get(texture, "source", result.textures.emplace_back());
+  for (const json& item : lists.take("textures")) {
+    Texture& texture = result.textures.emplace_back();
+    get(item, "source", texture.source);
+    get(item, "sampler", texture.sampler);
+  }
+  for (const json& item : lists.take("samplers")) {
+    Sampler& sampler = result.samplers.emplace_back();
+    get(item, "wrapS", sampler.wrapS);
+    get(item, "wrapT", sampler.wrapT);
+  }
   for (const json& image : lists.take("images")) result.images.push_back(toImage(image));
   for (const json& camera : lists.take("cameras")) result.cameras.push_back(toCamera(camera));
   const json& punctual = child(child(document, "extensions"), "KHR_lights_punctual");

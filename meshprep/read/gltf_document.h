@@ -132,12 +132,30 @@ struct Image {
   std::optional<std::size_t> bufferView;  // in place of the URI
 };
 
+// A texture of a material, with KHR_texture_transform.
+struct TextureInfo {
+  std::optional<std::size_t> index;
+  std::size_t texCoord = 0;
+  std::array<double, 2> offset{0, 0}, scale{1, 1};
+  double rotation = 0;  // radians
+};
+
+// WebGL's numbers; others count as repeated.
+struct Sampler {
+  std::size_t wrapS = kRepeat, wrapT = kRepeat;
+  static constexpr std::size_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
+};
+
+struct Texture {
+  std::optional<std::size_t> source, sampler;
+};
+
 // KHR_materials_pbrSpecularGlossiness, in place of the metallic-roughness values.
 struct SpecularGlossiness {
   std::array<double, 4> diffuseFactor{1, 1, 1, 1};
   std::array<double, 3> specularFactor{1, 1, 1};
   double glossinessFactor = 1;
-  std::optional<std::size_t> diffuseTexture, specularGlossinessTexture;
+  TextureInfo diffuseTexture, specularGlossinessTexture;
 };
 
 struct Material {
@@ -150,7 +168,8 @@ struct Material {
   double alphaCutoff = 0.5;
   bool doubleSided = false;
   double emissiveStrength = 1;  // KHR_materials_emissive_strength
-  std::optional<std::size_t> baseColorTexture, metallicRoughnessTexture, emissiveTexture;
+  TextureInfo baseColorTexture, metallicRoughnessTexture, emissiveTexture, normalTexture, transmissionTexture;
+  double normalScale = 1;
   double ior = 1.5;           // KHR_materials_ior; 0: the reflectance is 1
   double specularFactor = 1;  // KHR_materials_specular
   std::array<double, 3> specularColorFactor{1, 1, 1};
@@ -193,7 +212,8 @@ struct Document {
   std::vector<BufferView> bufferViews;
   std::vector<Buffer> buffers;
   std::vector<Material> materials;
-  std::vector<std::optional<std::size_t>> textures;  // the image of each
+  std::vector<Texture> textures;
+  std::vector<Sampler> samplers;
   std::vector<Image> images;
   std::vector<Camera> cameras;
   std::vector<Light> lights;

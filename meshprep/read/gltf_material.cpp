@@ -82,24 +82,65 @@ void readBase(const gltf::Material& material, const BoundsCheck& checked, Source
         checked("specularColorFactor", material.specularColorFactor[i], 0, kMaxSpecularColour);
 }
 
+SourceWrap toWrap(std::size_t number) {
+  if (number == gltf::Sampler::kClampToEdge) return SourceWrap::clamp;
+  return number == gltf::Sampler::kMirroredRepeat ? SourceWrap::mirror : SourceWrap::repeat;
+}
+
+// Sets the image of a texture and its place, if the image is in the file.
+class TextureReader {
+ public:
+  TextureReader(const gltf::Document& document, const gltf::Material& material, std::vector<std::string>& notes)
+      : document_(document), material_(material), notes_(notes) {}
+
+  void operator()(const gltf::TextureInfo& info, std::optional<std::size_t>& image, SourcePlacement& place) const {
+    if (!info.index || *info.index >= document_.textures.size()) return;
+    const gltf::Texture& texture = document_.textures[*info.index];
+    if (!texture.source || *texture.source >= document_.images.size()) return;
+    image = texture.source;
+    place.set = info.texCoord;
+    if (info.texCoord > 1) {
+      addNote(notes_, fmt::format("TEXCOORD_{} of material '{}', in place of which TEXCOORD_0 is used", info.texCoord,
+                                  material_.name));
+      place.set = 0;
+    }
+    if (texture.sampler && *texture.sampler < document_.samplers.size()) {
+      place.wrapU = toWrap(document_.samplers[*texture.sampler].wrapS);
+      place.wrapV = toWrap(document_.samplers[*texture.sampler].wrapT);
+    }
+    place.offset = {info.offset[0], info.offset[1]};
+    place.scale = {info.scale[0], info.scale[1]};
+    place.rotation = info.rotation;
+  }
+
+ private:
+  const gltf::Document& document_;
+  const gltf::Material& material_;
+  std::vector<std::string>& notes_;
+};
+
 // Sets the images of the textures. Those of metallic-roughness do not apply to specular-glossiness.
 void readTextures(const gltf::Document& document, const gltf::Material& material, std::vector<std::string>& notes,
                   SourceMaterial& result) {
-  const auto image = [&](std::optional<std::size_t> texture) -> std::optional<std::size_t> {
-    if (!texture || *texture >= document.textures.size()) return {};
-    const std::optional<std::size_t> source = document.textures[*texture];
-    return source && *source < document.images.size() ? source : std::nullopt;
-  };
-  result.emissiveImage = image(material.emissiveTexture);
+  const TextureReader read(document, material, notes);
+  read(material.emissiveTexture, result.emissiveImage, result.emissivePlacement);
+  read(material.normalTexture, result.normalImage, result.normalPlacement);
+  result.normalScale = material.normalScale;
+  read(material.transmissionTexture, result.transmissionImage, result.transmissionPlacement);
+  if (material.normalTexture.index && !result.normalImage)
+    addNote(notes, fmt::format("the normal texture of material '{}', which cannot be read", material.name));
+  if (material.transmissionTexture.index && !result.transmissionImage)
+    addNote(notes, fmt::format("the transmission texture of material '{}', which cannot be read", material.name));
   if (material.specularGlossiness) {
-    result.baseColourImage = image(material.specularGlossiness->diffuseTexture);
-    result.specularGlossinessImage = image(material.specularGlossiness->specularGlossinessTexture);
+    read(material.specularGlossiness->diffuseTexture, result.baseColourImage, result.baseColourPlacement);
+    read(material.specularGlossiness->specularGlossinessTexture, result.specularGlossinessImage,
+         result.specularGlossinessPlacement);
   } else {
-    result.baseColourImage = image(material.baseColorTexture);
-    result.metallicRoughnessImage = image(material.metallicRoughnessTexture);
+    read(material.baseColorTexture, result.baseColourImage, result.baseColourPlacement);
+    read(material.metallicRoughnessTexture, result.metallicRoughnessImage, result.metallicRoughnessPlacement);
   }
   // A texture without an image that can be read, such as KTX2: most of a mask of emission is black.
-  if (!material.emissiveTexture || result.emissiveImage || result.emissive == glm::dvec3(0.0)) return;
+  if (!material.emissiveTexture.index || result.emissiveImage || result.emissive == glm::dvec3(0.0)) return;
   result.emissive = glm::dvec3(0.0);
   addNote(notes, fmt::format("the emission of material '{}', whose emissive texture cannot be read", material.name));
 }

@@ -18,6 +18,16 @@ constexpr Rule optionalPart(std::string_view path, Type type, std::size_t size =
   return {path, type, size, false, {}, Invalid::part};
 }
 
+// The keys of a texture's place: its coordinates and KHR_texture_transform.
+#define MALUS_TEXTURE_RULES(path)                                                                    \
+  optionalValue(path, Type::object), Rule{path "/index", Type::index, 0, true},                      \
+      optionalValue(path "/texCoord", Type::index), optionalValue(path "/extensions", Type::object), \
+      optionalValue(path "/extensions/KHR_texture_transform", Type::object),                         \
+      optionalValue(path "/extensions/KHR_texture_transform/offset", Type::numbers, 2),              \
+      optionalValue(path "/extensions/KHR_texture_transform/scale", Type::numbers, 2),               \
+      optionalValue(path "/extensions/KHR_texture_transform/rotation", Type::number),                \
+      optionalValue(path "/extensions/KHR_texture_transform/texCoord", Type::index)
+
 // Paths have no indices of arrays.
 constexpr std::array kRules = {
     Rule{"asset", Type::object, 0, true},
@@ -155,25 +165,24 @@ constexpr std::array kRules = {
     optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", Type::numbers, 4),
     optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", Type::numbers, 3),
     optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", Type::number),
-    optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture", Type::object),
-    Rule{"materials/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture/index", Type::index, 0, true},
-    optionalValue("materials/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture", Type::object),
-    Rule{"materials/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture/index", Type::index, 0,
-         true},
-    noted("materials/extensions/KHR_materials_transmission/transmissionTexture", "transmission textures"),
+    MALUS_TEXTURE_RULES("materials/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture"),
+    MALUS_TEXTURE_RULES("materials/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture"),
+    MALUS_TEXTURE_RULES("materials/extensions/KHR_materials_transmission/transmissionTexture"),
     noted("materials/extensions/KHR_materials_volume/thicknessTexture", "thickness textures"),
-    optionalValue("materials/emissiveTexture", Type::object),
-    Rule{"materials/emissiveTexture/index", Type::index, 0, true},
+    MALUS_TEXTURE_RULES("materials/emissiveTexture"),
     optionalValue("materials/extensions/KHR_materials_emissive_strength", Type::object),
     optionalValue("materials/extensions/KHR_materials_emissive_strength/emissiveStrength", Type::number),
-    optionalValue("materials/pbrMetallicRoughness/baseColorTexture", Type::object),
-    Rule{"materials/pbrMetallicRoughness/baseColorTexture/index", Type::index, 0, true},
-    optionalValue("materials/pbrMetallicRoughness/metallicRoughnessTexture", Type::object),
-    Rule{"materials/pbrMetallicRoughness/metallicRoughnessTexture/index", Type::index, 0, true},
-    noted("materials/normalTexture", "normal textures"),
+    MALUS_TEXTURE_RULES("materials/pbrMetallicRoughness/baseColorTexture"),
+    MALUS_TEXTURE_RULES("materials/pbrMetallicRoughness/metallicRoughnessTexture"),
+    MALUS_TEXTURE_RULES("materials/normalTexture"),
+    optionalValue("materials/normalTexture/scale", Type::number),
     noted("materials/occlusionTexture", "occlusion textures"),
     optionalValue("textures", Type::objects),
     optionalValue("textures/source", Type::index),
+    optionalValue("textures/sampler", Type::index),
+    optionalValue("samplers", Type::objects),
+    optionalValue("samplers/wrapS", Type::index),
+    optionalValue("samplers/wrapT", Type::index),
     optionalValue("images", Type::objects),
     optionalValue("images/name", Type::text),
     optionalValue("images/uri", Type::text),
@@ -223,11 +232,11 @@ std::string unknownKeyNote(std::string_view path) {
   if (key == "extras" || key == "name" || path.starts_with("asset/")) return {};
   constexpr auto kHarmless = std::to_array<std::string_view>(
       {"accessors/min", "accessors/max", "bufferViews/target", "cameras/perspective/znear", "cameras/perspective/zfar",
-       "cameras/orthographic/znear", "cameras/orthographic/zfar", "samplers", "skins/skeleton",
-       "materials/extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", "textures/sampler",
+       "cameras/orthographic/znear", "cameras/orthographic/zfar", "samplers/magFilter", "samplers/minFilter",
+       "skins/skeleton", "materials/extensions/KHR_materials_iridescence/iridescenceThicknessMinimum",
        "images/mimeType"});
   if (std::find(kHarmless.begin(), kHarmless.end(), path) != kHarmless.end()) return {};
-  // The coordinates of a texture.
+  // The coordinates of a texture that is noted itself.
   if (path.find("Texture/texCoord") != std::string_view::npos ||
       path.find("Texture/extensions") != std::string_view::npos)
     return {};

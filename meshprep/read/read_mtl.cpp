@@ -27,7 +27,7 @@ constexpr std::size_t kMaxMaterials = 100'000;
 constexpr double kContradiction = 1e-3;  // of d + Tr from 1: files have few decimals
 
 constexpr std::array<std::string_view, 3> kIgnored = {"Ka", "sharpness", "Km"};
-constexpr std::array<std::string_view, 7> kTextures = {"bump", "disp", "decal", "refl", "norm", "Bump", "Disp"};
+constexpr std::array<std::string_view, 6> kTextures = {"bump", "disp", "decal", "refl", "Bump", "Disp"};
 
 // Statements of one material.
 struct Statements {
@@ -35,7 +35,9 @@ struct Statements {
   std::optional<glm::dvec3> kd, ks, ke, tf;
   std::optional<double> ns, ni, d, tr, pm, pr;
   int illum = 2;
-  std::string colourMap;  // file of map_Kd; empty: none
+  std::string colourMap;    // file of map_Kd; empty: none
+  std::string coverageMap;  // of map_d
+  std::string normalMap;    // of norm
 };
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
@@ -79,9 +81,15 @@ SourceMaterial convertMaterial(const Statements& from, std::vector<SourceImage>&
   const bool metal = from.pm ? *from.pm >= 0.5 : largest(ks) > 0.5 && largest(kd) < 0.1;
   result.metallic = from.pm ? std::clamp(*from.pm, 0.0, 1.0) : metal ? 1 : 0;
   result.baseColour = metal && !from.pm ? ks : kd;
-  if (!from.colourMap.empty() && (!metal || from.pm)) {
-    result.baseColourImage = images.size();
-    images.push_back({from.colourMap, from.colourMap, nullptr});
+  const auto addImage = [&](const std::string& file, std::optional<std::size_t>& image) {
+    image = images.size();
+    images.push_back({file, file, nullptr});
+  };
+  if (!from.colourMap.empty() && (!metal || from.pm)) addImage(from.colourMap, result.baseColourImage);
+  if (!from.normalMap.empty()) addImage(from.normalMap, result.normalImage);
+  if (!from.coverageMap.empty()) {
+    addImage(from.coverageMap, result.coverageImage);
+    result.alphaMode = AlphaMode::mask;
   }
   if (from.pr) {
     result.roughness = std::clamp(*from.pr, 0.0, 1.0);
@@ -181,6 +189,10 @@ void parseStatement(std::string_view keyword, std::string_view rest, const Lines
     material.illum = static_cast<int>(model);
   } else if (keyword == "map_Kd") {
     material.colourMap = mapFile(rest);
+  } else if (keyword == "map_d") {
+    material.coverageMap = mapFile(rest);
+  } else if (keyword == "norm") {
+    material.normalMap = mapFile(rest);
   } else if (keyword.starts_with("map_") || std::find(kTextures.begin(), kTextures.end(), keyword) != kTextures.end()) {
     note("textures");
   } else if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end()) {

@@ -142,8 +142,17 @@ SourceScene splitByMaterial(Polygons polygons) {
 
 TextureNeeds textureNeeds(const SourceMaterial& material) {
   TextureNeeds needs;
-  needs.coordinates[0] = material.baseColourImage || material.metallicRoughnessImage || material.emissiveImage ||
-                         material.specularGlossinessImage;
+  const auto add = [&](const std::optional<std::size_t>& image, const SourcePlacement& place) {
+    if (image && place.set < needs.coordinates.size()) needs.coordinates[place.set] = true;
+  };
+  add(material.baseColourImage, material.baseColourPlacement);
+  add(material.metallicRoughnessImage, material.metallicRoughnessPlacement);
+  add(material.emissiveImage, material.emissivePlacement);
+  add(material.specularGlossinessImage, material.specularGlossinessPlacement);
+  add(material.normalImage, material.normalPlacement);
+  add(material.transmissionImage, material.transmissionPlacement);
+  add(material.coverageImage, material.coveragePlacement);
+  needs.tangents = material.normalImage.has_value();
   return needs;
 }
 

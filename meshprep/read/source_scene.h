@@ -18,6 +18,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "meshprep/read/polygons.h"
@@ -33,6 +34,19 @@ struct SourceImage {
   std::string name;                                     // for messages
   std::filesystem::path file;                           // or, if that is empty,
   std::shared_ptr<const std::vector<std::byte>> bytes;  // the bytes of a file; null: the image cannot be found
+};
+
+// Ways in which a texture continues beyond its edges.
+enum class SourceWrap { repeat, clamp, mirror };
+
+// Place of a texture: coordinates (u, v) of its pixels, from the upper left corner, of the coordinates (s, t) of the
+// mesh (KHR_texture_transform): (u, v) = offset + rotation (scale (s, t)).
+struct SourcePlacement {
+  std::size_t set = 0;  // of texture coordinates
+  SourceWrap wrapU = SourceWrap::repeat, wrapV = SourceWrap::repeat;
+  glm::dvec2 offset{0.0}, scale{1.0};
+  double rotation = 0;  // radians, u' = cos u + sin v, v' = -sin u + cos v
+  friend bool operator==(const SourcePlacement&, const SourcePlacement&) = default;
 };
 
 enum class AlphaMode { opaque, mask, blend };
@@ -63,8 +77,14 @@ struct SourceMaterial {
   std::optional<std::size_t> metallicRoughnessImage;   // linear: roughness is green, metallic blue
   std::optional<std::size_t> emissiveImage;            // sRGB
   std::optional<std::size_t> specularGlossinessImage;  // sRGB and linear alpha, of specularColour and 1 - roughness
-  bool hasVolume = false;                              // the interior absorbs light:
-  glm::dvec3 attenuationColour{1};                     // transmittance of
+  std::optional<std::size_t> normalImage;              // linear: (n + 1) / 2
+  double normalScale = 1;                              // of its x and y
+  std::optional<std::size_t> transmissionImage;        // linear: red times transmission
+  std::optional<std::size_t> coverageImage;            // MTL's map_d, linear: its alpha, or else red, times alpha
+  SourcePlacement baseColourPlacement, metallicRoughnessPlacement, emissivePlacement, specularGlossinessPlacement,
+      normalPlacement, transmissionPlacement, coveragePlacement;
+  bool hasVolume = false;                                                // the interior absorbs light:
+  glm::dvec3 attenuationColour{1};                                       // transmittance of
   double attenuationDistance = std::numeric_limits<double>::infinity();  // this distance, metres
 };
 

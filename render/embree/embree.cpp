@@ -43,6 +43,20 @@ RTCScene Bvh::newScene() {
   return scene;
 }
 
+namespace {
+
+// Continues the rays of a packet whose hit is cut out.
+void ignoreCutOuts(const RTCFilterFunctionNArguments* arguments) {
+  const auto& cutOut = *static_cast<const CutOut*>(arguments->geometryUserPtr);
+  for (unsigned i = 0; i < arguments->N; ++i)
+    if (arguments->valid[i] == -1 &&
+        cutOut.isCutOut(RTCHitN_primID(arguments->hit, arguments->N, i), RTCHitN_u(arguments->hit, arguments->N, i),
+                        RTCHitN_v(arguments->hit, arguments->N, i)))
+      arguments->valid[i] = 0;
+}
+
+}  // namespace
+
 // The geometries have the indices of their meshes, also inside an instance. Those of the scene itself come first, so
 // that instances get other indices.
 void Bvh::attachMeshes(RTCScene to, const render::RenderScene& scene, const render::MeshRun& run) {
@@ -59,6 +73,12 @@ void Bvh::attachMeshes(RTCScene to, const render::RenderScene& scene, const rend
                   scene.meshVertices[i] * sizeof(glm::vec3));
       std::memcpy(indices, scene.triangles.data() + scene.meshes[i].firstTriangle,
                   scene.meshTriangles[i] * sizeof(glm::uvec3));
+    }
+    if (render::hasCutOuts(scene, i)) {
+      cutOuts_.push_back(std::make_unique<const CutOut>(scene, i));
+      rtcSetGeometryUserData(geometry, const_cast<CutOut*>(cutOuts_.back().get()));
+      rtcSetGeometryIntersectFilterFunction(geometry, ignoreCutOuts);
+      rtcSetGeometryOccludedFilterFunction(geometry, ignoreCutOuts);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(to, geometry, static_cast<unsigned>(i));

@@ -13,10 +13,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "render/embree/cut_out.h"
 #include "render/scene/render_scene.h"
 
 namespace malus::embree {
@@ -123,6 +126,7 @@ class Bvh {
   void attachMeshes(RTCScene to, const render::RenderScene& scene, const render::MeshRun& run);
   void attachInstance(RTCScene instanced, const glm::vec3& origin);
 
+  std::vector<std::unique_ptr<const CutOut>> cutOuts_;  // that filter functions read
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };

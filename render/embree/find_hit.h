@@ -3,6 +3,36 @@
 
 #include "shaders/surfaces/barycentrics.h"
 
+#if MALUS_EFFECT_MESH_TEXTURES
+// corner: indices of the triangle's vertices in the mesh.
+TexturedTriangle texturedTriangle(const Mesh& mesh, const glm::uvec3& corner, const Barycentrics& b) const {
+  const real3* p = scene.positions.data() + mesh.firstVertex;
+  const real3* n = scene.normals.data() + mesh.firstVertex;
+  const glm::vec4* c = scene.textureCoordinates.data() + mesh.firstVertex;
+  const auto point = [c](uint i) { return TexturePoint{c[i].x, c[i].y, c[i].z, c[i].w}; };
+  TexturedTriangle t{p[corner.x],
+                     p[corner.y],
+                     p[corner.z],
+                     point(corner.x),
+                     point(corner.y),
+                     point(corner.z),
+                     b.b1,
+                     b.b2,
+                     real3(0),
+                     1,
+                     0};
+  if (mesh.hasNormals != 0) t.curvature = triangleCurvature(t.p0, t.p1, t.p2, n[corner.x], n[corner.y], n[corner.z]);
+  if (scene.tangents.size() == scene.positions.size()) {
+    const glm::vec4* tangents = scene.tangents.data() + mesh.firstVertex;
+    const glm::vec4 tangent =
+        tangents[corner.x] * (1 - b.b1 - b.b2) + tangents[corner.y] * b.b1 + tangents[corner.z] * b.b2;
+    t.tangent = real3(tangent);
+    t.handedness = tangent.w;
+  }
+  return t;
+}
+#endif
+
 bool findHit(const Ray& ray, Hit& hit) {
   ++rays;
   if (kCheckNumerics && log) {
@@ -20,6 +50,17 @@ bool findHit(const Ray& ray, Hit& hit) {
   const real b0 = 1 - b.b1 - b.b2;
   const real3 interpolated =
       mesh.hasNormals != 0 ? n[corner.x] * b0 + n[corner.y] * b.b1 + n[corner.z] * b.b2 : real3(0);
+#if MALUS_EFFECT_MESH_TEXTURES
+  if (hasMeshTextures()) {
+    const TexturedTriangle t = texturedTriangle(mesh, corner, b);
+    RayCone cone;
+    const TextureHit textureHit = textureHitAt(ray, mesh.origin, t, cone);
+    hit = makeHit(ray, p0, p1, p2, b.b1, b.b2, mesh.origin, normalAt(mesh.material, textureHit, t, interpolated),
+                  mesh.material);
+    setTextureHit(hit, textureHit, t, cone);
+    return true;
+  }
+#endif
   hit = makeHit(ray, p0, p1, p2, b.b1, b.b2, mesh.origin, interpolated, mesh.material);
   return true;
 }

@@ -33,7 +33,7 @@ struct Tracer : MALUS_METHOD, embree::SceneAccess {
   Payload traceRay(const Ray& ray) {
     Hit hit;
     if (!findHit(ray, hit)) return shadeEnvironment(ray.d, ray.depth);
-#if MALUS_EFFECT_TEXTURES
+#if MALUS_EFFECT_TEXTURES || MALUS_EFFECT_MESH_TEXTURES
     const Material material = materialAt(hit);
 #else
     const Material& material = materials[hit.material];

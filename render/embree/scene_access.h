@@ -20,6 +20,8 @@ struct SceneAccess {
         textures(scene.textures.data()),
         textureTexels(scene.textureTexels.data()),
         environmentTexels(scene.environmentTexels.data()),
+        materialMaps(scene.materialMaps.data()),
+        textureMaps(scene.textureMaps.data()),
         log(tile.log) {}
 
   const Bvh& bvh;
@@ -32,6 +34,8 @@ struct SceneAccess {
   const gpu::Texture* textures;
   const glm::vec3* textureTexels;
   const glm::vec3* environmentTexels;
+  const gpu::MeshMaps* materialMaps;
+  const gpu::TextureMap* textureMaps;
   RayLog* log;     // of the tracers that check numerics; null: none
   int bounce = 0;  // of the ray that was traced last, if there is a log
   std::uint64_t rays = 0;
@@ -53,6 +57,11 @@ struct SceneAccess {
     const auto repeated = [](int i, int size) { return i < 0 ? i + size : i >= size ? i - size : i; };
     return textureTexels[static_cast<int>(t.first) + repeated(row, height) * width + repeated(column, width)];
   }
+
+  bool hasMeshTextures() const { return scene.hasMeshTextures; }
+  const gpu::MeshMaps& meshMaps(gpu::uint material) const { return materialMaps[material]; }
+  const gpu::TextureMap& textureMap(gpu::uint map) const { return textureMaps[map]; }
+  gpu::uint textureRow(gpu::uint index, float level) const { return index + static_cast<gpu::uint>(level); }
 
   void textureSize(gpu::uint index, float& width, float& height) const {
     width = static_cast<float>(textures[index].width);

@@ -120,7 +120,7 @@ class DepthPaths {
     return {h.position, d, glm::vec3(queryAbove(h)), 0, 0, isBehindRough, path};
   }
   static Ray rayBelow(const Hit& h, const dvec3& d, const Path& p) {
-    return {h.position, d, glm::vec3(queryBelow(h)), 0, 0, p.ray.isBehindRough, f64::transmittedPath(p.ray.path)};
+    return {h.position, d, glm::vec3(queryBelow(h)), 0, 0, p.ray.isBehindRough, transmittedPath(h)};
   }
 
   DirectLight directLightAt(const Hit& h, const dvec3& mirror) {
@@ -147,19 +147,19 @@ class DepthPaths {
     record(reflected, unpolarized(highlight), p.interactions + 1);
 
     // Rays that leave it.
-    if (m.roughness > 0 && !p.ray.isBehindRough) {
+    if (h.surface.roughness > 0 && !p.ray.isBehindRough) {
       followFacets(p, h, row, refraction);
       return;
     }
-    push({rayAbove(h, mirror, p.ray.isBehindRough, f64::reflectedPath(p.ray.path)),
-          times(reflected, toSurface(mirror, s)), p.interactions + 1});
+    push({rayAbove(h, mirror, p.ray.isBehindRough, reflectedPath(access_, h)), times(reflected, toSurface(mirror, s)),
+          p.interactions + 1});
     if (isClear && !refraction.isTotal)
       push({rayBelow(h, refraction.direction, p),
             times(times(atSurface, interface.transmission), toSurface(refraction.direction, s)), p.interactions + 1});
   }
 
   void followFacets(const Path& p, const Hit& h, const Light& row, const Refraction& refraction) {
-    const double alpha = h.surface.material->roughness;
+    const double alpha = h.surface.roughness;
     for (std::uint32_t i = 0; i < gpu::kFacets; ++i) {
       const glm::dvec2 point = render::facetPoint(i);
       const dvec3 normal = f64::facetNormal(-h.d, h.normal, alpha, point.x, point.y);
@@ -170,7 +170,7 @@ class DepthPaths {
       const dvec3 s = f64::sDirection(h.d, normal);
       const Light atFacet = times(times(row, transposed(toSurface(h.d, s))),
                                   evaluateInterface(h.surface, c, refraction.n1, refraction.n2).reflection);
-      push({rayAbove(h, mirror, true, f64::facetPath(p.ray.path, i)),
+      push({rayAbove(h, mirror, true, facetPath(access_, h, i)),
             scaled(times(atFacet, toSurface(mirror, s)), dvec3(weight)), p.interactions + 1});
     }
   }

@@ -21,6 +21,59 @@ std::vector<Face> computeFaces(const pack::Mesh& mesh) {
   return faces;
 }
 
+namespace {
+
+f64::TexturePoint texturePointAt(const pack::Mesh& mesh, std::uint32_t vertex) {
+  const auto set = [&](std::size_t k) {
+    return mesh.textureCoordinates[k].empty() ? glm::dvec2(0) : glm::dvec2(mesh.textureCoordinates[k][vertex]);
+  };
+  const glm::dvec2 first = set(0), second = set(1);
+  return {first.x, first.y, second.x, second.y};
+}
+
+// The normal of the material's normal map. normal: unit, from outside; t: the triangle's vertices.
+dvec3 mappedNormalAt(const MeshTextures& textures, const pack::MeshMaps& maps, const pack::Mesh& mesh,
+                     const glm::uvec3& t, const dvec3& barycentric, const dvec3& normal, const f64::TextureHit& at) {
+  dvec3 tangent(0);
+  double handedness = 1;
+  if (!mesh.tangents.empty()) {
+    const glm::dvec4 sum = glm::dvec4(mesh.tangents[t.x]) * barycentric.x +
+                           glm::dvec4(mesh.tangents[t.y]) * barycentric.y +
+                           glm::dvec4(mesh.tangents[t.z]) * barycentric.z;
+    tangent = dvec3(sum);
+    handedness = sum.w < 0 ? -1 : 1;
+  }
+  if (tangent == dvec3(0)) {
+    const auto& set = mesh.textureCoordinates[maps.normal.set];
+    if (set.empty()) return normal;
+    const glm::dvec2 first = set[t.x], edge1 = glm::dvec2(set[t.y]) - first, edge2 = glm::dvec2(set[t.z]) - first;
+    const dvec3& p0 = mesh.positions[t.x];
+    const f64::TriangleTangent derived =
+        f64::triangleTangent(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0, edge1.x, edge1.y, edge2.x, edge2.y);
+    tangent = derived.tangent;
+    handedness = derived.determinant < 0 ? 1 : -1;
+  }
+  const dvec3 n = textures.at(maps.normal, at) * 2.0 - 1.0;
+  const dvec3 mapped =
+      f64::mappedNormal(normal, tangent, handedness, n.x * maps.normalScale, n.y * maps.normalScale, n.z);
+  return glm::dot(mapped, mapped) > 1e-12 ? mapped : normal;
+}
+
+// Cone and texture coordinates at the hit's position.
+f64::TextureHit findTextureHit(const SceneAccess& access, const pack::Mesh& mesh, const glm::uvec3& t, const Ray& ray,
+                               double b1, double b2, Hit& hit) {
+  const dvec3 &p0 = mesh.positions[t.x], &p1 = mesh.positions[t.y], &p2 = mesh.positions[t.z];
+  const f64::RayCone cone = f64::coneAfter(f64::coneOfPath(ray.path, access.cone.width, access.cone.spread),
+                                           glm::length(hit.position - ray.origin));
+  hit.path = f64::pathWithCone(ray.path, cone);
+  if (!mesh.normals.empty())
+    hit.curvature = f64::triangleCurvature(p0, p1, p2, mesh.normals[t.x], mesh.normals[t.y], mesh.normals[t.z]);
+  return f64::textureHitOfTriangle(ray.d, p1 - p0, p2 - p0, b1, b2, cone.width, texturePointAt(mesh, t.x),
+                                   texturePointAt(mesh, t.y), texturePointAt(mesh, t.z));
+}
+
+}  // namespace
+
 void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersection& found, Hit& hit) {
   const std::uint32_t source = access.sourceMeshes[found.mesh];
   const pack::Mesh& mesh = access.scene.meshes[source];
@@ -45,7 +98,11 @@ void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersecti
   }
   const double b0 = 1 - b1 - b2;
   hit.position = f64::trianglePoint(p0, e1, e2, b1, b2);
-  hit.surface = surfaceAt(access.scene, mesh.material, hit.position);
+  hit.path = ray.path;
+  hit.curvature = 0;
+  f64::TextureHit textureHit = f64::noTextureHit();
+  if (access.textures != nullptr) textureHit = findTextureHit(access, mesh, t, ray, b1, b2, hit);
+  hit.surface = surfaceAt(access.scene, access.textures, mesh.material, hit.position, textureHit);
   // The next query is in single precision.
   const dvec3& o = mesh.origin;
   hit.error = f64::hitPointError(p0 - o, e1, e2, b1, b2, 0x1p-24) + f64::originError(o, 0x1p-24) +
@@ -62,9 +119,27 @@ void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersecti
     const dvec3 n = dvec3(mesh.normals[t.x]) * b0 + dvec3(mesh.normals[t.y]) * b1 + dvec3(mesh.normals[t.z]) * b2;
     if (glm::length(n) > 0) interpolated = n;
   }
+  const pack::MeshMaps& maps = hit.surface.material->meshMaps;
+  if (maps.normal.isUsed())
+    interpolated =
+        mappedNormalAt(*access.textures, maps, mesh, t, {b0, b1, b2}, glm::normalize(interpolated), textureHit);
   hit.normal = f64::shadingNormal(d, hit.face, interpolated);
-  if (!hit.outside) hit.face = -hit.face;
+  if (!hit.outside) hit.face = -hit.face, hit.curvature = -hit.curvature;
   hit.c = f64::clampUnit(-glm::dot(d, hit.normal));
+}
+
+std::uint32_t reflectedPath(const SceneAccess& access, const Hit& h) {
+  const std::uint32_t path = f64::reflectedPath(h.path);
+  if (access.textures == nullptr) return path;
+  return f64::pathWithCone(path, f64::reflectedCone(f64::coneOfBits(h.path), h.curvature, h.c));
+}
+
+std::uint32_t facetPath(const SceneAccess& access, const Hit& h, std::uint32_t facet) {
+  const std::uint32_t path = f64::facetPath(h.path, facet);
+  if (access.textures == nullptr) return path;
+  f64::RayCone cone = f64::reflectedCone(f64::coneOfBits(h.path), h.curvature, h.c);
+  cone.spread += 0.5 * h.surface.roughness;
+  return f64::pathWithCone(path, cone);
 }
 
 Hit environmentHit(const dvec3& d) {

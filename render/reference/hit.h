@@ -27,6 +27,8 @@ struct SceneAccess {
   const std::vector<std::vector<Face>>& faces;        // per triangle of each mesh of scene
   const std::vector<dvec3>& hemisphereTransmittance;  // per material
   double lightReach;                                  // render::lightReach
+  const MeshTextures* textures;                       // null without textures by texture coordinates
+  render::CameraCone cone;                            // of the camera's rays
 };
 
 // A ray and its query in single precision, which starts off the surface that the ray leaves.
@@ -48,7 +50,14 @@ struct Hit {
   bool outside;        // the ray hits the side that the mesh's normals point to
   Surface surface;
   std::uint32_t materialIndex;
+  std::uint32_t path;  // path word of the ray; with mesh textures its cone is that at the hit
+  double curvature;    // of a smooth mesh, on the side of the ray, with mesh textures
 };
+
+// Path words of the rays that leave a hit. facet: its index.
+std::uint32_t reflectedPath(const SceneAccess& access, const Hit& h);
+std::uint32_t facetPath(const SceneAccess& access, const Hit& h, std::uint32_t facet);
+inline std::uint32_t transmittedPath(const Hit& h) { return f64::transmittedPath(h.path); }
 
 // found: a hit of Embree, not a miss.
 void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersection& found, Hit& hit);

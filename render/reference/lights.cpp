@@ -57,7 +57,7 @@ Light environmentLight(const pack::Environment& e, const dvec3& d) {
 
 Light emittedLight(const Hit& h) {
   const pack::Material& m = *h.surface.material;
-  const dvec3 radiance = h.outside || m.twoSided ? m.radiance / (m.outsideEta * m.outsideEta) : dvec3(0);
+  const dvec3 radiance = h.outside || m.twoSided ? h.surface.radiance / (m.outsideEta * m.outsideEta) : dvec3(0);
   if (m.polarization == 0) return unpolarized(radiance);
   const dvec3 s = f64::sDirection(h.d, glm::cross(h.face, m.axis));
   return rotated(transposed(toSurface(h.d, s)), polarized(radiance, m.polarization));
@@ -112,6 +112,7 @@ DirectLight directLight(const SceneAccess& access, const Hit& h, std::span<const
         f64::lambertRadiance(albedo, environmentIrradiance(environment, h.normal) * environment.ambientIrradiance,
                              access.hemisphereTransmittance[h.materialIndex]);
   const double basic = 1 / (m.outsideEta * m.outsideEta);
+  sum.diffuse += h.surface.radiance;  // of the layer itself
   return {sum.diffuse * basic, sum.highlight * basic};
 }
 

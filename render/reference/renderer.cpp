@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -118,6 +119,7 @@ struct Renderer::Impl {
         threads(threadCount),
         bvh(renderScene, threadCount),
         sourceMeshes(std::move(renderScene.sourceMeshes)) {
+    if (renderScene.hasMeshTextures) textures.emplace(renderScene);
     for (const pack::Material& m : scene.materials)
       hemisphereTransmittance.push_back(render::hemisphereTransmittance(m, scene.wavelengthsNm));
     for (const pack::Mesh& mesh : scene.meshes) faces.push_back(computeFaces(mesh));
@@ -132,9 +134,19 @@ struct Renderer::Impl {
   std::vector<std::vector<Face>> faces;        // per triangle of each mesh
   std::vector<dvec3> hemisphereTransmittance;  // per material
   double lightReach = 0;
+  std::optional<MeshTextures> textures;
   double buildMs = 0;
 
-  SceneAccess access() const { return {scene, bvh, sourceMeshes, faces, hemisphereTransmittance, lightReach}; }
+  SceneAccess access(const render::RenderParameters& parameters) const {
+    return {scene,
+            bvh,
+            sourceMeshes,
+            faces,
+            hemisphereTransmittance,
+            lightReach,
+            textures ? &*textures : nullptr,
+            render::cameraCone(scene.camera, parameters)};
+  }
 };
 
 Renderer::Renderer(const pack::Scene& scene, unsigned threads) {
@@ -156,7 +168,7 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
   result.channels = render::kStokesChannels;
   result.pixels.resize(result.channels * result.width * result.height);
   result.device = device();
-  const SceneAccess access = impl_->access();
+  const SceneAccess access = impl_->access(parameters);
   const CameraRays cameraRays(scene.camera, parameters.width, parameters.height);
   const std::uint32_t columns = (result.width + kTileWidth - 1) / kTileWidth,
                       rows = (result.height + kTileHeight - 1) / kTileHeight;
@@ -185,8 +197,11 @@ bake::DepthProbe Renderer::probeDepth() {
   const auto start = Clock::now();
   constexpr std::uint32_t kSide = 32;
   const pack::Scene& scene = impl_->scene;
-  const SceneAccess access = impl_->access();
   const std::uint32_t height = std::clamp(kSide * scene.height / scene.width, 1u, kSide);
+  render::RenderParameters parameters = render::defaultParameters(scene);
+  parameters.width = kSide;
+  parameters.height = height;
+  const SceneAccess access = impl_->access(parameters);
   const CameraRays cameraRays(scene.camera, scene.width, scene.height);
   struct Row {
     std::vector<double> energy;

@@ -1,5 +1,6 @@
 #include "render/reference/surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -27,11 +28,36 @@ dvec3 textureAt(const pack::Texture& t, double u, double v) {
          (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
 }
 
+void applyMeshMaps(const pack::MeshMaps& maps, const MeshTextures& textures, const f64::TextureHit& at, Surface& s) {
+  const auto apply = [&](const pack::MeshMap& map, dvec3& value) {
+    if (map.isUsed()) value = textures.at(map, at);
+  };
+  apply(maps.albedo, s.albedo);
+  apply(maps.eta, s.eta);
+  apply(maps.k, s.k);
+  apply(maps.radiance, s.radiance);
+  apply(maps.transmittance, s.transmittance);
+  if (maps.roughness.isUsed()) s.roughness = textures.at(maps.roughness, at).x;
+  if (!maps.reflectance.isUsed()) return;
+  const double tint = maps.metallic.isUsed() ? textures.at(maps.metallic, at).x : 1;
+  const dvec3 reflectance = textures.at(maps.reflectance, at);
+  for (int c = 0; c < 3; ++c) {
+    const f64::ConductorIndex index =
+        f64::conductorIndex(std::clamp(reflectance[c], f64::kLeastReflectance, f64::kMostReflectance), tint);
+    s.eta[c] = index.eta;
+    s.k[c] = index.k;
+  }
+}
+
 }  // namespace
 
-Surface surfaceAt(const pack::Scene& scene, std::uint32_t index, const dvec3& p) {
+Surface surfaceAt(const pack::Scene& scene, const MeshTextures* textures, std::uint32_t index, const dvec3& p,
+                  const f64::TextureHit& at) {
   const pack::Material& m = scene.materials[index];
-  Surface s{&m, m.eta, m.k, m.albedo, render::roundTripPhase(m.coating, scene.wavelengthsNm)};
+  Surface s{&m,          m.eta,
+            m.k,         m.albedo,
+            m.radiance,  m.transmittanceParallel,
+            m.roughness, render::roundTripPhase(m.coating, scene.wavelengthsNm)};
   const auto map = [&](std::int32_t texture) {
     const dvec3 from = p - m.maps.origin;
     return textureAt(scene.textures[static_cast<std::size_t>(texture)], glm::dot(from, m.maps.u),
@@ -40,6 +66,7 @@ Surface surfaceAt(const pack::Scene& scene, std::uint32_t index, const dvec3& p)
   if (m.maps.albedo >= 0) s.albedo *= map(m.maps.albedo);
   if (m.maps.eta >= 0) s.eta = map(m.maps.eta);
   if (m.maps.k >= 0) s.k = map(m.maps.k);
+  if (textures != nullptr) applyMeshMaps(m.meshMaps, *textures, at, s);
   return s;
 }
 
@@ -75,7 +102,7 @@ Interface evaluateInterface(const Surface& surface, double c, double n1, double 
       result.reflection[i] = asMatrix(film.reflected);
       result.transmission[i] = interfaceMatrix(film.through.rs, film.through.rp, film.through.xRe, film.through.xIm);
     } else if (isPane) {
-      const f64::ThinGlass pane = f64::thinGlass(c, n1, n2, m.transmittanceParallel[colour]);
+      const f64::ThinGlass pane = f64::thinGlass(c, n1, n2, surface.transmittance[colour]);
       result.reflection[i] = asMatrix(pane.reflected);
       result.transmission[i] = asMatrix(pane.transmitted);
     } else {
@@ -96,7 +123,7 @@ dvec3 meanTransmittance(const Surface& surface, double c, double n1, double n2) 
   }
   if (m.kind == pack::MaterialKind::thinGlass) {
     const auto ofColour = [&](int colour) {
-      const f64::Reflectance t = f64::thinGlass(c, n1, n2, m.transmittanceParallel[colour]).transmitted;
+      const f64::Reflectance t = f64::thinGlass(c, n1, n2, surface.transmittance[colour]).transmitted;
       return (t.rs + t.rp) / 2;
     };
     return {ofColour(0), ofColour(1), ofColour(2)};

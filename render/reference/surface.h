@@ -4,17 +4,22 @@
 #include <cstdint>
 
 #include "bake/pack/scene.h"
+#include "render/reference/mesh_textures.h"
 #include "render/reference/mueller.h"
 
 namespace malus::reference {
 
-// A material at a position, with the values of its textures.
+// A material at a hit, with the values of its textures.
 struct Surface {
   const pack::Material* material;
   dvec3 eta, k, albedo;
+  dvec3 radiance, transmittance;  // emitted; of thin glass
+  double roughness;
   dvec3 filmPhase;  // of the coating: twice its thickness over the wavelength, per colour
 };
-Surface surfaceAt(const pack::Scene& scene, std::uint32_t material, const dvec3& position);
+// textures: null without textures by texture coordinates.
+Surface surfaceAt(const pack::Scene& scene, const MeshTextures* textures, std::uint32_t material, const dvec3& position,
+                  const f64::TextureHit& at);
 
 struct Interface {
   Mueller reflection;

@@ -81,8 +81,8 @@ void Tracer::begin(const Ray& ray, const embree::Intersection& found, std::uint3
     node.step = Step::nothing;
   } else if (pack::isPolarizingElement(m.kind)) {  // the ray continues straight on
     node.step = Step::element;
-    level.children.push_back({h.position, h.d, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY, ray.isBehindRough,
-                              f64::transmittedPath(ray.path)});
+    level.children.push_back(
+        {h.position, h.d, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY, ray.isBehindRough, transmittedPath(h)});
   } else {
     beginInterface(ray, depth, level, node);
   }
@@ -98,20 +98,20 @@ void Tracer::beginInterface(const Ray& ray, std::uint32_t depth, Level& level, N
   addArrivals(depth, node.mirror, level, node);
   if (depth == 0) return;
   const dvec3 above = queryAbove(h);
-  if (h.surface.material->roughness > 0 && !ray.isBehindRough) {
+  if (h.surface.roughness > 0 && !ray.isBehindRough) {
     beginFacets(ray, above, level, node);
     return;
   }
   level.children.push_back({h.position, node.mirror, glm::vec3(above), ray.pixelX, ray.pixelY, ray.isBehindRough,
-                            f64::reflectedPath(ray.path)});
+                            reflectedPath(access_, h)});
   if (pack::isClear(h.surface.material->kind) && !node.refraction.isTotal)
     level.children.push_back({h.position, node.refraction.direction, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY,
-                              ray.isBehindRough, f64::transmittedPath(ray.path)});
+                              ray.isBehindRough, transmittedPath(h)});
 }
 
 void Tracer::beginFacets(const Ray& ray, const dvec3& above, Level& level, Node& node) const {
   const Hit& h = node.hit;
-  const double alpha = h.surface.material->roughness;
+  const double alpha = h.surface.roughness;
   node.step = Step::facets;
   node.firstFacet = count(level.facets.size());
   for (std::uint32_t i = 0; i < gpu::kFacets; ++i) {
@@ -123,7 +123,7 @@ void Tracer::beginFacets(const Ray& ray, const dvec3& above, Level& level, Node&
     if (weight <= 0 || glm::dot(mirror, h.face) <= 0) continue;
     level.facets.push_back({mirror, f64::sDirection(h.d, normal), c, weight});
     level.children.push_back(
-        {h.position, mirror, glm::vec3(above), ray.pixelX, ray.pixelY, true, f64::facetPath(ray.path, i)});
+        {h.position, mirror, glm::vec3(above), ray.pixelX, ray.pixelY, true, facetPath(access_, h, i)});
   }
   node.facets = count(level.facets.size()) - node.firstFacet;
 }

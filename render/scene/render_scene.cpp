@@ -13,6 +13,7 @@
 #include "bake/effects/effects.h"
 #include "bake/pack/instances.h"
 #include "render/scene/image_plane.h"
+#include "render/scene/scene_textures.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::render {
@@ -38,7 +39,8 @@ f64::Reflectance reflectance(const pack::Material& m, double c, int colour, doub
 // Rounding error of a value that is stored in float.
 float residue(double value) { return static_cast<float>(value - static_cast<double>(static_cast<float>(value))); }
 
-gpu::MaterialExtra makeExtra(const pack::Material& m, const glm::dvec3& wavelengthsNm) {
+gpu::MaterialExtra makeExtra(const pack::Material& m, const glm::dvec3& wavelengthsNm,
+                             const std::vector<std::uint32_t>& textureRows) {
   gpu::MaterialExtra e{};
   // Only glass has an inside: the other surfaces see the outer medium from both sides.
   e.absorption = glm::vec3(m.kind == pack::MaterialKind::glass ? m.absorption : m.outsideAbsorption);
@@ -59,10 +61,13 @@ gpu::MaterialExtra makeExtra(const pack::Material& m, const glm::dvec3& waveleng
     e.roundTripPhase = glm::vec3(roundTripPhase(m.coating, wavelengthsNm));
   }
   e.roughness = static_cast<float>(m.roughness);
-  const auto map = [](std::int32_t index) { return index < 0 ? gpu::kNoTexture : static_cast<gpu::uint>(index); };
+  const auto map = [&](std::int32_t index) {
+    return index < 0 ? gpu::kNoTexture : textureRows[static_cast<std::size_t>(index)];
+  };
   e.albedoMap = map(m.maps.albedo);
   e.etaMap = map(m.maps.eta);
   e.kMap = map(m.maps.k);
+  if (m.meshMaps.eta.isUsed() || m.meshMaps.reflectance.isUsed()) e.etaMap = gpu::kMeshTexture;
   e.mapOrigin = glm::vec3(m.maps.origin);
   e.mapU = glm::vec3(m.maps.u);
   e.mapV = glm::vec3(m.maps.v);
@@ -145,12 +150,15 @@ void addMeshes(const pack::Scene& scene, RenderScene& result) {
     result.normals.resize(result.positions.size(), glm::vec3(0));
     result.triangles.insert(result.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
   }
+  addTextureCoordinates(scene, result);
 }
 
 }  // namespace
 
 RenderScene makeRenderScene(const pack::Scene& scene) {
   RenderScene result;
+  addTextures(scene, result);
+  addMeshMaps(scene, result);
   for (const pack::Material& m : scene.materials) {
     gpu::Material g{};
     const double basic = 1 / (m.outsideEta * m.outsideEta);
@@ -166,18 +174,10 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     g.highlightExponent = m.highlightExponent;
     g.kind = surfaceKind(m.kind);
     result.materials.push_back(g);
-    result.extras.push_back(makeExtra(m, scene.wavelengthsNm));
+    result.extras.push_back(makeExtra(m, scene.wavelengthsNm, result.textureRows));
   }
   addLights(scene, result);
   addMeshes(scene.instances.empty() ? scene : pack::withoutInstances(scene), result);
-  for (const pack::Texture& t : scene.textures) {
-    result.textures.push_back({static_cast<std::uint32_t>(result.textureTexels.size()), t.width, t.height});
-    result.textureTexels.insert(result.textureTexels.end(), t.texels.begin(), t.texels.end());
-  }
-  if (result.textures.empty()) {
-    result.textures.push_back({0, 1, 1});
-    result.textureTexels.emplace_back(0.0f);
-  }
   result.environmentTexels = scene.environment.texels;
   if (result.environmentTexels.empty()) result.environmentTexels.emplace_back(0.0f);
   return result;
@@ -223,6 +223,13 @@ void setSamples(gpu::CameraParameters& f, const pack::Camera& camera, const Rend
 
 }  // namespace
 
+CameraCone cameraCone(const pack::Camera& camera, const RenderParameters& parameters) {
+  const ImagePlane plane = makeImagePlane(camera, parameters.width, parameters.height);
+  const double size =
+      2 * std::sqrt(plane.halfWidth / parameters.width * plane.halfHeight / parameters.height) / parameters.samples;
+  return camera.isOrthographic() ? CameraCone{size, 0} : CameraCone{0, size};
+}
+
 gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const RenderParameters& parameters) {
   gpu::CameraParameters f{};
   const pack::Camera& camera = scene.camera;
@@ -230,6 +237,9 @@ gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const Rende
   f.up = glm::vec3(camera.up);
   f.forward = glm::vec3(camera.forward);
   f.orthographic = camera.isOrthographic() ? 1 : 0;
+  const CameraCone cone = cameraCone(camera, parameters);
+  f.coneWidth = static_cast<float>(cone.width);
+  f.coneSpread = static_cast<float>(cone.spread);
   setSamples(f, camera, parameters);
   f.basicToRadiance = static_cast<float>(camera.mediumEta * camera.mediumEta);
   for (int i = 0; i < 4; ++i) f.analyser[i] = static_cast<float>(parameters.analyser[static_cast<std::size_t>(i)]);

@@ -24,8 +24,15 @@ struct RenderScene {
   std::vector<glm::uvec3> triangles;       // indices within their mesh
   std::vector<gpu::MaterialExtra> extras;  // one per material
   std::vector<gpu::Texture> textures;      // at least one, because a buffer must not be empty
+  std::vector<std::uint32_t> textureRows;  // row in it of each texture of the pack's scene
   std::vector<glm::vec3> textureTexels;
-  std::vector<glm::vec3> environmentTexels;  // with their border; one texel if there is no map
+  // Textures by the texture coordinates of meshes: each is followed by the levels of its pyramid in `textures`.
+  bool hasMeshTextures = false;
+  std::vector<gpu::MeshMaps> materialMaps;    // one per material, at least one
+  std::vector<gpu::TextureMap> textureMaps;   // row 0 is unused
+  std::vector<glm::vec4> textureCoordinates;  // sets 0 and 1, one per position; one element without mesh textures
+  std::vector<glm::vec4> tangents;            // the same, where a material has a normal map
+  std::vector<glm::vec3> environmentTexels;   // with their border; one texel if there is no map
 };
 
 // Runs of meshes of equal origin: the index of the first mesh and the number of meshes.
@@ -34,7 +41,20 @@ struct MeshRun {
 };
 std::vector<MeshRun> findMeshRuns(const RenderScene& scene);
 
+// Whether parts of a mesh are cut out by its material.
+inline bool hasCutOuts(const RenderScene& scene, std::size_t mesh) {
+  return scene.materialMaps[scene.meshes[mesh].material].coverage != 0;
+}
+
 RenderScene makeRenderScene(const pack::Scene& scene);
+
+// Cone of the camera's rays (shaders/optics/ray_cone.h), one per sample of a pixel, whose width is the geometric mean
+// of the sample's sides: that in the middle of the image.
+struct CameraCone {
+  double width, spread;
+};
+CameraCone cameraCone(const pack::Camera& camera, const RenderParameters& parameters);
+
 gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const RenderParameters& parameters);
 
 // Mean transmittance of a dielectric interface, or 1 - R of a metal, for light from all directions of a

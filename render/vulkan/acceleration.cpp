@@ -37,15 +37,16 @@ const char* levelName(VkAccelerationStructureTypeKHR type) {
 // compacted yet.
 constexpr VkDeviceSize kBatchBytes = VkDeviceSize{1} << 28;
 
-// One opaque geometry per mesh, in the order of the meshes: gl_InstanceCustomIndexEXT + gl_GeometryIndexEXT is the
-// index of the mesh and of its hit record. Both sides of a triangle are hit: rays leave glass through the back.
+// One geometry per mesh, opaque without cut-outs, in the order of the meshes: gl_InstanceCustomIndexEXT +
+// gl_GeometryIndexEXT is the index of the mesh and of its hit record. Both sides of a triangle are hit: rays leave
+// glass through the back.
 void addGeometries(const render::RenderScene& scene, const render::MeshRun& run, const Buffer& positions,
                    const Buffer& triangles, std::vector<VkAccelerationStructureGeometryKHR>& geometries,
                    std::vector<VkAccelerationStructureBuildRangeInfoKHR>& ranges) {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {
     VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
     geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
-    geometry.flags = VK_GEOMETRY_OPAQUE_BIT_KHR;
+    geometry.flags = render::hasCutOuts(scene, i) ? 0 : VK_GEOMETRY_OPAQUE_BIT_KHR;
     VkAccelerationStructureGeometryTrianglesDataKHR& data = geometry.geometry.triangles;
     data = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR};
     data.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;

@@ -47,9 +47,10 @@ VkWriteDescriptorSet makeWrite(VkDescriptorSet set, Binding binding) {
 Owned<VkDescriptorSetLayout> createBindingsLayout(const Device& device) {
   std::array<VkDescriptorSetLayoutBinding, kRows.size()> list{};
   for (const Row& row : kRows)
-    list[row.number] = {
-        row.number, row.type, 1,
-        VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR, nullptr};
+    list[row.number] = {row.number, row.type, 1,
+                        VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR |
+                            VK_SHADER_STAGE_ANY_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR,
+                        nullptr};
   VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
   info.bindingCount = static_cast<std::uint32_t>(list.size());
   info.pBindings = list.data();

@@ -24,6 +24,8 @@ EShLanguage shaderLanguage(Stage stage) {
       return EShLangMiss;
     case Stage::closestHit:
       return EShLangClosestHit;
+    case Stage::anyHit:
+      return EShLangAnyHit;
     case Stage::compute:
       return EShLangCompute;
   }

@@ -39,6 +39,13 @@ Shaders createShaders(const Device& device, const Variant& variant) {
     stage.stage = shaderStage(source.stage);
     stage.module = result.modules.back().get();
     stage.pName = "main";
+    if (source.stage == Stage::anyHit) {
+      for (VkRayTracingShaderGroupCreateInfoKHR& group : result.groups)
+        if (group.closestHitShader != VK_SHADER_UNUSED_KHR)
+          group.anyHitShader = static_cast<std::uint32_t>(result.stages.size());
+      result.stages.push_back(stage);
+      continue;
+    }
     VkRayTracingShaderGroupCreateInfoKHR group{VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
     group.generalShader = group.closestHitShader = group.anyHitShader = group.intersectionShader = VK_SHADER_UNUSED_KHR;
     const bool isHit = source.stage == Stage::closestHit;
@@ -65,6 +72,8 @@ VkShaderStageFlagBits shaderStage(Stage stage) {
       return VK_SHADER_STAGE_MISS_BIT_KHR;
     case Stage::closestHit:
       return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
+    case Stage::anyHit:
+      return VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
     case Stage::compute:
       return VK_SHADER_STAGE_COMPUTE_BIT;
   }

@@ -62,6 +62,7 @@ std::string stageName(const StageSource& source) {
   std::transform(name.begin(), name.end(), name.begin(), [](char c) {
     return c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   });
+  if (source.stage == Stage::anyHit) return fmt::format("any hit: {}", name);
   return fmt::format("{}: {}", source.stage == Stage::miss ? "miss" : "closest hit", name);
 }
 
@@ -136,6 +137,7 @@ std::map<std::string, std::uint32_t> groupStackBytes(const Device& device, VkPip
   std::map<std::string, std::uint32_t> result;
   std::uint32_t group = 0;
   for (const StageSource& source : stageSources(variant)) {
+    if (source.stage == Stage::anyHit) continue;  // part of the groups of the closest hits
     const VkShaderGroupShaderKHR shader =
         source.stage == Stage::closestHit ? VK_SHADER_GROUP_SHADER_CLOSEST_HIT_KHR : VK_SHADER_GROUP_SHADER_GENERAL_KHR;
     result[stageName(source)] = static_cast<std::uint32_t>(

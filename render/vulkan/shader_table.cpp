@@ -35,6 +35,8 @@ ShaderTable::ShaderTable(const Device& device, VkPipeline pipeline, const std::v
   // The groups of each region: ray generation, the misses, the hits.
   std::vector<std::uint32_t> misses, hits;
   std::map<std::uint32_t, std::uint32_t> groupOfKind;
+  const auto groupCount = static_cast<std::uint32_t>(std::count_if(
+      groups.begin(), groups.end(), [](const StageSource& group) { return group.stage != Stage::anyHit; }));
   for (std::uint32_t i = 0; i < groups.size(); ++i) {
     if (groups[i].stage == Stage::miss) misses.push_back(i);
     if (groups[i].stage != Stage::closestHit) continue;
@@ -49,7 +51,7 @@ ShaderTable::ShaderTable(const Device& device, VkPipeline pipeline, const std::v
   // The regions, each aligned to `base`.
   const VkDeviceSize missAt = alignUp(stride, base), hitAt = missAt + alignUp(misses.size() * stride, base);
   std::vector<std::byte> records(hitAt + hits.size() * stride);
-  const std::vector<std::byte> handles = readHandles(device, pipeline, static_cast<std::uint32_t>(groups.size()));
+  const std::vector<std::byte> handles = readHandles(device, pipeline, groupCount);
   const auto put = [&](VkDeviceSize at, std::uint32_t group) {
     std::memcpy(records.data() + at, handles.data() + group * handleBytes, handleBytes);
   };

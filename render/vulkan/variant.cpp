@@ -31,6 +31,12 @@ const char* raygenPath(const Variant& variant) {
   return isIterative(variant) ? "shaders/stages/camera_path.rgen" : "shaders/stages/raygen.rgen";
 }
 
+// Of every closest hit; the last, so that the indices of the others are those of their groups.
+void addAnyHit(const Variant& variant, std::vector<StageSource>& sources) {
+  if (variant.replay == Replay::none && has(variant, Effect::kCutOuts) && has(variant, Effect::kMeshTextures))
+    sources.push_back({"shaders/stages/cut_out.rahit", Stage::anyHit});
+}
+
 }  // namespace
 
 bool has(const Variant& variant, Effect effect) { return (variant.effects & shaders::effectBit(effect)) != 0; }
@@ -79,6 +85,7 @@ std::vector<StageSource> stageSources(const Variant& variant) {
   if (variant.tracing == Tracing::hitRecords) {
     sources.push_back({"shaders/stages/hit_record.rmiss", Stage::miss});
     sources.push_back({"shaders/stages/hit_record.rchit", Stage::closestHit});
+    addAnyHit(variant, sources);
     return sources;
   }
   sources.push_back({"shaders/stages/environment.rmiss", Stage::miss});
@@ -88,6 +95,7 @@ std::vector<StageSource> stageSources(const Variant& variant) {
     if ((variant.effects >> kind & 1) != 0)
       sources.push_back({fmt::format("shaders/stages/surface.rchit, {}", shaders::kCompiledEffects[kind].identifier),
                          Stage::closestHit, kind});
+  addAnyHit(variant, sources);
   return sources;
 }
 

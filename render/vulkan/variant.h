@@ -51,7 +51,7 @@ bool has(const Variant& variant, shaders::Effect effect);
 // Extensions and macros of the variant, in GLSL.
 std::string preamble(const Variant& variant);
 
-enum class Stage { raygen, miss, closestHit, compute };
+enum class Stage { raygen, miss, closestHit, anyHit, compute };
 
 // One shader of a pipeline.
 struct StageSource {
@@ -62,7 +62,8 @@ struct StageSource {
 };
 // With recursion: ray generation, the environment's miss shader, the shadow's where the variant has shadows, and a
 // closest-hit shader for each gpu::SurfaceKind of the variant, in order. With hit records: ray generation, one miss and
-// one closest-hit shader. With ray queries, and to replay rays by them: ray generation only.
+// one closest-hit shader. Both end with the any-hit shader of all hits where the variant has cut-outs. With ray
+// queries, and to replay rays by them: ray generation only.
 std::vector<StageSource> stageSources(const Variant& variant);
 
 // Text of a shader file by its path; empty: no such file. "shaders/methods/selected.h" is the variant's method.

@@ -13,6 +13,9 @@ using uint = std::uint32_t;
 
 MALUS_CONSTANT uint kFacets = 16u;               // microfacets that represent a rough surface (optics/facets.h)
 MALUS_CONSTANT uint kNoTexture = 0xffffffffu;    // in place of the index of a texture
+MALUS_CONSTANT uint kMeshTexture = 0xfffffffeu;  // in place of that of an index that has a map by mesh coordinates
+MALUS_CONSTANT uint kWrapClamp = 1u;             // ways to continue a texture beyond its edges; 0: repeated
+MALUS_CONSTANT uint kWrapMirror = 2u;
 MALUS_CONSTANT uint kEnvironment = 0xffffffffu;  // in place of the index of a material
 MALUS_CONSTANT uint kColourChannels = 3u;        // floats per pixel: the colour behind the filter
 MALUS_CONSTANT uint kStokesChannels = 15u;       // floats per pixel: the colour, then S0, S1, S2 and S3, each r g b

@@ -2,11 +2,12 @@
 // number type has the same structs with one value per lane. No include guard.
 
 struct Material {
-  real3 eta;                      // real part of the index; dielectrics use eta.y in every colour
-  real3 k;                        // imaginary part: eta - i k
-  real3 contrast;                 // eta - outsideEta, from double precision
-  real3 albedo;                   // diffuse reflectance; 0: none. Of an emitter: the radiance of its back
-  real3 radiance;                 // emitted, divided by the square of the index it is emitted into
+  real3 eta;       // real part of the index; dielectrics use eta.y in every colour
+  real3 k;         // imaginary part: eta - i k
+  real3 contrast;  // eta - outsideEta, from double precision
+  real3 albedo;    // diffuse reflectance; 0: none. Of an emitter: the radiance of its back
+  real3 radiance;  // emitted, by an emitter or the diffuse layer, divided by the square of the index that
+                   // it is emitted into. Of thin glass with a map: its transmittance
   real3 hemisphereTransmittance;  // mean transmittance of the interface for light from all directions
   real outsideEta;                // index on the side that the normals point to
   real basicScale;                // 1 / outsideEta^2: radiance to basic radiance
@@ -39,6 +40,35 @@ struct MaterialExtra {
   real3 mapOrigin;  // texture coordinates: dot(p - mapOrigin, mapU or mapV)
   real3 mapU;
   real3 mapV;
+};
+
+// A texture by the texture coordinates of meshes: read at (dot(u, p), dot(v, p)) of p = (s, t, 1), where (s, t) are
+// those of a set.
+struct TextureMap {
+  word texture;  // its first level; the others follow it in textures[]
+  word levels;   // at least 1
+  word set;      // 0 or 1
+  word wrapU;    // pack::Wrap
+  word wrapV;
+  real3 u;
+  real3 v;
+};
+
+// Maps of a material, one struct per material: indices into textureMaps, whose first row is unused; 0: none. Read only
+// by variants with MALUS_EFFECT_MESH_TEXTURES.
+struct MeshMaps {
+  word albedo;  // in place of the material's, and so are the others
+  word eta;
+  word k;
+  word reflectance;    // of a metal at normal incidence, in place of eta and k
+  word metallic;       // x: edge tint that goes with it; none: 1
+  word roughness;      // x
+  word radiance;       // in W/(m^2 sr)
+  word transmittance;  // of thin glass
+  word normal;         // (n + 1) / 2 of the normal n in the frame of tangent, bitangent and normal
+  word coverage;       // x: no surface where it is below the cutoff
+  real normalScale;    // of the normal's x and y
+  real cutoff;
 };
 
 struct PointLight {

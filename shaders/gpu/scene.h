@@ -38,6 +38,8 @@ enum SurfaceKind : uint {
 #include "shaders/gpu/material.h"
 MALUS_SIZE(Material, 92);
 MALUS_SIZE(MaterialExtra, 204);
+MALUS_SIZE(TextureMap, 44);
+MALUS_SIZE(MeshMaps, 48);
 MALUS_SIZE(PointLight, 24);
 MALUS_SIZE(LightShape, 24);
 
@@ -87,9 +89,11 @@ struct CameraParameters {
   vec2 facets[kFacets];     // points of the unit disk (optics/facets.h)
   float tolerance;          // iterative methods: fraction of a source's radiance that a path may lose
   vec3 forward;             // unit vector; that of the rays of an orthographic camera
-  uint orthographic;        // not 0: the samples are points of the image, from which parallel rays start
+  float coneWidth;          // of the cones of its rays (optics/ray_cone.h), and their growth per length
+  float coneSpread;
+  uint orthographic;  // not 0: the samples are points of the image, from which parallel rays start
 };
-MALUS_SIZE(CameraParameters, 448);
+MALUS_SIZE(CameraParameters, 456);
 
 #ifdef __cplusplus
 }  // namespace malus::gpu

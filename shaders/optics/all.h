@@ -17,3 +17,5 @@
 #include "shaders/optics/environment.h"
 #include "shaders/optics/surface_point.h"
 #include "shaders/optics/camera.h"
+#include "shaders/optics/texture_map.h"
+#include "shaders/optics/ray_cone.h"

@@ -1,5 +1,9 @@
 // Makes a hit. instance, geometry, primitive, barycentric: as Vulkan reports them; instance, the custom index, is the
 // index of the first mesh of its bottom level.
+#if MALUS_EFFECT_MESH_TEXTURES
+#include "shaders/stages/textured_triangle.glsl"
+#endif
+
 Hit makeHitFromMesh(uint instance, uint geometry, uint primitive, vec2 barycentric, Ray ray) {
   Mesh mesh = meshes[instance + geometry];
   uvec3 corner = triangles[mesh.firstTriangle + primitive] + mesh.firstVertex;
@@ -7,6 +11,16 @@ Hit makeHitFromMesh(uint instance, uint geometry, uint primitive, vec2 barycentr
   vec3 interpolated = vec3(0.0);
   if (mesh.hasNormals != 0u)
     interpolated = normals[corner.x] * b0 + normals[corner.y] * barycentric.x + normals[corner.z] * barycentric.y;
-  return makeHit(ray, positions[corner.x], positions[corner.y], positions[corner.z], barycentric.x, barycentric.y,
-                 mesh.origin, interpolated, mesh.material);
+#if MALUS_EFFECT_MESH_TEXTURES
+  TexturedTriangle t = texturedTriangle(corner, barycentric, mesh.hasNormals != 0u);
+  RayCone cone;
+  TextureHit at = textureHitAt(ray, mesh.origin, t, cone);
+  interpolated = normalAt(mesh.material, at, t, interpolated);
+#endif
+  Hit h = makeHit(ray, positions[corner.x], positions[corner.y], positions[corner.z], barycentric.x, barycentric.y,
+                  mesh.origin, interpolated, mesh.material);
+#if MALUS_EFFECT_MESH_TEXTURES
+  setTextureHit(h, at, t, cone);
+#endif
+  return h;
 }

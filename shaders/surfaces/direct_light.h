@@ -75,6 +75,10 @@ FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 reflected) {
                                                   m.hemisphereTransmittance);
   }
   sum.diffuse = sum.diffuse * m.basicScale;
+#if MALUS_EFFECT_MESH_TEXTURES
+  // The layer below an interface may emit; thin glass has its transmittance there instead.
+  sum.diffuse = sum.diffuse + m.radiance;
+#endif
   sum.highlight = sum.highlight * m.basicScale;
   return sum;
 }

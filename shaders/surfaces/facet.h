@@ -4,9 +4,17 @@
 
 CONST_REAL(kBehindRough, 0.25);
 
+FN real roughnessAt(IN(Hit) h) {
+  real roughness = materialExtra(h.material).roughness;
+#if MALUS_EFFECT_MESH_TEXTURES
+  roughness = selectR(lessR(h.roughness, R(0.0)), roughness, h.roughness);
+#endif
+  return roughness;
+}
+
 FN mask isRough(IN(Hit) h) {
   real fraction = h.depth - floorR(h.depth);
-  return andM(lessR(R(0.0), materialExtra(h.material).roughness), lessEqualR(fraction, R(0.0)));
+  return andM(lessR(R(0.0), roughnessAt(h)), lessEqualR(fraction, R(0.0)));
 }
 
 struct Facet {
@@ -18,7 +26,7 @@ struct Facet {
 
 // Facet for a point (px, py) of the unit disk (optics/facets.h).
 FN Facet sampleFacet(IN(Hit) h, real px, real py) {
-  real alpha = materialExtra(h.material).roughness;
+  real alpha = roughnessAt(h);
   real3 toCamera = h.d * R(-1.0);
   Facet f;
   f.normal = facetNormal(toCamera, h.normal, alpha, px, py);
@@ -34,6 +42,12 @@ FN Ray facetRay(IN(Hit) h, IN(Facet) f, word index) {
   Ray ray = rayFrom(h, originAbove(h), f.mirror, h.depth - R(1.0) + kBehindRough);
 #if MALUS_PATH_WORD
   ray.path = facetPath(h.path, index);
+#if MALUS_EFFECT_MESH_TEXTURES
+  // The mirror directions fill a cone of about twice alpha around their mean, of which each of 16 facets has a share.
+  RayCone cone = reflectedCone(coneOfBits(h.path), h.curvature, h.c);
+  cone.spread = cone.spread + R(0.5) * roughnessAt(h);
+  ray.path = pathWithCone(ray.path, cone);
+#endif
 #endif
   return ray;
 }

@@ -31,6 +31,11 @@ struct Hit {
 #if MALUS_PATH_WORD
   word path;  // of the ray
 #endif
+#if MALUS_EFFECT_MESH_TEXTURES
+  TextureHit texture;  // set after makeHit, as are these
+  real roughness;      // from a texture; negative: the material's
+  real curvature;      // of the surface on the side of the ray, 1/m, positive where it bulges toward the ray
+#endif
 };
 
 CONST_REAL(kUnitRoundoff, 5.9604644775390625e-8);  // 2^-24, of float
@@ -109,6 +114,11 @@ FN Hit makeHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real
 #if MALUS_PATH_WORD
   h.path = ray.path;
 #endif
+#if MALUS_EFFECT_MESH_TEXTURES
+  h.texture = noTextureHit();
+  h.roughness = R(-1.0);
+  h.curvature = R(0.0);
+#endif
   return h;
 }
 
@@ -133,6 +143,11 @@ FN Hit environmentHit(real3 d, real depth) {
 #if MALUS_PATH_WORD
   h.path = 0u;
 #endif
+#if MALUS_EFFECT_MESH_TEXTURES
+  h.texture = noTextureHit();
+  h.roughness = R(-1.0);
+  h.curvature = R(0.0);
+#endif
   return h;
 }
 
@@ -154,6 +169,9 @@ FN Ray rayAbove(IN(Hit) h, real3 d, real depth) {
   Ray ray = rayFrom(h, originAbove(h), d, depth);
 #if MALUS_PATH_WORD
   ray.path = reflectedPath(h.path);
+#if MALUS_EFFECT_MESH_TEXTURES
+  ray.path = pathWithCone(ray.path, reflectedCone(coneOfBits(h.path), h.curvature, h.c));
+#endif
 #endif
   return ray;
 }

@@ -6,7 +6,7 @@
 //   materials[]          by Hit.material
 //   lights[]             camera.lightCount lights
 //   environmentTexels[]  octahedral map with a border of one texel
-//   textures[], textureTexels[]  only with MALUS_EFFECT_TEXTURES
+//   textures[], textureTexels[]  only with MALUS_EFFECT_TEXTURES or MALUS_EFFECT_MESH_TEXTURES
 //   kCheckNumerics       compile-time constant: whether to check every value (check.h)
 //
 // Functions:
@@ -26,8 +26,14 @@
 //     Texel of the environment map, border included; x and y are whole numbers.
 //   real3 texel(texture, x, y)
 //     Texel of a repeated texture; x and y are whole numbers, at most one texel outside. Not kNoTexture in a lane that
-//     uses the result. Only with MALUS_EFFECT_TEXTURES, as is
+//     uses the result. Only with MALUS_EFFECT_TEXTURES or MALUS_EFFECT_MESH_TEXTURES, as is
 //   void textureSize(texture, out width, out height)
+//   bool hasMeshTextures()
+//     Whether a material of the scene has textures by the coordinates of meshes. Only with MALUS_EFFECT_MESH_TEXTURES,
+//     as are
+//   MeshMaps meshMaps(material), TextureMap textureMap(map)
+//   word textureRow(texture, level)
+//     The row of textures[] of a level of a texture; level is a whole number.
 //   void noteFault(hit, stokes, kind, colour, slack)
 //     Records an unphysical value: its kind (shaders/gpu/fault.h), the colour's index, the rounding error allowed.
 //     Called only if kCheckNumerics.
@@ -59,7 +65,14 @@ LightShape lightShape(int index) {
 
 real3 environmentTexel(real x, real y) { return environmentTexels[int(y) * (camera.environmentSize + 2) + int(x)]; }
 
-#if MALUS_EFFECT_TEXTURES
+#if MALUS_EFFECT_MESH_TEXTURES
+bool hasMeshTextures() { return true; }
+MeshMaps meshMaps(word material) { return materialMaps[material]; }
+TextureMap textureMap(word map) { return textureMaps[map]; }
+word textureRow(word index, real level) { return index + word(level); }
+#endif
+
+#if MALUS_EFFECT_TEXTURES || MALUS_EFFECT_MESH_TEXTURES
 real3 texel(word index, real x, real y) {
   Texture t = textures[index];
   real column = x < 0.0 ? x + real(t.width) : x >= real(t.width) ? x - real(t.width) : x;

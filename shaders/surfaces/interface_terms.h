@@ -20,7 +20,7 @@ FN FilmLayers filmLayers(real n1, real nf, real n3, real k3, real filmStep, real
 // filmEta - eta, where eta is the index of the base at the hit: a texture may have replaced the material's.
 FN real3 filmOverBase(word material, real3 eta) {
   real3 constant = materialExtra(material).filmOverBase;
-  if (!kEffectTextures) return constant;
+  if (!kEffectTextures && !kEffectMeshTextures) return constant;
   mask mapped = notM(equalW(materialExtra(material).etaMap, kNoTexture));
   return select3(mapped, (materialExtra(material).filmEta - eta) + materialExtra(material).filmResidue, constant);
 }

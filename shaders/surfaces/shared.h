@@ -5,6 +5,7 @@
 #include "shaders/surfaces/steps.h"
 #include "shaders/surfaces/surface_kinds.h"
 #include "shaders/surfaces/check.h"
+#include "shaders/surfaces/mesh_textures.h"
 #include "shaders/surfaces/textures.h"
 #include "shaders/surfaces/direct_light.h"
 #include "shaders/surfaces/environment.h"

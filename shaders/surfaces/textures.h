@@ -1,4 +1,5 @@
-// Material at a hit: textures in place of, or multiplied with, its constants. Parallel projection, repeated, bilinear.
+// Material at a hit: textures in place of, or multiplied with, its constants. Those of parallel projection are repeated
+// and bilinear; mesh_textures.h has those by texture coordinates.
 
 #if MALUS_EFFECT_TEXTURES
 FN real3 textureAt(word index, real u, real v) {
@@ -12,9 +13,9 @@ FN real3 textureAt(word index, real u, real v) {
                   texel(index, right, below), p.fx, p.fy);
 }
 
-FN mask isMapped(word index) { return notM(equalW(index, kNoTexture)); }
+FN mask isMapped(word index) { return notM(orM(equalW(index, kNoTexture), equalW(index, kMeshTexture))); }
 
-FN Material materialAt(IN(Hit) h) {
+FN Material projectedMaterial(IN(Hit) h) {
   Material m = materials[h.material];
   MaterialExtra e = materialExtra(h.material);
   mask albedo = isMapped(e.albedoMap);
@@ -33,5 +34,13 @@ FN Material materialAt(IN(Hit) h) {
   return m;
 }
 #else
-FN Material materialAt(IN(Hit) h) { return materials[h.material]; }
+FN Material projectedMaterial(IN(Hit) h) { return materials[h.material]; }
 #endif
+
+FN Material materialAt(IN(Hit) h) {
+  Material m = projectedMaterial(h);
+#if MALUS_EFFECT_MESH_TEXTURES
+  if (hasMeshTextures()) applyMeshMaps(m, h);
+#endif
+  return m;
+}

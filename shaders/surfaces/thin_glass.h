@@ -4,6 +4,9 @@ CONST int kShapeThinGlass = kTransparentShape;
 
 FN Scattering scatterThinGlass(INOUT(Hit) h, IN(Material) m) {
   real3 internal = materialExtra(h.material).transmittanceParallel;
+#if MALUS_EFFECT_MESH_TEXTURES
+  internal = select3(equalW(meshMaps(h.material).transmittance, 0u), internal, m.radiance);
+#endif
   RefractionTerms f = refractionTermsWith(h.c, m.outsideEta, m.eta.y, m.contrast.y);
   ThinGlass red = thinGlassFromTerms(h.c, f, internal.x);
   ThinGlass green = thinGlassFromTerms(h.c, f, internal.y);

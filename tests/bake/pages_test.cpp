@@ -13,6 +13,7 @@
 
 #include "bake/pack/field_io.h"
 #include "bake/pack/material_fields.h"
+#include "bake/pack/mesh_maps.h"
 #include "bake/pack/record_fields.h"
 #include "bake/scene_file/scene_keys.h"
 #include "bake/scene_file/special_keys.h"
@@ -87,6 +88,8 @@ std::map<std::string, std::string> formatTables() {
           {"SRFX", formatTable<pack::Material>(MALUS_DESCRIBED(visitMaterial),
                                                {pack::kSurfaces, pack::newestSurfaceVersion()})},
           {"TEXR", formatTable<pack::Texture>(MALUS_DESCRIBED(visitTexture))},
+          {"MAPS", formatTable<pack::MeshMap>(MALUS_DESCRIBED(visitMeshMap))},
+          {"MAPS factors", formatTable<pack::MeshMaps>(MALUS_DESCRIBED(visitMeshMapFactors))},
           {"WAVE", formatTable<pack::Scene>(MALUS_DESCRIBED(visitWavelengths))},
           {"SKYP", formatTable<pack::Environment>(MALUS_DESCRIBED(visitSky))},
           {"MESH", formatTable<pack::MeshEntry>(MALUS_DESCRIBED(visitMeshEntry), {pack::kMeshes, pack::kNewestMeshes})},

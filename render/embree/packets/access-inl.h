@@ -141,6 +141,7 @@ struct MeshRow {
 static_assert(kFields<MeshRow> * 4 == sizeof(gpu::Mesh) && kFields<Material> * 4 == sizeof(gpu::Material));
 static_assert(kFields<MaterialExtra> * 4 == sizeof(gpu::MaterialExtra));
 static_assert(kFields<LightShape> * 4 == sizeof(gpu::LightShape));
+static_assert(kFields<MeshMaps> * 4 == sizeof(gpu::MeshMaps) && kFields<TextureMap> * 4 == sizeof(gpu::TextureMap));
 
 struct PacketAccess {
   const render::RenderScene* scene;
@@ -194,7 +195,7 @@ struct PacketAccess {
     const auto repeated = [](int i, int size) HWY_ATTR { return i < 0 ? i + size : i >= size ? i - size : i; };
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       glm::vec3 value(0);
-      if (texture[lane] != gpu::kNoTexture) {
+      if (texture[lane] < scene->textures.size()) {
         const gpu::Texture& t = scene->textures[texture[lane]];
         const int width = static_cast<int>(t.width), height = static_cast<int>(t.height);
         value = scene->textureTexels[t.first +
@@ -210,13 +211,18 @@ struct PacketAccess {
     HWY_ALIGN float sizes[2][kLanes];
     hn::Store(index.v, Words(), texture);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const bool used = texture[lane] != gpu::kNoTexture;
+      const bool used = texture[lane] < scene->textures.size();
       sizes[0][lane] = used ? static_cast<float>(scene->textures[texture[lane]].width) : 1.0f;
       sizes[1][lane] = used ? static_cast<float>(scene->textures[texture[lane]].height) : 1.0f;
     }
     width = loadR(sizes[0]);
     height = loadR(sizes[1]);
   }
+
+  bool hasMeshTextures() const { return scene->hasMeshTextures; }
+  MeshMaps meshMaps(word material) { return gatherRow<MeshMaps>(scene->materialMaps.data(), material); }
+  TextureMap textureMap(word map) { return gatherRow<TextureMap>(scene->textureMaps.data(), map); }
+  word textureRow(word index, real level) { return addW(index, wordOfReal(level)); }
 
   mask visible(mask needed, const real3& origin, const real3& way) {
     needed = andM(needed, active);

@@ -7,7 +7,7 @@ real3 rayDirection(const Rays& batch, word ray) {
 }
 
 static constexpr bool kReadsExtras = kEffectPolarizingElement || kEffectThinGlass || kEffectTextures ||
-                                     kEffectAbsorption || kEffectCoatings || kEffectRoughness ||
+                                     kEffectMeshTextures || kEffectAbsorption || kEffectCoatings || kEffectRoughness ||
                                      kEffectPolarizedEmitters;
 
 // Makes materialExtra return that of a packet's materials.
@@ -48,7 +48,36 @@ struct Triangles {
   mask smooth;       // the mesh has normals; otherwise they are not set
   real3 origin;
   word material;
+#if MALUS_EFFECT_MESH_TEXTURES
+  TexturedTriangle corners;        // if the scene has mesh textures
+  word vertex0, vertex1, vertex2;  // the same
+#endif
 };
+
+#if MALUS_EFFECT_MESH_TEXTURES
+// A vertex's row of an array of four numbers.
+void gatherVertex(const std::vector<glm::vec4>& rows, word vertex, real* values) {
+  const word at = timesW(vertex, 4);
+  for (int i = 0; i < 4; ++i) values[i] = gatherR(&rows.data()->x + i, at);
+}
+void gatherVertex(const std::vector<glm::vec4>& rows, std::uint32_t vertex, real* values) {
+  for (int i = 0; i < 4; ++i) values[i] = rows[vertex][i];
+}
+template <class Index>
+TexturePoint gatherTexturePoint(Index vertex) {
+  real t[4];
+  gatherVertex(scene->textureCoordinates, vertex, t);
+  return {t[0], t[1], t[2], t[3]};
+}
+// Tangent of a vertex, weighted.
+template <class Index>
+void addTangent(Index vertex, real weight, TexturedTriangle& t) {
+  real tangent[4];
+  gatherVertex(scene->tangents, vertex, tangent);
+  t.tangent = t.tangent + real3(tangent[0], tangent[1], tangent[2]) * weight;
+  t.handedness = t.handedness + tangent[3] * weight;
+}
+#endif
 
 // Index: word, or std::uint32_t if all lanes meet the same triangle.
 template <class Index>
@@ -56,11 +85,23 @@ void gatherTriangles(Index mesh, Index triangle, Triangles& t) {
   const auto& row = meshRow(mesh);
   Index c0, c1, c2;
   gather3W(&scene->triangles.data()->x, timesW(addW(row.firstTriangle, triangle), 3), c0, c1, c2);
+#if MALUS_EFFECT_MESH_TEXTURES
+  if (hasMeshTextures()) {
+    t.corners.t0 = gatherTexturePoint(addW(row.firstVertex, c0));
+    t.corners.t1 = gatherTexturePoint(addW(row.firstVertex, c1));
+    t.corners.t2 = gatherTexturePoint(addW(row.firstVertex, c2));
+    t.vertex0 = addW(row.firstVertex, c0), t.vertex1 = addW(row.firstVertex, c1);
+    t.vertex2 = addW(row.firstVertex, c2);
+  }
+#endif
   c0 = timesW(addW(row.firstVertex, c0), 3);
   c1 = timesW(addW(row.firstVertex, c1), 3);
   c2 = timesW(addW(row.firstVertex, c2), 3);
   const float* p = &scene->positions.data()->x;
   t.p0 = gather3(p, c0), t.p1 = gather3(p, c1), t.p2 = gather3(p, c2);
+#if MALUS_EFFECT_MESH_TEXTURES
+  t.corners.p0 = t.p0, t.corners.p1 = t.p1, t.corners.p2 = t.p2;
+#endif
   t.smooth = notM(equalW(row.hasNormals, 0u));
   if (anyM(t.smooth)) {
     const float* n = &scene->normals.data()->x;
@@ -86,6 +127,27 @@ Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
     const real b0 = real(1.0f) - b.b1 - b.b2;
     interpolated = select3(t.smooth, t.n0 * b0 + t.n1 * b.b1 + t.n2 * b.b2, interpolated);
   }
+#if MALUS_EFFECT_MESH_TEXTURES
+  if (hasMeshTextures()) {
+    t.corners.b1 = b.b1, t.corners.b2 = b.b2;
+    t.corners.curvature = 0.0f;
+    if (anyM(t.smooth))
+      t.corners.curvature = selectR(t.smooth, triangleCurvature(t.p0, t.p1, t.p2, t.n0, t.n1, t.n2), 0.0f);
+    t.corners.tangent = splat3(0.0f);
+    t.corners.handedness = 0.0f;
+    if (scene->tangents.size() == scene->positions.size()) {
+      addTangent(t.vertex0, real(1.0f) - b.b1 - b.b2, t.corners);
+      addTangent(t.vertex1, b.b1, t.corners);
+      addTangent(t.vertex2, b.b2, t.corners);
+    }
+    RayCone cone;
+    const TextureHit at = textureHitAt(traced, t.origin, t.corners, cone);
+    interpolated = normalAt(t.material, at, t.corners, interpolated);
+    Hit h = makeHit(traced, t.p0, t.p1, t.p2, b.b1, b.b2, t.origin, interpolated, t.material);
+    setTextureHit(h, at, t.corners, cone);
+    return h;
+  }
+#endif
   return makeHit(traced, t.p0, t.p1, t.p2, b.b1, b.b2, t.origin, interpolated, t.material);
 }
 

@@ -34,6 +34,8 @@ struct Tracer : Method, PacketAccess {
   static constexpr bool kCheckNumerics = false;  // the scalar tracers check (render/embree/method_tracer.h)
 #include "shaders/surfaces/steps.h"
 
+#include "shaders/surfaces/mesh_textures.h"
+
 #include "render/embree/packets/hits-inl.h"
 #include "shaders/surfaces/camera_colour.h"
 #include "shaders/surfaces/direct_light.h"

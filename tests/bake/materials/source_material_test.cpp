@@ -171,11 +171,17 @@ TEST(SourceMaterial, BlendedPanesAreThinGlass) {
   EXPECT_FALSE(isInvisible(source));
 }
 
-TEST(SourceMaterial, FaintEmissionGivesWayToTheReflection) {
+TEST(SourceMaterial, FaintEmissionIsThatOfTheDiffuseLayer) {
   prep::SourceMaterial source = dielectric(1);
   source.emissive = {0.05, 0.05, 0.05};
   std::vector<std::string> notes;
   EXPECT_EQ(convertMaterial(source, notes).kind, Kind::lambert);
+  EXPECT_EQ(convertMaterial(source, notes).radiance, source.emissive);
+  EXPECT_TRUE(notes.empty());
+  prep::SourceMaterial window = source;
+  window.transmission = 1;
+  window.roughness = 0;
+  EXPECT_EQ(convertMaterial(window, notes).radiance, glm::dvec3(0));
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_CONTAINS(notes[0], "faint emission", "'plastic'");
   source.baseColour = {0, 0, 0};

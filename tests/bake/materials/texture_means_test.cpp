@@ -61,8 +61,8 @@ TEST(TextureMeans, ColoursAreDecodedAndNumbersAreNot) {
     EXPECT_NEAR(m.emissive.x, 1, 1e-6);
     EXPECT_NEAR(m.roughness, 0.2, 1e-6);  // green, as stored
     EXPECT_NEAR(m.metallic, 0.6, 1e-6);   // blue
-    EXPECT_FALSE(m.baseColourImage || m.metallicRoughnessImage || m.emissiveImage);
-    EXPECT_TRUE(hasNote(scene, "textures (3; their means are used)"));
+    EXPECT_TRUE(m.baseColourImage && m.metallicRoughnessImage && m.emissiveImage) << "they become maps";
+    EXPECT_FALSE(hasNote(scene, "means are used"));
   }
 }
 
@@ -113,6 +113,8 @@ TEST(TextureMeans, SpecularGlossiness) {
   m.specularGlossinessImage = 0;
   applyTextureMeans(scene, true);
   EXPECT_EQ(m.specularColour, glm::dvec3(0.5, 0, 0));
+  EXPECT_FALSE(m.specularGlossinessImage);
+  EXPECT_TRUE(hasNote(scene, "textures (1; their means are used)"));
   EXPECT_EQ(m.roughness, 0.25);  // without alpha the glossiness is that of the factor
 }
 
@@ -127,7 +129,7 @@ TEST(TextureMeans, ImagesThatCannotBeReadKeepTheFactors) {
     EXPECT_EQ(scene.materials[0].metallic, 1);
     EXPECT_EQ(scene.materials[0].emissive, glm::dvec3(0)) << "a mask of emission is mostly black";
     EXPECT_TRUE(hasNote(scene, "the emission of material 'painted'"));
-    EXPECT_FALSE(hasNote(scene, "means are used"));
+    EXPECT_FALSE(scene.materials[0].baseColourImage) << "it cannot become a map";
   }
   SourceScene scene = makeScene({"bad image", {}, damaged});
   EXPECT_CONTAINS(errorMessage([&] { applyTextureMeans(scene, true); }), "bad image");

@@ -209,10 +209,10 @@ TEST_F(Model, TheProvenanceNamesTheOptions) {
 TEST_F(Model, ReportsContentThatIsLeftOutOnce) {
   addCameras();
   gltf_.document["animations"] = {{{"name", "run"}}};
-  for (int i = 0; i < 2; ++i) gltf_.add("materials", {{"normalTexture", {{"index", 0}}}});
+  for (int i = 0; i < 2; ++i) gltf_.add("materials", {{"occlusionTexture", {{"index", 0}}}});
   const std::vector<std::string> notes = baked().notes;
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_CONTAINS(notes[0], "animations (1: 'run'", "normal textures (2)");
+  EXPECT_CONTAINS(notes[0], "animations (1: 'run'", "occlusion textures (2)");
   EXPECT_FALSE(contains(notes[0], "camera"));
 }
 

@@ -48,7 +48,7 @@ CONST_REAL(kMostReflectance, 0.999);
 // Normal that a normal map gives. normal: interpolated, unit; tangent: of any length, in the direction of growing u;
 // handedness: +1 or -1 so that the bitangent is handedness cross(normal, tangent), in the direction of shrinking v;
 // x, y, z: components of the map's normal along tangent, bitangent and normal. The tangent is projected perpendicular
-// to the normal; a tangent along the normal leaves the normal as it is. Not normalized. Source: glTF 2.0 Specification,
+// to the normal; a tangent along the normal does not change the normal. Not normalized. Source: glTF 2.0 Specification,
 // sections 3.7.2.1 and 3.9.3.
 FN real3 mappedNormal(real3 normal, real3 tangent, real handedness, real x, real y, real z) {
   real3 across = tangent - normal * dot3(normal, tangent);

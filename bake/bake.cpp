@@ -230,13 +230,13 @@ void addFaintLightNotes(const pack::Scene& scene, std::vector<std::string>& note
 void addMeshes(const SceneDescription& d, bool keepMap, std::vector<PlacedMesh> placed, const InstanceChoice& choice,
                Baked& baked) {
   pack::Scene& scene = baked.scene;
-  std::vector<std::uint32_t> meshOf(placed.size());
+  std::vector<std::uint32_t> stored(placed.size());
   for (std::size_t i = 0; i < placed.size(); ++i) {
     PlacedMesh& source = placed[i];
     if (const std::size_t first = choice.first[i]; first != i) {
       pack::Instance& instance = scene.instances.emplace_back();
       instance.name = std::move(source.packed.name);
-      instance.mesh = meshOf[first];
+      instance.mesh = stored[first];
       setPlace(placed[first].worldFromObject, source.worldFromObject, scene.origin, instance);
       requireAxisInPlane(scene.meshes[instance.mesh], instance.linear, scene.materials, d.file);
       continue;
@@ -244,7 +244,7 @@ void addMeshes(const SceneDescription& d, bool keepMap, std::vector<PlacedMesh> 
     if (scene.meshes.size() == pack::kMaxMeshes)
       throw Error(d.file.string(), "has too many meshes", fmt::format("at most {}", pack::kMaxMeshes));
     if (source.isGlassBody) baked.glassBodies.push_back(scene.meshes.size());
-    meshOf[i] = static_cast<std::uint32_t>(scene.meshes.size());
+    stored[i] = static_cast<std::uint32_t>(scene.meshes.size());
     pack::Mesh& mesh = scene.meshes.emplace_back(std::move(source.packed));
     prep::Mesh world = bake::placed(*source.source, source.worldFromObject);
     mesh.positions = std::move(world.positions);

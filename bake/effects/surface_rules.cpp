@@ -48,6 +48,7 @@ std::vector<EffectRule> surfaceRules() {
       [](Material& m) {
         if (pack::isDielectric(m.kind)) removeInterface(m);
       }));
+  rules.push_back({Effect::kInstances, [](const EffectQuery& q) { return !q.scene.instances.empty(); }, {}, {}});
   return rules;
 }
 

@@ -160,7 +160,7 @@ class Chooser {
       if (reasons_[i] == Reason::none && !kept.empty()) {
         pack::Instance instance;
         setPlace(placed_[kept.front()].worldFromObject, placed_[i].worldFromObject, glm::dvec3(0.0), instance);
-        if (!(pack::stretchOf(instance.linear).condition() <= pack::kMaxInstanceCondition))
+        if (!(pack::measureStretch(instance.linear).condition() <= pack::kMaxInstanceCondition))
           reasons_[i] = Reason::condition;
       }
       if (reasons_[i] == Reason::none)

@@ -19,7 +19,7 @@ void Box::add(const Box& box) {
   if (!box.isEmpty()) add(box.low), add(box.high);
 }
 
-Box boxOf(std::span<const glm::dvec3> positions) {
+Box findBox(std::span<const glm::dvec3> positions) {
   Box box;
   for (const glm::dvec3& p : positions) box.add(p);
   return box;
@@ -37,7 +37,7 @@ double Stretch::condition() const {
 
 // Square roots of the eigenvalues of the product of the transposed map and the map. Source: O. K. Smith, "Eigenvalues
 // of a symmetric 3 x 3 matrix", Communications of the ACM 4(4), 1961.
-Stretch stretchOf(const glm::dmat3& linear) {
+Stretch measureStretch(const glm::dmat3& linear) {
   double scale = 0;
   for (int column = 0; column < 3; ++column)
     for (int row = 0; row < 3; ++row) scale = std::max(scale, std::abs(linear[column][row]));
@@ -107,7 +107,7 @@ std::vector<Placement> placements(const Scene& scene) {
 std::vector<Box> placementBoxes(const Scene& scene) {
   std::vector<Box> boxes;
   boxes.reserve(scene.meshes.size() + scene.instances.size());
-  for (const Mesh& mesh : scene.meshes) boxes.push_back(boxOf(mesh.positions));
+  for (const Mesh& mesh : scene.meshes) boxes.push_back(findBox(mesh.positions));
   for (const Instance& instance : scene.instances) boxes.push_back(placedBox(boxes[instance.mesh], instance));
   return boxes;
 }

@@ -25,7 +25,7 @@ struct Box {
   void add(const glm::dvec3& p);
   void add(const Box& box);
 };
-Box boxOf(std::span<const glm::dvec3> positions);
+Box findBox(std::span<const glm::dvec3> positions);
 double farthestCoordinate(const Box& box);  // largest absolute coordinate of its corners; 0 of an empty box
 
 // Smallest and largest factor by which a linear map scales lengths: its singular values.
@@ -33,7 +33,7 @@ struct Stretch {
   double smallest = 1, largest = 1;
   double condition() const;  // infinite for a map without an inverse
 };
-Stretch stretchOf(const glm::dmat3& linear);
+Stretch measureStretch(const glm::dmat3& linear);
 
 inline glm::dvec3 placedPoint(const Instance& instance, const glm::dvec3& p) {
   return instance.linear * p + instance.translation;

@@ -104,7 +104,7 @@ compress::Encoded encodeMesh(const Mesh& mesh, const compress::RoundedMesh& roun
 std::vector<compress::Magnification> magnifications(const Scene& scene) {
   std::vector<compress::Magnification> result(scene.meshes.size());
   for (const Instance& instance : scene.instances) {
-    const Stretch stretch = stretchOf(instance.linear);
+    const Stretch stretch = measureStretch(instance.linear);
     compress::Magnification& m = result[instance.mesh];
     m.isPlaced = true;
     m.smallest = std::min(m.smallest, stretch.smallest);

@@ -99,13 +99,13 @@ void readInstances(ByteReader r, const std::vector<Mesh>& meshes, std::vector<In
   visitInstance(sizes, any);
   instances.resize(r.count(sizes.bytes(), kMaxInstances, "number of instances"));
   std::vector<Box> boxes(meshes.size());
-  for (std::size_t i = 0; i < meshes.size(); ++i) boxes[i] = boxOf(meshes[i].positions);
+  for (std::size_t i = 0; i < meshes.size(); ++i) boxes[i] = findBox(meshes[i].positions);
   for (Instance& instance : instances) {
     visitInstance(FieldReader(r), instance);
     if (instance.mesh >= meshes.size())
       r.fail(fmt::format("mesh of instance '{}' is out of range", instance.name),
              fmt::format("an index below {}", meshes.size()), fmt::format("{}", instance.mesh));
-    const Stretch stretch = stretchOf(instance.linear);
+    const Stretch stretch = measureStretch(instance.linear);
     if (!(stretch.condition() <= kMaxInstanceCondition * (1 + 1e-6)))
       r.fail(fmt::format("linear part of instance '{}'", instance.name),
              fmt::format("lengths scaled by factors within 1:{:g}", kMaxInstanceCondition),

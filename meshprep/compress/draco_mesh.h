@@ -45,8 +45,8 @@ struct TriangleMesh {
 // Factors by which the places of a mesh in a scene change its lengths and may change its angles. Bounds of errors hold
 // at the place where they are tightest.
 struct Magnification {
-  bool isPlaced = false;  // by transforms, beside its own place
-  double smallest = 1;    // factors of lengths; of its own place: 1
+  bool isPlaced = false;  // by transforms too
+  double smallest = 1;    // factors of lengths; without transforms: 1
   double largest = 1;
   double angle = 1;  // at least 1
 };

@@ -134,7 +134,7 @@ class Rounder {
       coarsest = std::max(coarsest, steps_[i]);
       farthest = std::max(farthest, findExtent(meshes_[i].positions).farthest());
     }
-    // Transforms would round positions far from the mesh, so that a mesh with instances has an origin of its own.
+    // Transforms would round positions far from the mesh, so that the origin of a mesh with instances is near it.
     const bool isPlaced =
         std::any_of(group.begin(), group.end(), [&](std::uint32_t i) { return meshes_[i].magnification.isPlaced; });
     if (farthest == 0 || (!isPlaced && farthest <= power(finest + kFloatBits))) return glm::dvec3(0);

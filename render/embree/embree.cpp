@@ -19,18 +19,23 @@ Bvh::Bvh(const render::RenderScene& scene, unsigned threads) {
     throw Error("Embree", "cannot create a device", "a working Embree library",
                 fmt::format("error {}", static_cast<int>(rtcGetDeviceError(nullptr))));
   scene_ = newScene();
+  RTCScene placed = nullptr;  // that of the last mesh with instances
+  std::uint32_t shape = 0;
   for (const render::MeshRun& run : render::findMeshRuns(scene)) {
-    const glm::vec3& origin = scene.meshes[run.first].origin;
-    if (origin == glm::vec3(0)) {
-      attachMeshes(scene_, scene, run);
+    if (!run.isPlaced && scene.meshes[run.first].origin == glm::vec3(0)) {
+      attachMeshes(scene_, scene, run, run.first);
       continue;
     }
-    RTCScene instanced = newScene();
-    attachMeshes(instanced, scene, run);
-    rtcCommitScene(instanced);
-    attachInstance(instanced, origin);
-    rtcReleaseScene(instanced);
+    if (placed == nullptr || !run.isPlaced || run.shape != shape) {
+      if (placed) rtcReleaseScene(placed);
+      placed = newScene();
+      shape = run.shape;
+      attachMeshes(placed, scene, run, run.isPlaced ? 0 : run.first);
+      rtcCommitScene(placed);
+    }
+    attachInstance(placed, scene, run);
   }
+  if (placed) rtcReleaseScene(placed);
   rtcCommitScene(scene_);
   if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
     throw Error("Embree", "cannot build the acceleration structure", "enough memory",
@@ -57,9 +62,9 @@ void ignoreCutOuts(const RTCFilterFunctionNArguments* arguments) {
 
 }  // namespace
 
-// The geometries have the indices of their meshes, also inside an instance. Those of the scene itself come first, so
-// that instances get other indices.
-void Bvh::attachMeshes(RTCScene to, const render::RenderScene& scene, const render::MeshRun& run) {
+// The geometries have the indices of their meshes, also inside an instance of a run; that of a mesh with instances has
+// 0. Those of the scene itself come first, so that instances get other indices.
+void Bvh::attachMeshes(RTCScene to, const render::RenderScene& scene, const render::MeshRun& run, unsigned firstId) {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {
     if (scene.meshTriangles[i] == 0) continue;
     // Embree allocates the buffers: it reads 16 bytes per vertex, although a vertex has 12.
@@ -81,19 +86,25 @@ void Bvh::attachMeshes(RTCScene to, const render::RenderScene& scene, const rend
       rtcSetGeometryOccludedFilterFunction(geometry, ignoreCutOuts);
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(to, geometry, static_cast<unsigned>(i));
+    rtcAttachGeometryByID(to, geometry, firstId + static_cast<unsigned>(i - run.first));
     rtcReleaseGeometry(geometry);
+    ++counts_.geometries;
   }
 }
 
-void Bvh::attachInstance(RTCScene instanced, const glm::vec3& origin) {
+void Bvh::attachInstance(RTCScene instanced, const render::RenderScene& scene, const render::MeshRun& run) {
   RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(instance, instanced);
-  const float transform[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, origin.x, origin.y, origin.z};
-  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform);
+  const gpu::MeshTransform& t = scene.meshTransforms[run.first];
+  const glm::vec3 columns[4] = {t.linearX, t.linearY, t.linearZ, scene.meshes[run.first].origin};
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
   rtcCommitGeometry(instance);
-  rtcAttachGeometry(scene_, instance);
+  const unsigned id = rtcAttachGeometry(scene_, instance);
   rtcReleaseGeometry(instance);
+  ++counts_.instances;
+  hasInstances_ = hasInstances_ || run.isPlaced;
+  if (firstMeshes_.size() < std::size_t{id} + 2) firstMeshes_.resize(std::size_t{id} + 2, 0);
+  firstMeshes_[std::size_t{id} + 1] = run.isPlaced ? run.first : 0;
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // Embree 3 (Debian 12) and Embree 4 (Debian 13) behind one interface: a device, a scene of triangle meshes and two
-// queries. Meshes of origin 0 are in the scene itself, others in an instance per origin. The scene is built with
-// RTC_SCENE_FLAG_ROBUST: without it, rays leak through shared edges.
+// queries. Meshes of origin 0 are in the scene itself, others in an instance per origin, and a mesh that is placed
+// several times in a scene of its own with an instance per place. The scenes are built with RTC_SCENE_FLAG_ROBUST:
+// without it, rays leak through shared edges.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -103,6 +104,8 @@ class Bvh {
   Bvh(const Bvh&) = delete;
   Bvh& operator=(const Bvh&) = delete;
 
+  // kInstances: false if the caller knows that the scene has no instances.
+  template <bool kInstances = true>
   Intersection nearest(const glm::vec3& origin, const glm::vec3& direction) const;
   // Whether there is no triangle within `distance` lengths of direction, which may have any length but 0.
   bool visible(const glm::vec3& origin, const glm::vec3& direction, float distance) const;
@@ -116,6 +119,18 @@ class Bvh {
   void occluded(const int* valid, RTCRay8& packet, bool coherent) const;
   void occluded(const int* valid, RTCRay16& packet, bool coherent) const;
 
+  // The mesh of a hit of a packet, from its hit.geomID and hit.instID[0]; kMiss of a ray that meets nothing. Without
+  // instances it is the former.
+  unsigned hitMesh(unsigned geometry, unsigned instance) const { return geometry + firstMeshes_[instance + 1]; }
+  bool hasInstances() const { return hasInstances_; }
+  const std::uint32_t* firstMeshes() const { return firstMeshes_.data(); }
+
+  // Geometries of all scenes, and instances: of runs of meshes and of places.
+  struct Counts {
+    std::size_t geometries = 0, instances = 0;
+  };
+  const Counts& counts() const { return counts_; }
+
   // Whether packets of a width are traced as such on this processor; others are split.
   bool isNative(unsigned width) const;
 
@@ -123,15 +138,19 @@ class Bvh {
 
  private:
   RTCScene newScene();
-  void attachMeshes(RTCScene to, const render::RenderScene& scene, const render::MeshRun& run);
-  void attachInstance(RTCScene instanced, const glm::vec3& origin);
+  void attachMeshes(RTCScene to, const render::RenderScene& scene, const render::MeshRun& run, unsigned firstId);
+  void attachInstance(RTCScene instanced, const render::RenderScene& scene, const render::MeshRun& run);
 
   std::vector<std::unique_ptr<const CutOut>> cutOuts_;  // that filter functions read
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
+  std::vector<std::uint32_t> firstMeshes_{0};  // by 1 + instance: what is added to the geometry
+  bool hasInstances_ = false;
+  Counts counts_;
 };
 
-inline Intersection Bvh::nearest(const glm::vec3& o, const glm::vec3& d) const {
+template <bool kInstances>
+Intersection Bvh::nearest(const glm::vec3& o, const glm::vec3& d) const {
   RTCRayHit query;
   query.ray.org_x = o.x, query.ray.org_y = o.y, query.ray.org_z = o.z;
   query.ray.dir_x = d.x, query.ray.dir_y = d.y, query.ray.dir_z = d.z;
@@ -145,7 +164,8 @@ inline Intersection Bvh::nearest(const glm::vec3& o, const glm::vec3& d) const {
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene_, &context, &query);
 #endif
-  return {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
+  const unsigned mesh = kInstances ? hitMesh(query.hit.geomID, query.hit.instID[0]) : query.hit.geomID;
+  return {mesh, query.hit.primID, query.hit.u, query.hit.v};
 }
 
 inline bool Bvh::visible(const glm::vec3& o, const glm::vec3& d, float distance) const {

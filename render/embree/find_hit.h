@@ -33,15 +33,50 @@ TexturedTriangle texturedTriangle(const Mesh& mesh, const glm::uvec3& corner, co
 }
 #endif
 
+#if MALUS_EFFECT_INSTANCES
+Hit makeInstanceHit(const Ray& ray, const Mesh& mesh, const MeshTransform& transform, unsigned triangle) {
+  glm::uvec3 corner = scene.triangles[mesh.firstTriangle + triangle];
+  if (transform.kind == kMirrored) corner = {corner.x, corner.z, corner.y};
+  const real3* p = scene.positions.data() + mesh.firstVertex;
+  const real3* n = scene.normals.data() + mesh.firstVertex;
+  const PlacedTriangle placed = placeTriangle(transform, mesh.origin, p[corner.x], p[corner.y], p[corner.z]);
+  const Barycentrics b = barycentricCoordinates(ray.origin - placed.origin, ray.d, placed.p0, placed.p1, placed.p2);
+  const real b0 = 1 - b.b1 - b.b2;
+  const real3 interpolated = mesh.hasNormals != 0
+                                 ? placeNormal(transform, n[corner.x] * b0 + n[corner.y] * b.b1 + n[corner.z] * b.b2)
+                                 : real3(0);
+#if MALUS_EFFECT_MESH_TEXTURES
+  if (hasMeshTextures()) {
+    TexturedTriangle t = placeTexture(transform, placed, texturedTriangle(mesh, corner, b));
+    if (mesh.hasNormals != 0) t.curvature = placedCurvature(transform, placed, n[corner.x], n[corner.y], n[corner.z]);
+    RayCone cone;
+    const TextureHit textureHit = textureHitAt(ray, placed.origin, t, cone);
+    Hit hit = makePlacedHit(ray, placed.p0, placed.p1, placed.p2, b.b1, b.b2, placed.origin,
+                            normalAt(mesh.material, textureHit, t, interpolated), mesh.material, placed.error);
+    setTextureHit(hit, textureHit, t, cone);
+    return hit;
+  }
+#endif
+  return makePlacedHit(ray, placed.p0, placed.p1, placed.p2, b.b1, b.b2, placed.origin, interpolated, mesh.material,
+                       placed.error);
+}
+#endif
+
 bool findHit(const Ray& ray, Hit& hit) {
   ++rays;
   if (kCheckNumerics && log) {
     bounce = camera.depth - static_cast<int>(ray.depth);
     (*log)[{bounce, false}].add(ray.origin, ray.d);
   }
-  const embree::Intersection at = bvh.nearest(ray.origin, ray.d);
+  const embree::Intersection at = bvh.nearest<MALUS_EFFECT_INSTANCES != 0>(ray.origin, ray.d);
   if (at.mesh == embree::Intersection::kMiss) return false;
   const Mesh& mesh = scene.meshes[at.mesh];
+#if MALUS_EFFECT_INSTANCES
+  if (scene.meshTransforms[at.mesh].kind != kUnplaced) {
+    hit = makeInstanceHit(ray, mesh, scene.meshTransforms[at.mesh], at.triangle);
+    return true;
+  }
+#endif
   const glm::uvec3 corner = scene.triangles[mesh.firstTriangle + at.triangle];
   const real3* p = scene.positions.data() + mesh.firstVertex;
   const real3* n = scene.normals.data() + mesh.firstVertex;

@@ -49,7 +49,8 @@ Counts replayNearest(const Bvh& bvh, const RayArrays& rays, std::size_t begin, s
     load<N>(rays, i, count, query.ray, valid);
     initializeHit(query);
     bvh.nearest(valid, query, coherent);
-    for (std::size_t k = 0; k < count; ++k) counts.add(query.hit.geomID[k], query.hit.primID[k]);
+    for (std::size_t k = 0; k < count; ++k)
+      counts.add(bvh.hitMesh(query.hit.geomID[k], query.hit.instID[0][k]), query.hit.primID[k]);
   }
   return counts;
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "bake/pack/instances.h"
 #include "shaders/gpu/constants.h"
 
 namespace malus::reference {
@@ -23,6 +25,21 @@ std::vector<Face> computeFaces(const pack::Mesh& mesh) {
 
 namespace {
 
+// The triangle that was found, in the scene.
+struct Triangle {
+  dvec3 p0, p1, p2;
+  glm::uvec3 corners;
+  Face face;
+  double b1, b2;
+  dvec3 origin, placedError;
+};
+
+// A unit normal of a mesh at a place; null: its first one.
+dvec3 placeNormal(const pack::Instance* place, const dvec3& n) {
+  if (place == nullptr) return n;
+  return glm::normalize(pack::cofactors(place->linear) * n) * (pack::isMirrored(place->linear) ? -1.0 : 1.0);
+}
+
 f64::TexturePoint texturePointAt(const pack::Mesh& mesh, std::uint32_t vertex) {
   const auto set = [&](std::size_t k) {
     return mesh.textureCoordinates[k].empty() ? glm::dvec2(0) : glm::dvec2(mesh.textureCoordinates[k][vertex]);
@@ -33,7 +50,9 @@ f64::TexturePoint texturePointAt(const pack::Mesh& mesh, std::uint32_t vertex) {
 
 // The normal of the material's normal map. normal: unit, from outside; t: the triangle's vertices.
 dvec3 mappedNormalAt(const MeshTextures& textures, const pack::MeshMaps& maps, const pack::Mesh& mesh,
-                     const glm::uvec3& t, const dvec3& barycentric, const dvec3& normal, const f64::TextureHit& at) {
+                     const Triangle& triangle, const pack::Instance* place, const dvec3& barycentric,
+                     const dvec3& normal, const f64::TextureHit& at) {
+  const glm::uvec3& t = triangle.corners;
   dvec3 tangent(0);
   double handedness = 1;
   if (!mesh.tangents.empty()) {
@@ -42,14 +61,17 @@ dvec3 mappedNormalAt(const MeshTextures& textures, const pack::MeshMaps& maps, c
                            glm::dvec4(mesh.tangents[t.z]) * barycentric.z;
     tangent = dvec3(sum);
     handedness = sum.w < 0 ? -1 : 1;
+    if (place != nullptr) {
+      tangent = place->linear * tangent;
+      if (pack::isMirrored(place->linear)) handedness = -handedness;
+    }
   }
   if (tangent == dvec3(0)) {
     const auto& set = mesh.textureCoordinates[maps.normal.set];
     if (set.empty()) return normal;
     const glm::dvec2 first = set[t.x], edge1 = glm::dvec2(set[t.y]) - first, edge2 = glm::dvec2(set[t.z]) - first;
-    const dvec3& p0 = mesh.positions[t.x];
     const f64::TriangleTangent derived =
-        f64::triangleTangent(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0, edge1.x, edge1.y, edge2.x, edge2.y);
+        f64::triangleTangent(triangle.p1 - triangle.p0, triangle.p2 - triangle.p0, edge1.x, edge1.y, edge2.x, edge2.y);
     tangent = derived.tangent;
     handedness = derived.determinant < 0 ? 1 : -1;
   }
@@ -60,26 +82,67 @@ dvec3 mappedNormalAt(const MeshTextures& textures, const pack::MeshMaps& maps, c
 }
 
 // Cone and texture coordinates at the hit's position.
-f64::TextureHit findTextureHit(const SceneAccess& access, const pack::Mesh& mesh, const glm::uvec3& t, const Ray& ray,
-                               double b1, double b2, Hit& hit) {
-  const dvec3 &p0 = mesh.positions[t.x], &p1 = mesh.positions[t.y], &p2 = mesh.positions[t.z];
+f64::TextureHit findTextureHit(const SceneAccess& access, const pack::Mesh& mesh, const Triangle& triangle,
+                               const pack::Instance* place, const Ray& ray, double b1, double b2, Hit& hit) {
+  const glm::uvec3& t = triangle.corners;
+  const dvec3 &p0 = triangle.p0, &p1 = triangle.p1, &p2 = triangle.p2;
   const f64::RayCone cone = f64::coneAfter(f64::coneOfPath(ray.path, access.cone.width, access.cone.spread),
                                            glm::length(hit.position - ray.origin));
   hit.path = f64::pathWithCone(ray.path, cone);
   if (!mesh.normals.empty())
-    hit.curvature = f64::triangleCurvature(p0, p1, p2, mesh.normals[t.x], mesh.normals[t.y], mesh.normals[t.z]);
+    hit.curvature =
+        f64::triangleCurvature(p0, p1, p2, placeNormal(place, mesh.normals[t.x]), placeNormal(place, mesh.normals[t.y]),
+                               placeNormal(place, mesh.normals[t.z]));
   return f64::textureHitOfTriangle(ray.d, p1 - p0, p2 - p0, b1, b2, cone.width, texturePointAt(mesh, t.x),
                                    texturePointAt(mesh, t.y), texturePointAt(mesh, t.z));
+}
+
+Triangle findTriangle(const SceneAccess& access, const pack::Mesh& mesh, const embree::Intersection& found) {
+  const std::uint32_t source = access.records.meshes[found.mesh];
+  const gpu::MeshTransform& transform = access.records.transforms[found.mesh];
+  const glm::uvec3 t = mesh.triangles[found.triangle];
+  Triangle result{mesh.positions[t.x],
+                  mesh.positions[t.y],
+                  mesh.positions[t.z],
+                  t,
+                  access.faces[source][found.triangle],
+                  found.b1,
+                  found.b2,
+                  mesh.origin,
+                  dvec3(0)};
+  if (transform.kind == gpu::kUnplaced) return result;
+
+  // The queries are in single precision.
+  const dvec3 local0 = result.p0 - mesh.origin, local1 = result.p1 - mesh.origin, local2 = result.p2 - mesh.origin;
+  const double largest = std::max({f64::largestPart(local0), f64::largestPart(local1), f64::largestPart(local2)});
+  const std::uint32_t instance = access.records.instances[found.mesh];
+  if (instance != render::kNoInstance) {
+    const pack::Instance& place = access.scene.instances[instance];
+    for (dvec3* p : {&result.p0, &result.p1, &result.p2, &result.origin}) *p = pack::placedPoint(place, *p);
+    if (transform.kind == gpu::kMirrored) {
+      std::swap(result.p1, result.p2);
+      std::swap(result.b1, result.b2);
+      std::swap(result.corners.y, result.corners.z);
+    }
+    const dvec3 across = glm::cross(result.p1 - result.p0, result.p2 - result.p0);
+    const double area2 = glm::length(across);
+    result.face = {area2 > 0 ? across / area2 : dvec3(0), area2};
+  }
+  result.placedError = f64::placementError(dvec3(transform.spreadX), dvec3(transform.spreadY), dvec3(transform.spreadZ),
+                                           dvec3(transform.extent), result.p0, largest, 0x1p-24);
+  return result;
 }
 
 }  // namespace
 
 void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersection& found, Hit& hit) {
-  const std::uint32_t source = access.sourceMeshes[found.mesh];
-  const pack::Mesh& mesh = access.scene.meshes[source];
-  const Face& face = access.faces[source][found.triangle];
-  const glm::uvec3 t = mesh.triangles[found.triangle];
-  const dvec3 &p0 = mesh.positions[t.x], &p1 = mesh.positions[t.y], &p2 = mesh.positions[t.z], &d = ray.d;
+  const pack::Mesh& mesh = access.scene.meshes[access.records.meshes[found.mesh]];
+  const Triangle triangle = findTriangle(access, mesh, found);
+  const std::uint32_t instance = access.records.instances[found.mesh];
+  const pack::Instance* const place = instance == render::kNoInstance ? nullptr : &access.scene.instances[instance];
+  const Face& face = triangle.face;
+  const glm::uvec3& t = triangle.corners;
+  const dvec3 &p0 = triangle.p0, &p1 = triangle.p1, &p2 = triangle.p2, &d = ray.d;
   const dvec3 e1 = p1 - p0, e2 = p2 - p0;
   const double area2 = face.area2;
   hit.d = d;
@@ -87,7 +150,7 @@ void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersecti
   hit.face = area2 > 0 ? face.normal : -d;
 
   // Intersect the ray with the plane of the triangle; barycentric coordinates from signed areas.
-  double b1 = found.b1, b2 = found.b2;
+  double b1 = triangle.b1, b2 = triangle.b2;
   const double slope = glm::dot(d, hit.face);
   if (area2 > 0 && slope != 0) {
     const dvec3 q = ray.origin + d * (glm::dot(p0 - ray.origin, hit.face) / slope);
@@ -101,12 +164,12 @@ void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersecti
   hit.path = ray.path;
   hit.curvature = 0;
   f64::TextureHit textureHit = f64::noTextureHit();
-  if (access.textures != nullptr) textureHit = findTextureHit(access, mesh, t, ray, b1, b2, hit);
+  if (access.textures != nullptr) textureHit = findTextureHit(access, mesh, triangle, place, ray, b1, b2, hit);
   hit.surface = surfaceAt(access.scene, access.textures, mesh.material, hit.position, textureHit);
   // The next query is in single precision.
-  const dvec3& o = mesh.origin;
+  const dvec3& o = triangle.origin;
   hit.error = f64::hitPointError(p0 - o, e1, e2, b1, b2, 0x1p-24) + f64::originError(o, 0x1p-24) +
-              f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24);
+              f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24) + triangle.placedError;
   const double margin = 4 * f64::largestPart(hit.error);
   const double longest = 1.75 * std::max({f64::largestPart(e1), f64::largestPart(e2), f64::largestPart(p2 - p1)});
   // The nearest edge is at least the least coordinate times area2 over the longest edge away; 1.75 > sqrt(3).
@@ -117,12 +180,12 @@ void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersecti
   dvec3 interpolated = hit.face;
   if (!mesh.normals.empty()) {
     const dvec3 n = dvec3(mesh.normals[t.x]) * b0 + dvec3(mesh.normals[t.y]) * b1 + dvec3(mesh.normals[t.z]) * b2;
-    if (glm::length(n) > 0) interpolated = n;
+    if (glm::length(n) > 0) interpolated = placeNormal(place, n);
   }
   const pack::MeshMaps& maps = hit.surface.material->meshMaps;
   if (maps.normal.isUsed())
-    interpolated =
-        mappedNormalAt(*access.textures, maps, mesh, t, {b0, b1, b2}, glm::normalize(interpolated), textureHit);
+    interpolated = mappedNormalAt(*access.textures, maps, mesh, triangle, place, {b0, b1, b2},
+                                  glm::normalize(interpolated), textureHit);
   hit.normal = f64::shadingNormal(d, hit.face, interpolated);
   if (!hit.outside) hit.face = -hit.face, hit.curvature = -hit.curvature;
   hit.c = f64::clampUnit(-glm::dot(d, hit.normal));

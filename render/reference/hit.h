@@ -19,11 +19,17 @@ struct Face {
 };
 std::vector<Face> computeFaces(const pack::Mesh& mesh);
 
+// Meshes and places of bvh, as of render::RenderScene.
+struct MeshRecords {
+  std::vector<std::uint32_t> meshes, instances;
+  std::vector<gpu::MeshTransform> transforms;
+};
+
 // Data that every thread reads.
 struct SceneAccess {
   const pack::Scene& scene;
   const embree::Bvh& bvh;
-  const std::vector<std::uint32_t>& sourceMeshes;     // per mesh of bvh
+  const MeshRecords& records;
   const std::vector<std::vector<Face>>& faces;        // per triangle of each mesh of scene
   const std::vector<dvec3>& hemisphereTransmittance;  // per material
   double lightReach;                                  // render::lightReach

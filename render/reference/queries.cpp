@@ -64,7 +64,8 @@ void Queries::findNearest(std::span<const Ray> rays, std::vector<embree::Interse
     bvh_.nearest(valid, query, false);
     for (std::size_t lane = 0; lane < packet.size(); ++lane) {
       embree::Intersection& hit = found[packet[lane]];
-      hit = {query.hit.geomID[lane], query.hit.primID[lane], query.hit.u[lane], query.hit.v[lane]};
+      hit = {bvh_.hitMesh(query.hit.geomID[lane], query.hit.instID[0][lane]), query.hit.primID[lane], query.hit.u[lane],
+             query.hit.v[lane]};
       if (hit.mesh == embree::Intersection::kMiss || std::min({hit.b1, hit.b2, 1 - hit.b1 - hit.b2}) > kNearEdge)
         continue;
       const Ray& ray = rays[packet[lane]];

@@ -12,7 +12,6 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "bake/pack/instances.h"
 #include "render/embree/embree.h"
 #include "render/reference/depth_paths.h"
 #include "render/reference/tracer.h"
@@ -114,11 +113,11 @@ struct Renderer::Impl {
   Impl(const pack::Scene& source, unsigned threadCount) : Impl(source, render::makeRenderScene(source), threadCount) {}
 
   Impl(const pack::Scene& source, render::RenderScene&& renderScene, unsigned threadCount)
-      : expanded(source.instances.empty() ? pack::Scene() : pack::withoutInstances(source)),
-        scene(source.instances.empty() ? source : expanded),
+      : scene(source),
         threads(threadCount),
         bvh(renderScene, threadCount),
-        sourceMeshes(std::move(renderScene.sourceMeshes)) {
+        records{std::move(renderScene.sourceMeshes), std::move(renderScene.sourceInstances),
+                std::move(renderScene.meshTransforms)} {
     if (renderScene.hasMeshTextures) textures.emplace(renderScene);
     for (const pack::Material& m : scene.materials)
       hemisphereTransmittance.push_back(render::hemisphereTransmittance(m, scene.wavelengthsNm));
@@ -126,11 +125,10 @@ struct Renderer::Impl {
     lightReach = render::lightReach(source);
   }
 
-  pack::Scene expanded;  // if the scene has instances
   const pack::Scene& scene;
   unsigned threads;
   embree::Bvh bvh;
-  std::vector<std::uint32_t> sourceMeshes;
+  MeshRecords records;
   std::vector<std::vector<Face>> faces;        // per triangle of each mesh
   std::vector<dvec3> hemisphereTransmittance;  // per material
   double lightReach = 0;
@@ -140,7 +138,7 @@ struct Renderer::Impl {
   SceneAccess access(const render::RenderParameters& parameters) const {
     return {scene,
             bvh,
-            sourceMeshes,
+            records,
             faces,
             hemisphereTransmittance,
             lightReach,

@@ -13,6 +13,7 @@
 #include "bake/effects/effects.h"
 #include "bake/pack/instances.h"
 #include "render/scene/image_plane.h"
+#include "render/scene/mesh_transform.h"
 #include "render/scene/scene_textures.h"
 #include "shaders/optics/optics.h"
 
@@ -95,10 +96,24 @@ bool isInvisible(const pack::Material& m) {
 
 }  // namespace
 
+bool sharesVertices(const RenderScene& scene, std::size_t mesh) {
+  return mesh > 0 && scene.meshTransforms[mesh].kind != gpu::kUnplaced &&
+         scene.meshes[mesh].firstTriangle == scene.meshes[mesh - 1].firstTriangle;
+}
+
 std::vector<MeshRun> findMeshRuns(const RenderScene& scene) {
   std::vector<MeshRun> runs;
   for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
-    if (runs.empty() || scene.meshes[i].origin != scene.meshes[runs.back().first].origin) runs.push_back({i, 0});
+    const gpu::Mesh& mesh = scene.meshes[i];
+    const bool isPlaced = scene.meshTransforms[i].kind != gpu::kUnplaced;
+    if (runs.empty()) {
+      runs.push_back({i, 0, 0, isPlaced});
+    } else if (const MeshRun& last = runs.back(); isPlaced) {
+      const bool isShared = last.isPlaced && scene.meshes[last.first].firstTriangle == mesh.firstTriangle;
+      runs.push_back({i, 0, isShared ? last.shape : last.shape + 1, true});
+    } else if (mesh.origin != scene.meshes[last.first].origin) {
+      runs.push_back({i, 0, last.shape + 1, false});
+    }
     ++runs.back().count;
   }
   return runs;
@@ -135,20 +150,49 @@ void addLights(const pack::Scene& scene, RenderScene& result) {
   if (result.lightShapes.empty()) result.lightShapes.push_back({glm::vec3(0), 0, 1, 0});
 }
 
+// Adds a mesh that has the vertices and triangles added last.
+void addRecord(const pack::Scene& scene, std::uint32_t source, std::uint32_t instance, const gpu::Mesh& mesh,
+               const gpu::MeshTransform& transform, RenderScene& result) {
+  const pack::Mesh& packed = scene.meshes[source];
+  const bool isTraced = !isInvisible(scene.materials[packed.material]);
+  result.meshes.push_back(mesh);
+  result.meshTransforms.push_back(transform);
+  result.sourceMeshes.push_back(source);
+  result.sourceInstances.push_back(instance);
+  result.meshTriangles.push_back(isTraced ? static_cast<std::uint32_t>(packed.triangles.size()) : 0u);
+  result.meshVertices.push_back(static_cast<std::uint32_t>(packed.positions.size()));
+}
+
+gpu::Mesh addVertices(const pack::Mesh& mesh, RenderScene& result) {
+  const gpu::Mesh record{static_cast<std::uint32_t>(result.triangles.size()),
+                         static_cast<std::uint32_t>(result.positions.size()), mesh.material,
+                         mesh.normals.empty() ? 0u : 1u, glm::vec3(mesh.origin)};
+  for (const glm::dvec3& p : mesh.positions) result.positions.emplace_back(p - mesh.origin);
+  result.normals.insert(result.normals.end(), mesh.normals.begin(), mesh.normals.end());
+  result.normals.resize(result.positions.size(), glm::vec3(0));
+  result.triangles.insert(result.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+  return record;
+}
+
 void addMeshes(const pack::Scene& scene, RenderScene& result) {
-  result.sourceMeshes = sortByOrigin(scene.meshes);
-  for (const std::uint32_t source : result.sourceMeshes) {
+  std::vector<std::vector<std::uint32_t>> instances(scene.meshes.size());
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) instances[scene.instances[i].mesh].push_back(i);
+  for (const std::uint32_t source : sortByOrigin(scene.meshes)) {
+    if (!instances[source].empty()) continue;
+    const gpu::Mesh record = addVertices(scene.meshes[source], result);
+    addRecord(scene, source, kNoInstance, record, unplacedMesh(), result);
+  }
+  for (std::uint32_t source = 0; source < scene.meshes.size(); ++source) {
+    if (instances[source].empty()) continue;
     const pack::Mesh& mesh = scene.meshes[source];
-    result.meshes.push_back({static_cast<std::uint32_t>(result.triangles.size()),
-                             static_cast<std::uint32_t>(result.positions.size()), mesh.material,
-                             mesh.normals.empty() ? 0u : 1u, glm::vec3(mesh.origin)});
-    const bool isTraced = !isInvisible(scene.materials[mesh.material]);
-    result.meshTriangles.push_back(isTraced ? static_cast<std::uint32_t>(mesh.triangles.size()) : 0u);
-    result.meshVertices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-    for (const glm::dvec3& p : mesh.positions) result.positions.emplace_back(p - mesh.origin);
-    result.normals.insert(result.normals.end(), mesh.normals.begin(), mesh.normals.end());
-    result.normals.resize(result.positions.size(), glm::vec3(0));
-    result.triangles.insert(result.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+    gpu::Mesh record = addVertices(mesh, result);
+    const auto place = [&](const glm::dmat3& linear, const glm::dvec3& at, std::uint32_t instance) {
+      record.origin = glm::vec3(at);
+      addRecord(scene, source, instance, record, makeMeshTransform(linear, at - glm::dvec3(record.origin)), result);
+    };
+    place(glm::dmat3(1.0), mesh.origin, kNoInstance);
+    for (const std::uint32_t i : instances[source])
+      place(scene.instances[i].linear, pack::placedPoint(scene.instances[i], mesh.origin), i);
   }
   addTextureCoordinates(scene, result);
 }
@@ -177,7 +221,7 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
     result.extras.push_back(makeExtra(m, scene.wavelengthsNm, result.textureRows));
   }
   addLights(scene, result);
-  addMeshes(scene.instances.empty() ? scene : pack::withoutInstances(scene), result);
+  addMeshes(scene, result);
   result.environmentTexels = scene.environment.texels;
   if (result.environmentTexels.empty()) result.environmentTexels.emplace_back(0.0f);
   return result;

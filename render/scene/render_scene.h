@@ -9,14 +9,19 @@
 
 namespace malus::render {
 
+inline constexpr std::uint32_t kNoInstance = 0xffffffff;
+
 struct RenderScene {
   std::vector<gpu::Material> materials;
   std::vector<gpu::PointLight> lights;
   std::vector<gpu::LightShape> lightShapes;  // one per light, at least one
   // Meshes of equal origin follow each other, those of origin 0 first: each run is one instance of the acceleration
-  // structures.
+  // structures. Behind them is every place of the meshes that have instances, as a mesh that shares their vertices and
+  // triangles.
   std::vector<gpu::Mesh> meshes;
-  std::vector<std::uint32_t> sourceMeshes;   // index of each mesh in the pack's scene
+  std::vector<gpu::MeshTransform> meshTransforms;  // one per mesh
+  std::vector<std::uint32_t> sourceMeshes;         // index of each mesh in the pack's scene
+  std::vector<std::uint32_t> sourceInstances;      // index of its instance, or kNoInstance
   std::vector<std::uint32_t> meshTriangles;  // that rays can meet, of each mesh: none of a surface between equal media
   std::vector<std::uint32_t> meshVertices;
   std::vector<glm::vec3> positions;        // relative to the origin of their mesh
@@ -35,9 +40,14 @@ struct RenderScene {
   std::vector<glm::vec3> environmentTexels;   // with their border; one texel if there is no map
 };
 
-// Runs of meshes of equal origin: the index of the first mesh and the number of meshes.
+// Whether a mesh is another place of the mesh before it, whose vertices and triangles it has.
+bool sharesVertices(const RenderScene& scene, std::size_t mesh);
+
+// Runs of meshes of equal origin, or one place of a mesh: the index of the first mesh and the number of meshes.
 struct MeshRun {
   std::uint32_t first = 0, count = 0;
+  std::uint32_t shape = 0;  // rank of its triangles: runs that follow each other may share them
+  bool isPlaced = false;    // by a transform
 };
 std::vector<MeshRun> findMeshRuns(const RenderScene& scene);
 

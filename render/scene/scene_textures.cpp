@@ -106,9 +106,10 @@ void addMeshMaps(const pack::Scene& scene, RenderScene& result) {
 
 void addTextureCoordinates(const pack::Scene& scene, RenderScene& result) {
   const bool hasNormalMaps = std::ranges::any_of(result.materialMaps, [](const auto& m) { return m.normal != 0; });
-  for (const std::uint32_t source : result.sourceMeshes) {
-    const pack::Mesh& mesh = scene.meshes[source];
+  for (std::size_t record = 0; record < result.meshes.size(); ++record) {
     if (!result.hasMeshTextures) break;
+    if (sharesVertices(result, record)) continue;
+    const pack::Mesh& mesh = scene.meshes[result.sourceMeshes[record]];
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const auto set = [&](std::size_t k) {
         return mesh.textureCoordinates[k].empty() ? glm::vec2(0) : mesh.textureCoordinates[k][i];

@@ -25,7 +25,11 @@ void requireCounts(const Device& device, const render::RenderScene& scene) {
   const Capabilities& limits = device.capabilities();
   require("meshes", scene.meshes.size(), limits.maxGeometryCount, "maxGeometryCount");
   std::uint64_t triangles = 0;
-  for (const std::uint32_t count : scene.meshTriangles) triangles += count;
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const bool isShared = i > 0 && scene.meshTransforms[i].kind != gpu::kUnplaced &&
+                          scene.meshes[i].firstTriangle == scene.meshes[i - 1].firstTriangle;
+    if (!isShared) triangles += scene.meshTriangles[i];
+  }
   require("triangles", triangles, limits.maxPrimitiveCount, "maxPrimitiveCount");
 }
 
@@ -58,6 +62,13 @@ void addGeometries(const render::RenderScene& scene, const render::MeshRun& run,
     geometries.push_back(geometry);
     ranges.push_back({scene.meshTriangles[i], 0, 0, 0});
   }
+}
+
+VkTransformMatrixKHR makeTransform(const render::RenderScene& scene, const render::MeshRun& run) {
+  const gpu::MeshTransform& t = scene.meshTransforms[run.first];
+  const glm::vec3& origin = scene.meshes[run.first].origin;
+  const glm::vec3 &x = t.linearX, &y = t.linearY, &z = t.linearZ;
+  return {{{x.x, y.x, z.x, origin.x}, {x.y, y.y, z.y, origin.y}, {x.z, y.z, z.z, origin.z}}};
 }
 
 // Orders two builds or copies of structures: they share scratch memory, or one reads what the other writes.
@@ -108,7 +119,9 @@ Acceleration::Build::Build(const Device& device, VkAccelerationStructureTypeKHR 
 
 Acceleration::Acceleration(const Device& device, const render::RenderScene& scene, const Buffer& positions,
                            const Buffer& triangles)
-    : bottoms_(buildBottoms(device, scene, positions, triangles)), top_(buildTop(device, scene, bottoms_)) {}
+    : bottoms_(buildBottoms(device, scene, positions, triangles)),
+      top_(buildTop(device, scene, bottoms_)),
+      instances_(render::findMeshRuns(scene).size()) {}
 
 VkDeviceSize Acceleration::bottomBytes() const {
   VkDeviceSize bytes = 0;
@@ -127,7 +140,10 @@ std::vector<Acceleration::Level> Acceleration::buildBottoms(const Device& device
     batch.clear();
     bytes = 0;
   };
+  std::size_t shapes = 0;
   for (const render::MeshRun& run : render::findMeshRuns(scene)) {
+    if (run.shape < shapes) continue;  // another place of the last one
+    ++shapes;
     std::vector<VkAccelerationStructureGeometryKHR> geometries;
     std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
     addGeometries(scene, run, positions, triangles, geometries, ranges);
@@ -140,7 +156,7 @@ std::vector<Acceleration::Level> Acceleration::buildBottoms(const Device& device
   return bottoms;
 }
 
-// An instance per run of meshes, at their origin.
+// An instance per run of meshes, at their origin, and per place.
 Acceleration::Level Acceleration::buildTop(const Device& device, const render::RenderScene& scene,
                                            const std::vector<Level>& bottoms) {
   const std::vector<render::MeshRun> runs = render::findMeshRuns(scene);
@@ -148,10 +164,9 @@ Acceleration::Level Acceleration::buildTop(const Device& device, const render::R
   for (std::size_t i = 0; i < runs.size(); ++i) {
     VkAccelerationStructureDeviceAddressInfoKHR addressInfo{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
-    addressInfo.accelerationStructure = bottoms[i].structure.get();
-    const glm::vec3& origin = scene.meshes[runs[i].first].origin;
+    addressInfo.accelerationStructure = bottoms[runs[i].shape].structure.get();
     VkAccelerationStructureInstanceKHR instance{};
-    instance.transform = {{{1, 0, 0, origin.x}, {0, 1, 0, origin.y}, {0, 0, 1, origin.z}}};
+    instance.transform = makeTransform(scene, runs[i]);
     instance.mask = 0xff;
     instance.instanceCustomIndex = runs[i].first & 0xffffffu;
     instance.instanceShaderBindingTableRecordOffset = runs[i].first & 0xffffffu;

@@ -1,5 +1,6 @@
 // The acceleration structures of a scene: a bottom level per origin of meshes, compacted, with one geometry per mesh,
-// and one instance of each. They are built for fast traces.
+// and one instance of each; and a bottom level per mesh that is placed several times, with an instance per place. They
+// are built for fast traces.
 #pragma once
 
 #include <vector>
@@ -18,6 +19,8 @@ class Acceleration {
 
   VkAccelerationStructureKHR top() const { return top_.structure.get(); }
   VkDeviceSize bottomBytes() const;
+  std::size_t bottoms() const { return bottoms_.size(); }
+  std::size_t instances() const { return instances_; }
 
  private:
   struct Level {
@@ -38,8 +41,9 @@ class Acceleration {
                                          const Buffer& positions, const Buffer& triangles);
   static Level buildTop(const Device& device, const render::RenderScene& scene, const std::vector<Level>& bottoms);
 
-  std::vector<Level> bottoms_;  // one per run of meshes
+  std::vector<Level> bottoms_;  // one per shape of the runs of meshes
   Level top_;
+  std::size_t instances_ = 0;
 };
 
 }  // namespace malus::vulkan

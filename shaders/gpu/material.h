@@ -84,3 +84,14 @@ struct LightShape {
   real coneOffset;  // clamp(c coneScale + coneOffset)^2
   real reach;       // of a light at infinity: a distance beyond all surfaces; 0: the light has a position
 };
+
+// Transform of a mesh that has instances, one struct per mesh. Read only by variants with MALUS_EFFECT_INSTANCES. A
+// point p of the mesh is at linear p + rest + Mesh.origin.
+struct MeshTransform {
+  real3 linearX, linearY, linearZ;  // columns
+  real3 rest;                       // of the translation, which is Mesh.origin up to its rounding
+  real3 normalX, normalY, normalZ;  // columns of a matrix for normals, outward too if the transform mirrors
+  real3 spreadX, spreadY, spreadZ;  // columns of |linear| |inverse|, entry by entry: of placementError
+  real3 extent;                     // of placementError
+  word kind;                        // kUnplaced, kPlaced or kMirrored
+};

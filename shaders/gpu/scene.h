@@ -42,6 +42,7 @@ MALUS_SIZE(TextureMap, 44);
 MALUS_SIZE(MeshMaps, 48);
 MALUS_SIZE(PointLight, 24);
 MALUS_SIZE(LightShape, 24);
+MALUS_SIZE(MeshTransform, 136);
 
 struct Texture {
   uint first;  // of its texels, row by row from the top

@@ -63,6 +63,17 @@ FN real3 originError(real3 origin, real unitRoundoff) {
   return make3(absR(origin.x) * most, absR(origin.y) * most, absR(origin.z) * most);
 }
 
+// Bound per axis on the error that the transform of an instance adds: of queries, which transform the ray to the mesh
+// and find its triangles there, and of the point that is transformed to the scene. With the linear part A, its inverse
+// W, the point o of the scene and the largest coordinate m of the triangle in the mesh: the sums of W (o - t) err by 11
+// roundings of |W| |o| at most, of which originError has 8; the entries of W, which devices compute in single
+// precision, and the intersection in the mesh, err with m. spread: columns of |A| |W|; extent: the factor of m, which
+// the host computes (render/scene/mesh_transform.h).
+FN real3 placementError(real3 spreadX, real3 spreadY, real3 spreadZ, real3 extent, real3 o, real m, real unitRoundoff) {
+  real3 far = spreadX * absR(o.x) + spreadY * absR(o.y) + spreadZ * absR(o.z);
+  return far * (R(8.0) * unitRoundoff) + extent * (m * unitRoundoff);
+}
+
 // A point of the triangle close to p and, where there is room, at least `distance` from its edges. A ray from an edge
 // starts on the neighbour's plane, where rounding may put its origin behind the neighbour, and leaks. The point moves
 // away from the nearest edge, at most until another edge is as near; then, for corners, toward the centre of the

@@ -63,9 +63,14 @@ FN Ray makeRay(real3 origin, real3 d, real depth, real distance) {
 
 // Hit of a ray. p0, p1, p2: corners of the triangle relative to the mesh's origin, counter-clockwise seen from outside;
 // b1, b2: barycentric coordinates of p1 and p2; interpolated: normal interpolated from the vertices, or 0 for a flat
-// mesh.
+// mesh; placedError: of placed_triangle.h.
+#if MALUS_EFFECT_INSTANCES
+FN Hit makePlacedHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated,
+                     word material, real3 placedError) {
+#else
 FN Hit makeHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated,
                word material) {
+#endif
   real3 d = ray.d;
   real b0 = R(1.0) - b1 - b2;
   real3 e1 = p1 - p0;
@@ -85,6 +90,9 @@ FN Hit makeHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real
   h.position = local + origin;
   h.error = hitPointError(p0, e1, e2, b1, b2, kUnitRoundoff) + originError(origin, kUnitRoundoff) +
             splat3(intersectionError(p0, p1, p2, local, kUnitRoundoff));
+#if MALUS_EFFECT_INSTANCES
+  h.error = h.error + placedError;
+#endif
   // Move the start off an edge that may be nearer than the margin, judged by the smallest possible height.
   real margin = R(4.0) * largestPart(h.error);
   h.start = h.position;
@@ -121,6 +129,13 @@ FN Hit makeHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real
 #endif
   return h;
 }
+
+#if MALUS_EFFECT_INSTANCES
+FN Hit makeHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated,
+               word material) {
+  return makePlacedHit(ray, p0, p1, p2, b1, b2, origin, interpolated, material, splat3(R(0.0)));
+}
+#endif
 
 // In place of a hit where a ray leaves the scene, for the report of an unphysical value.
 FN Hit environmentHit(real3 d, real depth) {

@@ -6,6 +6,7 @@
 #include "shaders/surfaces/surface_kinds.h"
 #include "shaders/surfaces/check.h"
 #include "shaders/surfaces/mesh_textures.h"
+#include "shaders/surfaces/placed_texture.h"
 #include "shaders/surfaces/textures.h"
 #include "shaders/surfaces/direct_light.h"
 #include "shaders/surfaces/environment.h"

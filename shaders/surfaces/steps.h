@@ -5,6 +5,7 @@
 #include "shaders/surfaces/effects.h"
 #include "shaders/surfaces/path_word.h"
 #include "shaders/surfaces/hit.h"
+#include "shaders/surfaces/placed_triangle.h"
 #include "shaders/surfaces/hooks.h"
 #include "shaders/surfaces/medium.h"
 #include "shaders/surfaces/interface_terms.h"

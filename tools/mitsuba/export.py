@@ -67,6 +67,18 @@ class Unpacked:
     def materials(self) -> dict:
         return {m["name"]: m for m in self.json["materials"]}
 
+    def places(self) -> list:
+        """Returns the meshes with their transforms, then the instances, each with the entry of its mesh."""
+        meshes = {mesh["name"]: mesh for mesh in self.json["meshes"]}
+        places = [(mesh, mi.ScalarTransform4f()) for mesh in meshes.values()]
+        for instance in self.json.get("instances", []):
+            matrix = np.eye(4)
+            for column, axis in enumerate("xyz"):
+                matrix[:3, column] = instance["linear"][axis]
+            matrix[:3, 3] = instance["translation"]
+            places.append((meshes[instance["mesh"]], mi.ScalarTransform4f(matrix)))
+        return places
+
     def up(self) -> list:
         """Returns the y axis of the image, to which the camera frame of every ray refers."""
         return self.json["camera"]["up"]
@@ -129,6 +141,11 @@ def require_exportable(scene: Unpacked) -> None:
     if others:
         raise ValueError(f"{scene.folder / 'scene.json'}: Mitsuba has no equivalent of material {', '.join(others)}; "
                          f"expected materials of type {', '.join(BSDFS)}")
+    mirrored = [i["name"] for i in scene.json.get("instances", [])
+                if np.linalg.det([i["linear"][axis] for axis in "xyz"]) < 0]
+    if mirrored:
+        raise ValueError(f"{scene.folder / 'scene.json'}: mirrored instances are not exported ({', '.join(mirrored)}); "
+                         "expected transforms of positive determinant")
     kinds = {light["type"] for light in scene.json["lights"]} - {"point"}
     if kinds:
         raise ValueError(f"{scene.folder / 'scene.json'}: {', '.join(sorted(kinds))} lights are not exported; "
@@ -197,11 +214,11 @@ def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environ
     for i, light in enumerate(scene.json["lights"]):
         description[f"light{i}"] = {"type": "point", "position": light["position"],
                                     "intensity": light["intensity"][colour]}
-    for i, mesh in enumerate(scene.json["meshes"]):
+    for i, (mesh, to_world) in enumerate(scene.places()):
         material = scene.materials[mesh["material"]]
         path = scene.folder / mesh["file"]
         shape = {"type": "ply", "id": f"mesh{i}", "filename": str(path), "face_normals": not has_normals(path),
-                 "bsdf": bsdf(material, colour)}
+                 "to_world": to_world, "bsdf": bsdf(material, colour)}
         if material["type"] == "emitter" and material["radiance"][colour] > 0:
             shape["emitter"] = {"type": TWO_SIDED_AREA if material.get("twoSided") else "area",
                                 "radiance": material["radiance"][colour]}

@@ -27,7 +27,7 @@ class Rules:
         self.environment = unpacked.environment(colour)
         self.camera_index = unpacked.json["camera"]["mediumEta"]
         outside = {f"mesh{i}": unpacked.materials[mesh["material"]]["outsideEta"]
-                   for i, mesh in enumerate(unpacked.json["meshes"])}
+                   for i, (mesh, _) in enumerate(unpacked.places())}
         box = scene.bbox()
         self.step = ORIGIN_STEP * max(abs(x) for corner in (box.min, box.max) for x in corner)
         shapes = {int(shape_number(mi.ShapePtr(shape))[0]): outside[shape.id()] for shape in scene.shapes()}

@@ -142,6 +142,7 @@ static_assert(kFields<MeshRow> * 4 == sizeof(gpu::Mesh) && kFields<Material> * 4
 static_assert(kFields<MaterialExtra> * 4 == sizeof(gpu::MaterialExtra));
 static_assert(kFields<LightShape> * 4 == sizeof(gpu::LightShape));
 static_assert(kFields<MeshMaps> * 4 == sizeof(gpu::MeshMaps) && kFields<TextureMap> * 4 == sizeof(gpu::TextureMap));
+static_assert(kFields<MeshTransform> * 4 == sizeof(gpu::MeshTransform));
 
 struct PacketAccess {
   const render::RenderScene* scene;

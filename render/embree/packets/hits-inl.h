@@ -79,12 +79,33 @@ void addTangent(Index vertex, real weight, TexturedTriangle& t) {
 }
 #endif
 
+#if MALUS_EFFECT_INSTANCES
+// Exchanges the corners of triangles that are mirrored.
+void exchangeMirrored(word mesh, word& c1, word& c2) {
+  constexpr auto kRow = static_cast<std::uint32_t>(kFields<MeshTransform>);
+  const auto* kinds = reinterpret_cast<const std::uint32_t*>(scene->meshTransforms.data()) + (kRow - 1);
+  const mask isMirrored = equalW(gatherW(kinds, timesW(mesh, kRow)), kMirrored);
+  const word first = selectW(isMirrored, c2, c1);
+  c2 = selectW(isMirrored, c1, c2);
+  c1 = first;
+}
+void exchangeMirrored(std::uint32_t mesh, std::uint32_t& c1, std::uint32_t& c2) {
+  if (scene->meshTransforms[mesh].kind != kMirrored) return;
+  const std::uint32_t first = c2;
+  c2 = c1;
+  c1 = first;
+}
+#endif
+
 // Index: word, or std::uint32_t if all lanes meet the same triangle.
 template <class Index>
 void gatherTriangles(Index mesh, Index triangle, Triangles& t) {
   const auto& row = meshRow(mesh);
   Index c0, c1, c2;
   gather3W(&scene->triangles.data()->x, timesW(addW(row.firstTriangle, triangle), 3), c0, c1, c2);
+#if MALUS_EFFECT_INSTANCES
+  if (bvh->hasInstances()) exchangeMirrored(mesh, c1, c2);
+#endif
 #if MALUS_EFFECT_MESH_TEXTURES
   if (hasMeshTextures()) {
     t.corners.t0 = gatherTexturePoint(addW(row.firstVertex, c0));
@@ -111,6 +132,51 @@ void gatherTriangles(Index mesh, Index triangle, Triangles& t) {
   t.material = row.material;
 }
 
+#if MALUS_EFFECT_MESH_TEXTURES
+// Sets the point and the tangent of the triangles, without curvature.
+void setTexture(const Barycentrics& b, Triangles& t) {
+  t.corners.b1 = b.b1, t.corners.b2 = b.b2;
+  t.corners.curvature = 0.0f;
+  t.corners.tangent = splat3(0.0f);
+  t.corners.handedness = 0.0f;
+  if (scene->tangents.size() != scene->positions.size()) return;
+  addTangent(t.vertex0, real(1.0f) - b.b1 - b.b2, t.corners);
+  addTangent(t.vertex1, b.b1, t.corners);
+  addTangent(t.vertex2, b.b2, t.corners);
+}
+#endif
+
+#if MALUS_EFFECT_INSTANCES
+Hit gatherInstanceHit(const Ray& traced, word mesh, Triangles& t) {
+  const MeshTransform transform = gatherRow<MeshTransform>(scene->meshTransforms.data(), mesh);
+  const PlacedTriangle placed = placeTriangle(transform, t.origin, t.p0, t.p1, t.p2);
+  const Barycentrics b =
+      barycentricCoordinates(traced.origin - placed.origin, traced.d, placed.p0, placed.p1, placed.p2);
+  real3 interpolated = splat3(0.0f);
+  if (anyM(t.smooth)) {
+    const real b0 = real(1.0f) - b.b1 - b.b2;
+    interpolated = select3(t.smooth, placeNormal(transform, t.n0 * b0 + t.n1 * b.b1 + t.n2 * b.b2), interpolated);
+  }
+#if MALUS_EFFECT_MESH_TEXTURES
+  if (hasMeshTextures()) {
+    setTexture(b, t);
+    t.corners = placeTexture(transform, placed, t.corners);
+    if (anyM(t.smooth))
+      t.corners.curvature = selectR(t.smooth, placedCurvature(transform, placed, t.n0, t.n1, t.n2), 0.0f);
+    RayCone cone;
+    const TextureHit at = textureHitAt(traced, placed.origin, t.corners, cone);
+    interpolated = normalAt(t.material, at, t.corners, interpolated);
+    Hit h = makePlacedHit(traced, placed.p0, placed.p1, placed.p2, b.b1, b.b2, placed.origin, interpolated, t.material,
+                          placed.error);
+    setTextureHit(h, at, t.corners, cone);
+    return h;
+  }
+#endif
+  return makePlacedHit(traced, placed.p0, placed.p1, placed.p2, b.b1, b.b2, placed.origin, interpolated, t.material,
+                       placed.error);
+}
+#endif
+
 // The hits of rays that meet a surface. Neighbouring rays mostly meet the same triangle.
 Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
   const word mesh = gatherW(found.mesh, ray);
@@ -121,6 +187,9 @@ Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
   else
     gatherTriangles(mesh, triangle, t);
   const Ray traced = loadRay(batch, ray);
+#if MALUS_EFFECT_INSTANCES
+  if (bvh->hasInstances()) return gatherInstanceHit(traced, mesh, t);
+#endif
   const Barycentrics b = barycentricCoordinates(traced.origin - t.origin, traced.d, t.p0, t.p1, t.p2);
   real3 interpolated = splat3(0.0f);
   if (anyM(t.smooth)) {
@@ -129,17 +198,9 @@ Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
   }
 #if MALUS_EFFECT_MESH_TEXTURES
   if (hasMeshTextures()) {
-    t.corners.b1 = b.b1, t.corners.b2 = b.b2;
-    t.corners.curvature = 0.0f;
+    setTexture(b, t);
     if (anyM(t.smooth))
       t.corners.curvature = selectR(t.smooth, triangleCurvature(t.p0, t.p1, t.p2, t.n0, t.n1, t.n2), 0.0f);
-    t.corners.tangent = splat3(0.0f);
-    t.corners.handedness = 0.0f;
-    if (scene->tangents.size() == scene->positions.size()) {
-      addTangent(t.vertex0, real(1.0f) - b.b1 - b.b2, t.corners);
-      addTangent(t.vertex1, b.b1, t.corners);
-      addTangent(t.vertex2, b.b2, t.corners);
-    }
     RayCone cone;
     const TextureHit at = textureHitAt(traced, t.origin, t.corners, cone);
     interpolated = normalAt(t.material, at, t.corners, interpolated);

@@ -47,6 +47,16 @@ void tracePacket(const Rays& batch, mask needed, bool coherent, Row row) {
   bvh->nearest(reinterpret_cast<const int*>(valid), query, coherent);
 }
 
+// The meshes that the packet in nearestQuery meets (Bvh::hitMesh).
+word foundMesh() {
+  const word geometry = loadW(nearestQuery.hit.geomID);
+#if MALUS_EFFECT_INSTANCES
+  if (bvh->hasInstances())
+    return addW(geometry, gatherW(bvh->firstMeshes(), addW(loadW(nearestQuery.hit.instID[0]), word(1u))));
+#endif
+  return geometry;
+}
+
 // Finds the nearest triangles along `batch` and sorts the rays by material.
 void intersect(const Rays& batch, Intersections& found) {
   const std::uint32_t count = batch.count;
@@ -64,12 +74,12 @@ void intersect(const Rays& batch, Intersections& found) {
       const bool coherent = sameInAll(gatherW(octants.key, ray));
       tracePacket(batch, needed, coherent, [&](const float* values) HWY_ATTR { return gatherR(values, ray); });
       const word to = selectW(needed, ray, static_cast<std::uint32_t>(kBatch));
-      hn::ScatterIndex(loadW(nearestQuery.hit.geomID).v, Words(), found.mesh, hn::BitCast(Ints(), to.v));
+      hn::ScatterIndex(foundMesh().v, Words(), found.mesh, hn::BitCast(Ints(), to.v));
       hn::ScatterIndex(loadW(nearestQuery.hit.primID).v, Words(), found.triangle, hn::BitCast(Ints(), to.v));
     } else {
       const bool coherent = sameInAll(selectW(needed, loadW(octants.key + at), octants.key[at]));
       tracePacket(batch, needed, coherent, [&](const float* values) HWY_ATTR { return loadR(values + at); });
-      hn::StoreU(loadW(nearestQuery.hit.geomID).v, Words(), found.mesh + at);
+      hn::StoreU(foundMesh().v, Words(), found.mesh + at);
       hn::StoreU(loadW(nearestQuery.hit.primID).v, Words(), found.triangle + at);
     }
   }

@@ -35,6 +35,7 @@ struct Tracer : Method, PacketAccess {
 #include "shaders/surfaces/steps.h"
 
 #include "shaders/surfaces/mesh_textures.h"
+#include "shaders/surfaces/placed_texture.h"
 
 #include "render/embree/packets/hits-inl.h"
 #include "shaders/surfaces/camera_colour.h"

@@ -30,7 +30,7 @@ TEST(Instances, StretchIsTheRangeOfSingularValues) {
   const auto range = [&](const glm::dvec3& scale) {
     glm::dmat3 diagonal(1.0);
     for (int i = 0; i < 3; ++i) diagonal[i][i] = scale[i];
-    return stretchOf(a * diagonal * b);
+    return measureStretch(a * diagonal * b);
   };
   for (const glm::dvec3& scale : {glm::dvec3(1), glm::dvec3(-1, 1, 1), glm::dvec3(2e-6), glm::dvec3(3, 3, 5),
                                   glm::dvec3(1, 10, 0.1), glm::dvec3(1e5, 3e5, 1e5), glm::dvec3(1e-3, -1, 0.5)}) {
@@ -40,7 +40,7 @@ TEST(Instances, StretchIsTheRangeOfSingularValues) {
     EXPECT_NEAR(range(scale).largest / largest, 1, 1e-7) << largest;
   }
   EXPECT_NEAR(range({7, 7, 7}).condition(), 1, 1e-7);
-  EXPECT_TRUE(std::isinf(stretchOf(glm::dmat3(0.0)).condition()));
+  EXPECT_TRUE(std::isinf(measureStretch(glm::dmat3(0.0)).condition()));
   EXPECT_GT(range({1, 1, 0}).condition(), 1e5);
 }
 

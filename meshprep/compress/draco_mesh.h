@@ -42,8 +42,8 @@ struct TriangleMesh {
   std::vector<glm::vec4> tangents;                           // unit length, and the sign of the bitangent; or empty
 };
 
-// Factors by which the places of a mesh in a scene change its lengths and may change its angles. Bounds of errors hold
-// at the place where they are tightest.
+// Factors by which the places of a mesh in a scene change its lengths and may change its angles. Bounds of errors
+// are kept at every place.
 struct Magnification {
   bool isPlaced = false;  // by transforms too
   double smallest = 1;    // factors of lengths; without transforms: 1

@@ -1,6 +1,6 @@
 // Embree 3 (Debian 12) and Embree 4 (Debian 13) behind one interface: a device, a scene of triangle meshes and two
 // queries. Meshes of origin 0 are in the scene itself, others in an instance per origin, and a mesh that is placed
-// several times in a scene of its own with an instance per place. The scenes are built with RTC_SCENE_FLAG_ROBUST:
+// several times in another scene with an instance per place. The scenes are built with RTC_SCENE_FLAG_ROBUST:
 // without it, rays leak through shared edges.
 #pragma once
 

@@ -10,7 +10,7 @@ namespace malus::render {
 
 // linear: from the mesh to the scene, with an inverse; rest: of the translation, beyond the origin of the mesh's
 // record. The matrix of normals and the bounds of errors (placementError, shaders/optics/surface_point.h) are computed
-// in double from the linear part as it is rounded to float, which acceleration structures and shaders both use.
+// in double from the linear part that is rounded to float, which acceleration structures and shaders both use.
 //
 // extent, with A the linear part, C the matrix of its cofactors with absolute terms, d its determinant with absolute
 // terms over its absolute value, and 1 the vector of ones: 4 |A| (C^T / |det A|) |A| 1, the rounding of an inverse that

@@ -66,11 +66,12 @@ FN Ray makeRay(real3 origin, real3 d, real depth, real distance) {
 // mesh; placedError: of placed_triangle.h.
 #if MALUS_EFFECT_INSTANCES
 FN Hit makePlacedHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated,
-                     word material, real3 placedError) {
+                     word material, real3 placedError)
 #else
 FN Hit makeHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real3 origin, real3 interpolated,
-               word material) {
+               word material)
 #endif
+{
   real3 d = ray.d;
   real b0 = R(1.0) - b1 - b2;
   real3 e1 = p1 - p0;

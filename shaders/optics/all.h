@@ -19,3 +19,7 @@
 #include "shaders/optics/camera.h"
 #include "shaders/optics/texture_map.h"
 #include "shaders/optics/ray_cone.h"
+#include "shaders/optics/angles.h"
+#include "shaders/optics/spherical_triangle.h"
+#include "shaders/optics/spherical_rectangle.h"
+#include "shaders/optics/area_light.h"

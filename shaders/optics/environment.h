@@ -32,3 +32,21 @@ FN real irradiancePolynomial(real3 n, real c0, real c1, real c2, real c3, real c
   real squares = c6 * (R(3.0) * n.z * n.z - R(1.0)) + c8 * (n.x - n.y) * (n.x + n.y);
   return maxR(c0 + linear + mixed + squares, R(0.0));
 }
+
+// Solid angle per area of the unit square at direction d, in sr: that of an octahedron's face, 1/|p|^3 for the point p
+// of d on it, whose coordinates have the size 2.
+FN real octahedralSolidAngle(real3 d) {
+  real l = absR(d.x) + absR(d.y) + absR(d.z);
+  return R(4.0) * l * l * l;
+}
+
+// Direction of the hemisphere about the unit vector n, distributed with the density cosine/pi for u, v in [0, 1).
+// Source: Malley's method, as in Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, A.5.3.
+FN real3 cosineDirection(real3 n, real u, real v) {
+  real3 x;
+  real3 y;
+  canonicalFrame(n, x, y);
+  Complex turn = cisTwoPi(v);
+  real radius = sqrtR(u);
+  return x * (radius * turn.re) + y * (radius * turn.im) + n * sqrtR(maxR(R(1.0) - u, R(0.0)));
+}

@@ -262,6 +262,7 @@ void addMeshes(const SceneDescription& d, bool keepMap, std::vector<PlacedMesh> 
 void addEnvironment(const SceneDescription& d, const std::function<void(std::string_view)>& progress,
                     pack::Environment& environment, std::vector<std::string>& notes) {
   environment.ambientIrradiance = d.ambientIrradiance;
+  environment.illuminates = d.environmentIlluminates;
   if (d.environmentImage.empty() && d.environmentPreset.empty()) {
     bakeConstantEnvironment(d.environmentRadiance, environment);
     if (d.sun != glm::dvec3(0.0)) bakeRayleighIrradiance(d.sun, environment);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "bake/pack/format.h"
+#include "bake/pack/instances.h"
 
 namespace malus::bake {
 
@@ -16,6 +17,17 @@ double rounded(double share) {
   if (!(share > 0)) return 0;
   const double unit = std::pow(10.0, std::floor(std::log10(share)) - 3);
   return std::min(std::round(share / unit) * unit, 1.0);
+}
+
+std::string blockedNote(const BlockedLight& blocked, const pack::Scene& scene) {
+  const std::vector<pack::Placement> placements = pack::placements(scene);
+  std::string light = fmt::format("the {}", blocked.kind);
+  if (blocked.kind == "light") light = fmt::format("light {}", blocked.number);
+  if (blocked.kind == "emitter") light = fmt::format("emitter '{}'", placements[blocked.number].name());
+  return fmt::format(
+      "{}: the glass body '{}' blocks {}: closed bodies of glass cast the shadow of an opaque body; a surface of "
+      "'thin-glass' lets light pass",
+      scene.name, placements[blocked.body].name(), light);
 }
 
 }  // namespace
@@ -49,6 +61,7 @@ std::vector<std::string> applyProbe(const DepthProbe& probe, pack::Scene& scene)
         fmt::format("{}: emitter '{}' is seen from behind, where it is black; set 'twoSided', or flip its "
                     "faces if this is its front",
                     scene.name, scene.materials[material].name));
+  for (const BlockedLight& blocked : probe.blockedLights) notes.push_back(blockedNote(blocked, scene));
   return notes;
 }
 

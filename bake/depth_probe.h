@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,12 +14,21 @@
 
 namespace malus::bake {
 
+// A light that a closed body of glass keeps from a surface.
+struct BlockedLight {
+  std::string kind;        // "light", "emitter" or "environment"
+  std::size_t number = 0;  // index of the light, or of the emitter among pack::placements()
+  std::uint32_t body = 0;  // index of the glass there
+  auto operator<=>(const BlockedLight&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 is wrong here
+};
+
 struct DepthProbe {
   // Share of the image's light that arrives after more than i specular interactions, for i from 0 on until it is 0, at
   // most pack::kMaxDepth + 1 values. Empty: the image is black.
   std::vector<double> beyond;
   std::vector<double> pixelRadiance;        // mean of the colours, per pixel of the small image
   std::vector<std::uint32_t> darkEmitters;  // materials: one-sided emitters of which a path meets the back
+  std::set<BlockedLight> blockedLights;
   std::uint64_t rays = 0;
   std::uint64_t unfollowed = 0;  // paths that were left because a pixel had used its rays
   double milliseconds = 0;

@@ -61,6 +61,7 @@ RenderParameters renderParameters(const JobSettings& settings, const pack::Scene
   setSize(parameters, settings, scene);
   setRegion(parameters, settings.region);
   parameters.samples = settings.samples;
+  parameters.lightSamples = settings.lightSamples;
   if (settings.depth) parameters.depth = *settings.depth;
   parameters.analyser = settings.analyser;
   parameters.everyEffect = settings.effects == "all";

@@ -25,7 +25,8 @@ struct JobSettings {
   std::uint32_t width = 0, height = 0;  // in pixels; 0: the pack's, or what keeps its aspect
   std::vector<std::uint32_t> region;    // x, y, width, height in pixels; empty: the whole image
   std::uint32_t samples = 1;            // rays per pixel along each axis
-  std::optional<std::uint32_t> depth;   // else the pack's
+  std::uint32_t lightSamples = RenderParameters{}.lightSamples;
+  std::optional<std::uint32_t> depth;  // else the pack's
   Analyser analyser = kNoFilter;
 
   std::string effects = "auto";    // auto, all, or names of the effects to keep, separated by commas

@@ -87,6 +87,11 @@ void addJobOptions(CLI::App& command, PackInput& input, JobSettings& settings) {
   command.add_option("--samples", settings.samples, "Rays per pixel along each axis")
       ->transform(wholeNumberBetween(1, 64))
       ->capture_default_str();
+  command
+      .add_option("--light-samples", settings.lightSamples,
+                  "Shadow rays to area lights, and to the environment, at each diffuse hit")
+      ->transform(wholeNumberBetween(1, kMostLightSamples))
+      ->capture_default_str();
   command.add_option("--region", settings.region, "Part of the image: x y width height [pixels] (default: all of it)")
       ->transform(wholeNumberBetween(0, pack::kMaxResolution))
       ->expected(4);

@@ -11,17 +11,15 @@ using shaders::Effect;
 
 namespace {
 
-bool isDiffuse(const EffectQuery& q) { return q.any(isDiffuseMaterial); }
-
-bool hasHighlights(const EffectQuery& q) {
-  return q.reflects() && !q.scene.lights.empty() && q.any([](const Material& m) { return m.highlightStrength > 0; });
-}
-
-bool isLitByPointLights(const EffectQuery& q) { return !q.scene.lights.empty() && (isDiffuse(q) || hasHighlights(q)); }
-
 // Returns one of two constant reasons.
 std::function<std::string(const EffectQuery&, bool)> either(const char* on, const char* off) {
   return [on, off](const EffectQuery&, bool isOn) { return isOn ? on : off; };
+}
+
+std::string areaLightReason(const EffectQuery& q, bool on) {
+  if (on) return fmt::format("emitters that illuminate diffuse surfaces: {}", q.names(isAreaLight));
+  if (!q.any(isAreaLight)) return "no emitter sets 'illuminates'";
+  return q.isDiffuse() ? "no diffuse surface is in front of an emitter" : "no diffuse surface";
 }
 
 void removeSky(pack::Scene& scene) {
@@ -37,24 +35,24 @@ void removeSky(pack::Scene& scene) {
 
 std::vector<EffectRule> lightRules() {
   return {
-      {Effect::kPointLights, isLitByPointLights,
+      {Effect::kPointLights, [](const EffectQuery& q) { return q.isLitByPointLights(); },
        [](const EffectQuery& q, bool on) {
          if (on) return fmt::format("{} point lights", q.scene.lights.size());
          return std::string(q.scene.lights.empty() ? "no point light" : "no diffuse or glossy surface");
        },
        [](pack::Scene& scene) { scene.lights.clear(); }},
       {Effect::kShadows,
-       isLitByPointLights,
-       either("point lights on diffuse or glossy surfaces", "no surface is lit by point lights"),
+       [](const EffectQuery& q) { return q.isLit(); },
+       either("lights on diffuse or glossy surfaces", "no surface is lit by lights"),
        {}},
-      {Effect::kHighlights, hasHighlights,
+      {Effect::kHighlights, [](const EffectQuery& q) { return q.hasHighlights(); },
        either("glossy materials and point lights", "no glossy material with a point light"),
        [](pack::Scene& scene) {
          for (Material& m : scene.materials) m.highlightStrength = 0;
        }},
       {Effect::kLightShapes,
        [](const EffectQuery& q) {
-         return isLitByPointLights(q) && std::ranges::any_of(q.scene.lights, [](const pack::LightSource& light) {
+         return q.isLitByPointLights() && std::ranges::any_of(q.scene.lights, [](const pack::LightSource& light) {
                   return light.kind != pack::LightKind::point;
                 });
        },
@@ -62,7 +60,9 @@ std::vector<EffectRule> lightRules() {
        {}},
       {Effect::kOrthographic, [](const EffectQuery& q) { return q.scene.camera.isOrthographic(); }, {}, {}},
       {Effect::kAmbient,
-       [](const EffectQuery& q) { return isDiffuse(q) && q.scene.environment.ambientIrradiance > 0; },
+       [](const EffectQuery& q) {
+         return q.isDiffuse() && q.scene.environment.ambientIrradiance > 0 && !q.scene.environment.illuminates;
+       },
        {},
        {}},
       {Effect::kEnvironmentMap, [](const EffectQuery& q) { return q.scene.environment.size > 0; }, {}, {}},
@@ -72,6 +72,24 @@ std::vector<EffectRule> lightRules() {
                    : "the environment has no sun";
        },
        removeSky},
+      {Effect::kAreaLights, [](const EffectQuery& q) { return q.isLitByAreaLights(); }, areaLightReason,
+       [](pack::Scene& scene) {
+         for (Material& m : scene.materials) m.illuminates = false;
+       }},
+      {Effect::kEnvironmentLight, [](const EffectQuery& q) { return q.isLitByEnvironment(); },
+       [](const EffectQuery& q, bool on) -> std::string {
+         if (on) return "the environment illuminates diffuse surfaces; without it, by its ambient irradiance";
+         if (!q.scene.environment.illuminates) return "the environment does not set 'illuminates'";
+         return q.hasEnvironment() ? "no diffuse surface" : "the environment is black";
+       },
+       [](pack::Scene& scene) { scene.environment.illuminates = false; }},
+      {Effect::kFilteredShadows,
+       [](const EffectQuery& q) { return q.filtersLight(); },
+       [](const EffectQuery& q, bool on) -> std::string {
+         if (on) return fmt::format("light passes {} on its way to other surfaces", q.names(isThinAndTransmits));
+         return q.any(isThinAndTransmits) ? "no surface is lit by lights" : "no polarizing element or thin glass";
+       },
+       {}},
       {Effect::kEnvironment, [](const EffectQuery& q) { return q.hasEnvironment(); },
        [](const EffectQuery& q, bool on) -> std::string {
          if (!on) return "the environment is black";

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bake/effects/mutual_visibility.h"
+#include "bake/effects/query.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::bake {
@@ -66,6 +67,7 @@ glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const ImageRequest& 
   const auto& a = request.analyser;
   const double filter = a[0] > 0 ? std::min(1.0, std::sqrt(a[1] * a[1] + a[2] * a[2] + a[3] * a[3]) / a[0]) : 0;
   const bool several = interfacesMutuallyVisible(scene);
+  const bool polarizedEntry = EffectQuery(scene, request).lightsPolarized();
   glm::dvec3 bound(0.0);
   for (int colour = 0; colour < 3; ++colour) {
     const Diattenuation d = largest(scene, colour);
@@ -88,6 +90,8 @@ glm::dvec3 polarizationErrorBound(const pack::Scene& scene, const ImageRequest& 
       worst({{d.leaving, 1}});
       worst({{d.interaction, std::min(request.depth, 1u)}, {d.source, 1}});
     }
+    // Polarized light of lamps into a diffuse layer: its transmittance is between T_s and T_p.
+    if (polarizedEntry) bound[colour] = (1 + bound[colour]) * (1 + d.leaving) - 1;
   }
   return bound;
 }

@@ -10,7 +10,8 @@ namespace {
 // Linear polarization is needed if it is requested, or if one path has two diattenuators, the filter included.
 bool needsLinear(const EffectQuery& q) {
   const PolarizingPaths& p = q.paths();
-  return p.diattenuators >= 2 || ((q.request.linearStokes || q.hasLinearFilter()) && p.canPolarize());
+  return p.diattenuators >= 2 || p.polarizedEntry ||
+         ((q.request.linearStokes || q.hasLinearFilter()) && p.canPolarize());
 }
 
 std::string linearReason(const EffectQuery& q, bool on) {
@@ -21,6 +22,7 @@ std::string linearReason(const EffectQuery& q, bool on) {
     return fmt::format("no path has two diattenuating surfaces: {} are not visible from each other", p.interfaces);
   }
   if (q.request.linearStokes) return "S1 and S2 are requested";
+  if (p.diattenuators < 2 && p.polarizedEntry) return "polarized light of lamps enters diffuse layers below interfaces";
   if (p.diattenuators >= 2 && p.hasPolarizedSources())
     return fmt::format("polarized light ({}{}{}) reaches {}; not needed at depth 0", p.polarizedSky ? "sky" : "",
                        p.polarizedSky && !p.polarizedEmitters.empty() ? ", " : "", p.polarizedEmitters, p.interfaces);

@@ -44,6 +44,8 @@ PolarizingPaths findPolarizingPaths(const EffectQuery& q) {
   // another interface that light counts only if the two can be on one path.
   const bool endDiattenuates = p.hasPolarizedSources() || (p.diffuseExit && (p.mutuallyVisible || p.interactions == 0));
   p.diattenuators = p.interactions + (endDiattenuates ? 1u : 0u);
+  // Light that is polarized when it enters a diffuse layer meets two diattenuators before that layer.
+  p.polarizedEntry = q.lightsPolarized();
   return p;
 }
 

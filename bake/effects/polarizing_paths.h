@@ -16,6 +16,7 @@ struct PolarizingPaths {
   std::string phaseShifters;      // kinds of element that convert between linear and circular polarization
   bool polarizedSky = false;
   bool diffuseExit = false;         // diffuse light leaves from below an interface
+  bool polarizedEntry = false;      // polarized light enters a diffuse layer below an interface
   bool mutuallyVisible = false;     // light can travel from one interface to another
   std::uint32_t interactions = 0;   // most interfaces on a path
   std::uint32_t diattenuators = 0;  // most diattenuating elements on a path, without the filter

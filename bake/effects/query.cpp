@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "bake/effects/light_visibility.h"
+
 namespace malus::bake {
 using pack::Material;
 
@@ -30,6 +32,37 @@ const PolarizingPaths& EffectQuery::paths() const {
   if (!paths_) paths_ = findPolarizingPaths(*this);
   return *paths_;
 }
+
+bool EffectQuery::isDiffuse() const {
+  return any(isDiffuseMaterial);
+}
+
+bool EffectQuery::hasHighlights() const {
+  return reflects() && !scene.lights.empty() && any([](const Material& m) { return m.highlightStrength > 0; });
+}
+
+bool EffectQuery::isLitByPointLights() const { return !scene.lights.empty() && (isDiffuse() || hasHighlights()); }
+
+bool EffectQuery::isLitByAreaLights() const {
+  if (!litByAreaLights_) litByAreaLights_ = isDiffuse() && any(isAreaLight) && emittersSeeDiffuseSurfaces(scene);
+  return *litByAreaLights_;
+}
+
+bool EffectQuery::isLitByEnvironment() const {
+  return scene.environment.illuminates && hasEnvironment() && isDiffuse();
+}
+
+bool EffectQuery::filtersLight() const { return any(isThinAndTransmits) && isLit(); }
+
+bool EffectQuery::lightsPolarized() const {
+  if (!any([](const Material& m) { return pack::hasIndex(m.kind) && isDiffuseMaterial(m); })) return false;
+  return filtersLight() || (isLitByEnvironment() && scene.environment.skyDegree > 0) ||
+         (isLitByAreaLights() && any([](const Material& m) { return isAreaLight(m) && isPolarizedEmitter(m); }));
+}
+
+bool isAreaLight(const Material& m) { return pack::isEmitter(m.kind) && m.illuminates && isPositive(m.radiance); }
+
+bool isThinAndTransmits(const Material& m) { return pack::transmits(m.kind) && !pack::hasInside(m.kind); }
 
 bool isPolarizedEmitter(const Material& m) {
   return pack::isEmitter(m.kind) && m.polarization > 0 && isPositive(m.radiance);

@@ -142,6 +142,7 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
     result.kind = Kind::emitter;
     result.radiance = glm::clamp(source.emissive, 0.0, kMostRadiance);
     result.twoSided = source.isDoubleSided;
+    result.illuminates = true;
     if (largest(source.emissive) < kBrightEmission * largest(colour))
       prep::addNote(notes, fmt::format("the reflection of material '{}', which emits light", source.name));
     if (source.alphaMode != prep::AlphaMode::opaque)

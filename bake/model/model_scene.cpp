@@ -143,6 +143,7 @@ void setLights(SceneDescription& d, const ModelContents& contents, std::vector<s
 void setEnvironment(SceneDescription& d, std::vector<std::string>& choices) {
   if (!d.environmentImage.empty()) {
     d.ambientIrradiance = 1;
+    d.environmentIlluminates = true;
   } else if (d.lights.empty()) {
     // The key light is to the left of the camera, wherever that is.
     const glm::dvec3 toCamera = d.cameraPosition - d.cameraTarget;
@@ -150,6 +151,7 @@ void setEnvironment(SceneDescription& d, std::vector<std::string>& choices) {
     d.environmentPreset = kStudioPreset;
     d.environmentRotationDegrees = std::round(azimuth);
     d.ambientIrradiance = 1;
+    d.environmentIlluminates = true;
   }
   const std::string image = d.environmentImage.filename().string();
   choices.push_back(

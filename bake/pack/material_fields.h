@@ -233,7 +233,7 @@ void visitTextureFields(Visitor& visit, Materials&... m) {
         m.maps.v...);
 }
 
-// The field of SRFX from version 2 on.
+// The fields of SRFX from version 2 on.
 template <class Visitor, class... Materials>
 void visitEmitterFields(Visitor& visit, Materials&... m) {
   visit(Field{.name = "twoSided",
@@ -244,6 +244,14 @@ void visitEmitterFields(Visitor& visit, Materials&... m) {
               .kinds = kindsWhere(isEmitter),
               .key = Key::optional},
         m.twoSided...);
+  visit(Field{.name = "illuminates",
+              .text = "true: the emitter lights diffuse surfaces directly, by `--light-samples` shadow rays",
+              .section = kSurfaces,
+              .since = 3,
+              .isFeature = true,
+              .kinds = kindsWhere(isEmitter),
+              .key = Key::optional},
+        m.illuminates...);
 }
 
 // Calls visit(field, value of each material...) for every field, in the order of the bytes.

@@ -117,6 +117,11 @@ void visitEnvironment(Visitor&& visit, Environments&... e) {
               .text = "factor of halves, a power of two; 1 with floats",
               .since = 2},
         e.storage.scale...);
+  visit(
+      Field{.name = "illuminates",
+            .text = "true: its light on diffuse surfaces is sampled, with shadows, in place of the ambient irradiance",
+            .since = 3},
+      e.illuminates...);
 }
 
 // SKYP

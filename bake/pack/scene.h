@@ -95,6 +95,7 @@ struct Material {
   glm::dvec3 axis{0.0};  // unit: field of a polarized emitter, transmitted field of a polarizer, fast axis of a plate
   double polarization = 0;                // degree of an emitter's linear polarization
   bool twoSided = false;                  // an emitter that also radiates from its back
+  bool illuminates = false;               // an emitter whose light on diffuse surfaces is computed
   glm::dvec3 transmittanceParallel{1.0};  // of power, of polarizers and wave plates, for a field parallel to the axis
   glm::dvec3 transmittanceCrossed{1.0};   // and crossed with it
   glm::dvec3 retardanceDegrees{0.0};      // of wave plates
@@ -156,7 +157,8 @@ struct Environment {
   std::uint32_t size = 0;         // texels per side without the border
   std::vector<glm::vec3> texels;  // (size + 2)^2, each exactly what storage can represent
   TexelStorage storage;
-  double ambientIrradiance = 0.0;  // share of its irradiance that reaches diffuse surfaces
+  double ambientIrradiance = 0.0;  // share of its irradiance that reaches diffuse surfaces, where it is not sampled
+  bool illuminates = false;        // its light on diffuse surfaces is sampled, with shadows
   glm::dvec3 sun{0.0};             // unit vector toward the sun of a Rayleigh sky; 0: none
   double skyDegree = 0;            // its largest degree of polarization
   bool hasSun() const { return sun != glm::dvec3(0.0); }

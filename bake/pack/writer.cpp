@@ -42,8 +42,11 @@ std::vector<std::byte> cameraBytes(const Camera& camera) {
   return w.take();
 }
 
-// Version 1 has halves without a scale only.
-std::uint32_t environmentVersion(const Environment& environment) { return environment.storage.isPlain() ? 1 : 2; }
+// Version 1 has halves without a scale only, version 2 no sampled environment.
+std::uint32_t environmentVersion(const Environment& environment) {
+  if (environment.illuminates) return 3;
+  return environment.storage.isPlain() ? 1 : 2;
+}
 
 std::vector<std::byte> environmentBytes(const Environment& environment) {
   ByteWriter w;

@@ -85,6 +85,7 @@ struct SceneDescription {
   double environmentScale = 1;
   double environmentRotationDegrees = 0;
   double ambientIrradiance = 0;
+  bool environmentIlluminates = false;
   glm::dvec3 sun{0.0};  // unit vector toward the sun of a polarized sky; 0: none
   double skyDegree = 0;
   std::vector<TextureDescription> textures;         // indexed by the materials' maps

@@ -145,6 +145,11 @@ void visitEnvironmentKeys(Visitor&& visit, Scenes&... s) {
               .key = Key::optional,
               .alias = "diffuseFill"},
         s.ambientIrradiance...);
+  visit(Field{.name = "illuminates",
+              .text = "true: the environment lights diffuse surfaces by `--light-samples` shadow rays; "
+                      "`ambientIrradiance` then counts only without the effect `environment-light`",
+              .key = Key::optional},
+        s.environmentIlluminates...);
   visit(Field{.name = "sky.sun",
               .text = "direction toward the sun: the sky is polarized by single Rayleigh scattering",
               .key = Key::required,

@@ -82,6 +82,7 @@ Json environmentJson(const SceneDescription& d, const SceneDescription& defaults
   else
     visitImageKeys(KeyWriter(environment), d, defaults);
   if (d.ambientIrradiance != defaults.ambientIrradiance) environment["ambientIrradiance"] = d.ambientIrradiance;
+  if (d.environmentIlluminates) environment["illuminates"] = true;
   return environment;
 }
 

@@ -107,6 +107,14 @@ bool visible([[maybe_unused]] bool needed, const real3& origin, const real3& way
   return bvh.visible(origin, way, 1);
 }
 
+bool findShadowHit([[maybe_unused]] bool needed, const Ray& ray, Hit& hit) {
+  const int before = bounce;
+  const bool found = findHit(ray, hit);
+  bounce = before;
+  return found;
+}
+void endShadowHits(const Hit&) {}
+
 void noteFault(const Hit& h, const vec4& stokes, uint kind, uint colour, float slack) {
   faults.note({kind, pixelX, pixelY, camera.depth - static_cast<int>(h.depth), h.material, colour, h.c, slack,
                h.position, h.d, h.normal, stokes},

@@ -46,6 +46,12 @@ struct SceneAccess {
 
   const gpu::LightShape& lightShape(int index) const { return lightShapes[index]; }
 
+  const gpu::AreaLight& areaLight(gpu::uint index) const { return scene.areaLights[index]; }
+  const gpu::LightNode& lightNode(gpu::uint index) const { return scene.lightNodes[index]; }
+  float environmentDistribution(float index) const {
+    return scene.environmentDistributions[static_cast<std::size_t>(index)];
+  }
+
   glm::vec3 environmentTexel(float x, float y) const {
     return environmentTexels[static_cast<int>(y) * (camera.environmentSize + 2) + static_cast<int>(x)];
   }

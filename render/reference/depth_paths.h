@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <queue>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "bake/depth_probe.h"
 #include "bake/pack/format.h"
 #include "render/reference/hit.h"
 #include "render/reference/lights.h"
@@ -29,7 +32,13 @@ class DepthPaths {
   std::vector<bool> darkBacks;  // per material: a one-sided emitter was met from behind
   std::uint64_t rays = 0, unfollowed = 0;
 
-  explicit DepthPaths(const SceneAccess& access) : darkBacks(access.scene.materials.size()), access_(access) {}
+  std::set<bake::BlockedLight> blockedLights;
+
+  explicit DepthPaths(const SceneAccess& access)
+      : darkBacks(access.scene.materials.size()),
+        access_(access),
+        hasGlass_(std::ranges::any_of(access.scene.materials,
+                                      [](const pack::Material& m) { return pack::hasInside(m.kind); })) {}
 
   // Returns the light of the pixel, the mean of the colours, as basic radiance.
   double followPixel(const dvec3& origin, const dvec3& direction) {
@@ -106,7 +115,7 @@ class DepthPaths {
       if (!h.outside && !m.twoSided) darkBacks[h.materialIndex] = true;
       end(row, emittedLight(h), p.interactions);
     } else if (!pack::isInterface(m.kind)) {
-      end(row, unpolarized(directLightAt(h, h.normal).diffuse), p.interactions);
+      end(row, unpolarized(directLightAt(h, h.normal, p.ray.path).diffuse), p.interactions);
     } else if (pack::isPolarizingElement(m.kind)) {
       const FrameRotation rotation = toSurface(d, f64::sDirection(d, glm::cross(h.face, m.axis)));
       const Light behind = times(times(times(row, transposed(rotation)), polarizingElementMatrix(m)), rotation);
@@ -123,13 +132,33 @@ class DepthPaths {
     return {h.position, d, glm::vec3(queryBelow(h)), 0, 0, p.ray.isBehindRough, transmittedPath(h)};
   }
 
-  DirectLight directLightAt(const Hit& h, const dvec3& mirror) {
-    arrivals_.clear(), ways_.clear(), visible_.clear();
-    findArrivals(access_, h, true, mirror, arrivals_, ways_);
-    for (const ShadowRay& way : ways_)
-      visible_.push_back(access_.bvh.visible(way.origin, way.direction, way.length) ? 1 : 0);
-    rays += ways_.size();
-    return directLight(access_, h, arrivals_, visible_);
+  DirectLight directLightAt(const Hit& h, const dvec3& mirror, std::uint32_t path) {
+    arrivals_.clear(), ways_.clear(), visible_.clear(), filters_.clear();
+    findArrivals(access_, h, true, mirror, path, arrivals_, ways_);
+    if (access_.filtersShadows) {
+      passAllFilters(access_, ways_, visible_, filters_, rays);
+    } else {
+      for (const ShadowRay& way : ways_)
+        visible_.push_back(access_.bvh.visible(way.origin, way.direction, way.length) ? 1 : 0);
+      rays += ways_.size();
+    }
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+      if (visible_[i] == 0) findBlockingGlass(arrivals_[i], ways_[i]);
+    return directLight(access_, h, arrivals_, visible_, filters_);
+  }
+
+  // Notes the closed body of glass that is first in the way of a light, behind thin surfaces that let it pass.
+  void findBlockingGlass(const Arrival& a, const ShadowRay& way) {
+    if (!hasGlass_) return;
+    WayFilter filter;
+    const embree::Intersection found = findBlocker(access_, way, filter, rays);
+    if (found.mesh == embree::Intersection::kMiss) return;
+    const std::uint32_t mesh = access_.records.meshes[found.mesh], instance = access_.records.instances[found.mesh];
+    const pack::Material& m = access_.scene.materials[access_.scene.meshes[mesh].material];
+    if (!pack::hasInside(m.kind)) return;
+    const auto placement =
+        instance == render::kNoInstance ? mesh : static_cast<std::uint32_t>(access_.scene.meshes.size()) + instance;
+    blockedLights.insert({std::string(a.kind), a.number, placement});
   }
 
   void followInterface(const Path& p, Hit& h, const Light& row) {
@@ -137,7 +166,7 @@ class DepthPaths {
     const Refraction refraction = refractionAt(h);
     const Interface interface = evaluateInterface(h.surface, h.c, refraction.n1, refraction.n2);
     const dvec3 mirror = f64::mirrorDirection(h.d, h.normal, h.c), s = f64::sDirection(h.d, h.normal);
-    const auto [diffuse, highlight] = directLightAt(h, mirror);
+    const auto [diffuse, highlight] = directLightAt(h, mirror, p.ray.path);
 
     // Light of the surface itself, in the frame of the surface.
     const Light atSurface = times(row, transposed(toSurface(h.d, s)));
@@ -179,6 +208,8 @@ class DepthPaths {
   std::vector<Arrival> arrivals_;
   std::vector<ShadowRay> ways_;
   std::vector<std::uint8_t> visible_;
+  std::vector<WayFilter> filters_;
+  bool hasGlass_;
   std::priority_queue<Path> waiting_;
   std::uint32_t started_ = 0;                                     // pixels
   double endedLight_ = 0, endedImportance_ = 0, pixelLight_ = 0;  // of the current pixel

@@ -9,6 +9,7 @@
 #include "bake/pack/scene.h"
 #include "render/embree/embree.h"
 #include "render/reference/surface.h"
+#include "render/scene/area_lights.h"
 
 namespace malus::reference {
 
@@ -35,6 +36,10 @@ struct SceneAccess {
   double lightReach;                                  // render::lightReach
   const MeshTextures* textures;                       // null without textures by texture coordinates
   render::CameraCone cone;                            // of the camera's rays
+  const render::AreaLights& areaLights;
+  const std::vector<float>& environmentDistributions;  // render::environmentDistributions
+  std::uint32_t lightSamples = 0;                      // of render::RenderParameters
+  bool filtersShadows = false;                         // render::filtersShadows
 };
 
 // A ray and its query in single precision, which starts off the surface that the ray leaves.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +16,8 @@
 #include "render/embree/embree.h"
 #include "render/reference/depth_paths.h"
 #include "render/reference/tracer.h"
+#include "render/scene/compiled_effects.h"
+#include "render/scene/environment_distribution.h"
 #include "render/scene/image_plane.h"
 #include "render/scene/render_scene.h"
 #include "shaders/optics/optics.h"
@@ -117,7 +120,10 @@ struct Renderer::Impl {
         threads(threadCount),
         bvh(renderScene, threadCount),
         records{std::move(renderScene.sourceMeshes), std::move(renderScene.sourceInstances),
-                std::move(renderScene.meshTransforms)} {
+                std::move(renderScene.meshTransforms)},
+        areaLights(render::findAreaLights(source)),
+        environmentDistributions(source.environment.illuminates ? render::environmentDistributions(source.environment)
+                                                                : std::vector<float>()) {
     if (renderScene.hasMeshTextures) textures.emplace(renderScene);
     for (const pack::Material& m : scene.materials)
       hemisphereTransmittance.push_back(render::hemisphereTransmittance(m, scene.wavelengthsNm));
@@ -129,6 +135,8 @@ struct Renderer::Impl {
   unsigned threads;
   embree::Bvh bvh;
   MeshRecords records;
+  render::AreaLights areaLights;
+  std::vector<float> environmentDistributions;
   std::vector<std::vector<Face>> faces;        // per triangle of each mesh
   std::vector<dvec3> hemisphereTransmittance;  // per material
   double lightReach = 0;
@@ -143,7 +151,11 @@ struct Renderer::Impl {
             hemisphereTransmittance,
             lightReach,
             textures ? &*textures : nullptr,
-            render::cameraCone(scene.camera, parameters)};
+            render::cameraCone(scene.camera, parameters),
+            areaLights,
+            environmentDistributions,
+            parameters.lightSamples,
+            render::filtersShadows(scene, parameters)};
   }
 };
 
@@ -206,6 +218,7 @@ bake::DepthProbe Renderer::probeDepth() {
     std::vector<bool> darkBacks;
     std::uint64_t rays, unfollowed;
     std::vector<double> pixels;
+    std::set<bake::BlockedLight> blockedLights;
   };
   std::vector<Row> rows(height);
   tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {
@@ -217,7 +230,7 @@ bake::DepthProbe Renderer::probeDepth() {
       pixels[x] =
           basicToRadiance * paths.followPixel(cameraRays.origin(imageX, imageY), cameraRays.direction(imageX, imageY));
     }
-    rows[y] = {paths.energy, paths.darkBacks, paths.rays, paths.unfollowed, std::move(pixels)};
+    rows[y] = {paths.energy, paths.darkBacks, paths.rays, paths.unfollowed, std::move(pixels), paths.blockedLights};
   });
 
   // Add up in the order of the rows, so that the sums do not depend on the threads.
@@ -227,6 +240,7 @@ bake::DepthProbe Renderer::probeDepth() {
   for (const Row& row : rows) {
     for (std::size_t i = 0; i < energy.size(); ++i) energy[i] += row.energy[i];
     for (std::size_t i = 0; i < darkBacks.size(); ++i) darkBacks[i] = darkBacks[i] || row.darkBacks[i];
+    probe.blockedLights.insert(row.blockedLights.begin(), row.blockedLights.end());
     probe.rays += row.rays;
     probe.unfollowed += row.unfollowed;
     probe.pixelRadiance.insert(probe.pixelRadiance.end(), row.pixels.begin(), row.pixels.end());

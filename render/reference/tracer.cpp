@@ -48,7 +48,10 @@ void Tracer::traceBatch(std::span<const Ray> batch, std::uint32_t depth, std::sp
   queries_.findNearest(batch, level.found);
   rays += batch.size();
   for (std::size_t i = 0; i < batch.size(); ++i) begin(batch[i], level.found[i], depth, level, level.nodes[i]);
-  if (parameters_.shadows) {
+  level.filters.clear();
+  if (parameters_.shadows && access_.filtersShadows) {
+    passAllFilters(access_, level.ways, level.visible, level.filters, rays);
+  } else if (parameters_.shadows) {
     queries_.findVisible(level.ways, level.visible);
     rays += level.ways.size();
   } else {
@@ -76,7 +79,7 @@ void Tracer::begin(const Ray& ray, const embree::Intersection& found, std::uint3
     node.step = Step::emitter;
   } else if (!pack::isInterface(m.kind)) {
     node.step = Step::diffuse;
-    addArrivals(depth, h.normal, level, node);
+    addArrivals(ray, depth, h.normal, level, node);
   } else if (depth == 0 && (pack::isPolarizingElement(m.kind) || pack::isClear(m.kind))) {
     node.step = Step::nothing;
   } else if (pack::isPolarizingElement(m.kind)) {  // the ray continues straight on
@@ -95,7 +98,7 @@ void Tracer::beginInterface(const Ray& ray, std::uint32_t depth, Level& level, N
   node.mirror = f64::mirrorDirection(h.d, h.normal, h.c);
   node.s = f64::sDirection(h.d, h.normal);
   node.step = Step::interface;
-  addArrivals(depth, node.mirror, level, node);
+  addArrivals(ray, depth, node.mirror, level, node);
   if (depth == 0) return;
   const dvec3 above = queryAbove(h);
   if (h.surface.roughness > 0 && !ray.isBehindRough) {
@@ -128,15 +131,17 @@ void Tracer::beginFacets(const Ray& ray, const dvec3& above, Level& level, Node&
   node.facets = count(level.facets.size()) - node.firstFacet;
 }
 
-void Tracer::addArrivals(std::uint32_t depth, const dvec3& mirror, Level& level, Node& node) const {
+void Tracer::addArrivals(const Ray& ray, std::uint32_t depth, const dvec3& mirror, Level& level, Node& node) const {
   node.firstArrival = count(level.arrivals.size());
-  findArrivals(access_, node.hit, depth > 0, mirror, level.arrivals, level.ways);
+  findArrivals(access_, node.hit, depth > 0, mirror, ray.path, level.arrivals, level.ways);
   node.arrivals = count(level.arrivals.size()) - node.firstArrival;
 }
 
 DirectLight Tracer::sumDirectLight(const Level& level, const Node& node) const {
   return directLight(access_, node.hit, std::span(level.arrivals).subspan(node.firstArrival, node.arrivals),
-                     std::span(level.visible).subspan(node.firstArrival, node.arrivals));
+                     std::span(level.visible).subspan(node.firstArrival, node.arrivals),
+                     level.filters.empty() ? std::span<const WayFilter>()
+                                           : std::span(level.filters).subspan(node.firstArrival, node.arrivals));
 }
 
 // Light of a ray from the light that arrived along the rays that leave its hit.

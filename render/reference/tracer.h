@@ -54,6 +54,7 @@ class Tracer {
     std::vector<Arrival> arrivals;
     std::vector<ShadowRay> ways;  // per arrival
     std::vector<std::uint8_t> visible;
+    std::vector<WayFilter> filters;  // per arrival, or empty
     std::vector<Facet> facets;
     std::vector<Ray> children;
     std::vector<Light> arrived;  // per child
@@ -63,7 +64,7 @@ class Tracer {
   void begin(const Ray& ray, const embree::Intersection& found, std::uint32_t depth, Level& level, Node& node) const;
   void beginInterface(const Ray& ray, std::uint32_t depth, Level& level, Node& node) const;
   void beginFacets(const Ray& ray, const dvec3& above, Level& level, Node& node) const;
-  void addArrivals(std::uint32_t depth, const dvec3& mirror, Level& level, Node& node) const;
+  void addArrivals(const Ray& ray, std::uint32_t depth, const dvec3& mirror, Level& level, Node& node) const;
 
   Light finish(const Ray& ray, std::uint32_t depth, const Level& level, const Node& node);
   Light finishInterface(const Ray& ray, std::uint32_t depth, const Level& level, const Node& node);

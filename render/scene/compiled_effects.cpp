@@ -11,10 +11,23 @@ namespace malus::render {
 
 using shaders::Effect;
 
+namespace {
+std::uint32_t neededEffects(const pack::Scene& scene, const RenderParameters& parameters) {
+  return bake::findCompiledEffects(scene, {parameters.depth, parameters.analyser, false, false});
+}
+}  // namespace
+
 std::uint32_t compiledEffects(const pack::Scene& scene, const RenderParameters& parameters) {
   if (parameters.everyEffect) return shaders::kEveryEffect;
-  const std::uint32_t needed = bake::findCompiledEffects(scene, {parameters.depth, parameters.analyser, false, false});
-  return parameters.shadows ? needed : needed & ~shaders::effectBit(Effect::kShadows);
+  std::uint32_t needed = neededEffects(scene, parameters);
+  if (!parameters.shadows) needed &= ~shaders::effectBit(Effect::kShadows);
+  if (!filtersShadows(scene, parameters)) needed &= ~shaders::effectBit(Effect::kFilteredShadows);
+  return needed;
+}
+
+bool filtersShadows(const pack::Scene& scene, const RenderParameters& parameters) {
+  return parameters.shadows && parameters.filteredShadows &&
+         (neededEffects(scene, parameters) & shaders::effectBit(Effect::kFilteredShadows)) != 0;
 }
 
 std::uint32_t pathStackSize(std::uint32_t effects, std::uint32_t depth) {

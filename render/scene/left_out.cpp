@@ -13,6 +13,7 @@ std::shared_ptr<const pack::Scene> leaveOut(const pack::Scene& scene, const std:
                        [&](const std::string& name) { return bake::effectNamed(name) == effect; });
   };
   if (isOff(shaders::Effect::kShadows)) parameters.shadows = false;
+  if (isOff(shaders::Effect::kFilteredShadows)) parameters.filteredShadows = false;
   if (isOff(shaders::Effect::kFilter)) parameters.analyser = kNoFilter;
   if (!bake::canBeRemoved(off)) return nullptr;
   return std::make_shared<const pack::Scene>(bake::withoutEffects(scene, off));

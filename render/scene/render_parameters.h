@@ -38,6 +38,8 @@ struct WavePlate {
 // the frame and G is [[cos d, sin d], [-sin d, cos d]] on (S2, S3). The plate alone changes no intensity.
 Analyser behindWavePlate(const Analyser& analyser, const WavePlate& plate);
 
+inline constexpr std::uint32_t kMostLightSamples = 256;
+
 struct RenderParameters {
   std::uint32_t width = 0;  // of the whole image
   std::uint32_t height = 0;
@@ -45,11 +47,13 @@ struct RenderParameters {
   std::uint32_t samples = 1;  // rays per pixel along each axis
   std::uint32_t depth = 0;    // most specular interactions along a path
   Analyser analyser = kNoFilter;
-  bool shadows = true;         // false: nothing blocks a point light
-  bool everyEffect = false;    // compile in every effect, even those that the scene does not need
-  double tolerance = 0;        // of iterative methods: share of a source's radiance that a path may lose
-  bool stokes = false;         // of iterative methods: Stokes vectors too, by four analysers
-  bool checkNumerics = false;  // find unphysical values (fault.h); slow
+  bool shadows = true;             // false: nothing blocks a point light
+  bool filteredShadows = true;     // false: thin surfaces that transmit block lights, too
+  std::uint32_t lightSamples = 4;  // of area lights, and of the environment, at each hit; 1 to kMostLightSamples
+  bool everyEffect = false;        // compile in every effect, even those that the scene does not need
+  double tolerance = 0;            // of iterative methods: share of a source's radiance that a path may lose
+  bool stokes = false;             // of iterative methods: Stokes vectors too, by four analysers
+  bool checkNumerics = false;      // find unphysical values (fault.h); slow
   VulkanPath vulkanPath = VulkanPath::automatic;  // of the Vulkan renderer; ignored by others
   EmbreePath embreePath = EmbreePath::automatic;  // of the Embree renderer; ignored by others
 };

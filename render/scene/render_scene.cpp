@@ -1,6 +1,7 @@
 #include "render/scene/render_scene.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,6 +13,9 @@
 
 #include "bake/effects/effects.h"
 #include "bake/pack/instances.h"
+#include "render/scene/area_lights.h"
+#include "render/scene/compiled_effects.h"
+#include "render/scene/environment_distribution.h"
 #include "render/scene/image_plane.h"
 #include "render/scene/mesh_transform.h"
 #include "render/scene/scene_textures.h"
@@ -197,6 +201,18 @@ void addMeshes(const pack::Scene& scene, RenderScene& result) {
   addTextureCoordinates(scene, result);
 }
 
+void addSampledLights(const pack::Scene& scene, RenderScene& result) {
+  const AreaLights lights = findAreaLights(scene);
+  for (const AreaLight& l : lights.lights) result.areaLights.push_back(toFloat(l));
+  for (const LightNode& n : lights.nodes) result.lightNodes.push_back(toFloat(n));
+  if (lights.lights.empty()) {
+    result.areaLights.emplace_back();
+    result.lightNodes.emplace_back();
+  }
+  if (scene.environment.illuminates) result.environmentDistributions = environmentDistributions(scene.environment);
+  if (result.environmentDistributions.empty()) result.environmentDistributions.push_back(0);
+}
+
 }  // namespace
 
 RenderScene makeRenderScene(const pack::Scene& scene) {
@@ -224,6 +240,7 @@ RenderScene makeRenderScene(const pack::Scene& scene) {
   addMeshes(scene, result);
   result.environmentTexels = scene.environment.texels;
   if (result.environmentTexels.empty()) result.environmentTexels.emplace_back(0.0f);
+  addSampledLights(scene, result);
   return result;
 }
 
@@ -265,6 +282,18 @@ void setSamples(gpu::CameraParameters& f, const pack::Camera& camera, const Rend
   split(rowStep, unit, f.rowStep, f.rowStepFine);
 }
 
+void setSampledLights(gpu::CameraParameters& f, const pack::Scene& scene, const RenderParameters& parameters) {
+  const AreaLightCount lights = countAreaLights(scene);
+  f.areaLightCount = static_cast<int>(lights.lights);
+  f.lightLevels = static_cast<int>(lights.levels);
+  f.lightSamples = parameters.lightSamples;
+  f.environmentLight = scene.environment.illuminates ? 1 : 0;
+  if (scene.environment.illuminates) f.ambientIrradiance = 0;
+  f.environmentStep = std::bit_floor(scene.environment.size);
+  f.lightReach = static_cast<float>(lightReach(scene));
+  f.filteredShadows = filtersShadows(scene, parameters) ? 1 : 0;
+}
+
 }  // namespace
 
 CameraCone cameraCone(const pack::Camera& camera, const RenderParameters& parameters) {
@@ -303,6 +332,7 @@ gpu::CameraParameters makeCameraParameters(const pack::Scene& scene, const Rende
   f.sun = glm::vec3(scene.environment.sun);
   f.skyDegree = static_cast<float>(scene.environment.skyDegree);
   f.tolerance = static_cast<float>(parameters.tolerance);
+  setSampledLights(f, scene, parameters);
   for (std::size_t i = 0; i < gpu::kFacets; ++i) f.facets[i] = glm::vec2(facetPoint(i));
   for (int i = 0; i < 9; ++i) f.irradiance[i] = glm::vec3(scene.environment.irradiance[static_cast<std::size_t>(i)]);
   return f;

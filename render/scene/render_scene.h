@@ -38,6 +38,9 @@ struct RenderScene {
   std::vector<glm::vec4> textureCoordinates;  // sets 0 and 1, one per position; one element without mesh textures
   std::vector<glm::vec4> tangents;            // the same, where a material has a normal map
   std::vector<glm::vec3> environmentTexels;   // with their border; one texel if there is no map
+  std::vector<gpu::AreaLight> areaLights;       // at least one
+  std::vector<gpu::LightNode> lightNodes;       // the root is the first; at least one
+  std::vector<float> environmentDistributions;  // environment_distribution.h; at least one number
 };
 
 // Whether a mesh is another place of the mesh before it, whose vertices and triangles it has.

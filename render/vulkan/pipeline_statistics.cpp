@@ -160,7 +160,8 @@ std::vector<PipelineStatistics> pipelineStatistics(const Device& device, const p
   std::vector<PipelineStatistics> result;
   for (const std::string& method : methods) {
     const render::MethodInfo& info = render::methodNamed(method);
-    const Variant variant = variantFor(scene, method, parameters, chooseTracing(device, info, parameters).tracing);
+    const Variant variant =
+        variantFor(scene, method, parameters, chooseTracing(device, info, scene, parameters).tracing);
     const Pipeline pipeline(device, variant, layout.get(), requiredRecursion(variant.tracing, depth),
                             VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);
     PipelineStatistics& s = result.emplace_back();

@@ -203,7 +203,7 @@ render::Faults Renderer::Impl::checkNumerics(Variant variant, const render::Rend
 
 render::RenderResult Renderer::render(std::string_view method, const render::RenderParameters& parameters) {
   impl_->progress = progress();
-  const TracingChoice choice = chooseTracing(impl_->device, render::methodNamed(method), parameters);
+  const TracingChoice choice = chooseTracing(impl_->device, render::methodNamed(method), impl_->scene, parameters);
   const Variant variant = variantFor(impl_->scene, method, parameters, choice.tracing);
   render::RenderResult image = impl_->trace(variant, parameters);
   image.device = device();
@@ -216,7 +216,8 @@ render::RenderResult Renderer::render(std::string_view method, const render::Ren
 void Renderer::prepare(const std::vector<render::Preparation>& images) {
   std::vector<Programs::Key> keys;
   for (const render::Preparation& image : images) try {
-      const TracingChoice choice = chooseTracing(impl_->device, render::methodNamed(image.method), image.parameters);
+      const TracingChoice choice =
+          chooseTracing(impl_->device, render::methodNamed(image.method), impl_->scene, image.parameters);
       Variant variant = variantFor(impl_->scene, image.method, image.parameters, choice.tracing);
       keys.push_back({variant, requiredRecursion(choice.tracing, image.parameters.depth)});
       variant.countRays = true;
@@ -227,7 +228,7 @@ void Renderer::prepare(const std::vector<render::Preparation>& images) {
 }
 
 std::uint64_t Renderer::countRays(std::string_view method, const render::RenderParameters& parameters) {
-  const TracingChoice choice = chooseTracing(impl_->device, render::methodNamed(method), parameters);
+  const TracingChoice choice = chooseTracing(impl_->device, render::methodNamed(method), impl_->scene, parameters);
   Variant variant = variantFor(impl_->scene, method, parameters, choice.tracing);
   variant.countRays = true;
   return impl_->trace(variant, parameters).cost.rays;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
+#include "render/scene/compiled_effects.h"
 #include "render/vulkan/pipeline.h"
 
 namespace malus::vulkan {
@@ -33,12 +34,14 @@ std::string findRecursionProblem(const Device& device, const render::RenderParam
 
 }  // namespace
 
-TracingChoice chooseTracing(const Device& device, const render::MethodInfo& method,
+TracingChoice chooseTracing(const Device& device, const render::MethodInfo& method, const pack::Scene& scene,
                             const render::RenderParameters& parameters) {
   if (parameters.vulkanPath == VulkanPath::query) requireRayQueries(device);
   TracingChoice choice;
   if (!method.isIterative) {
     choice.withoutRecursion = findRecursionProblem(device, parameters);
+    if (choice.withoutRecursion.empty() && render::filtersShadows(scene, parameters))
+      choice.withoutRecursion = "light passes surfaces on its way to others (filtered-shadows)";
     if (choice.withoutRecursion.empty()) return choice;
   }
   const bool usesQueries = parameters.vulkanPath != VulkanPath::pipeline && device.capabilities().rayQuery;

@@ -17,7 +17,8 @@ struct TracingChoice {
 
 // By parameters.vulkanPath. automatic: recursion where the device's limit allows the depth; else ray queries where the
 // device has them; else hit records. Throws Error: ray queries are asked for and the device lacks them.
-TracingChoice chooseTracing(const Device& device, const render::MethodInfo& method,
+// Shadow rays that pass surfaces need hits, which recursion has not.
+TracingChoice chooseTracing(const Device& device, const render::MethodInfo& method, const pack::Scene& scene,
                             const render::RenderParameters& parameters);
 
 // The paths of a device, the one that an iterative method takes automatically first.

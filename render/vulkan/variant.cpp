@@ -15,11 +15,15 @@ using shaders::Effect;
 
 namespace {
 
-// Whether the shaders read MaterialExtra: for every effect that the paper's scenes do not have, except the sky.
+// Effects that the paper's scenes do not have, and that do not read MaterialExtra.
+constexpr Effect kWithoutExtras[] = {Effect::kSky, Effect::kLightShapes, Effect::kOrthographic, Effect::kAreaLights,
+                                     Effect::kEnvironmentLight};
+
+// Whether the shaders read MaterialExtra.
 bool readsMaterialExtras(const Variant& variant) {
   for (std::size_t i = 0; i < shaders::kCompiledEffects.size(); ++i)
     if ((variant.effects >> i & 1) != 0 && shaders::kCompiledEffects[i].build == "every" &&
-        static_cast<Effect>(i) != Effect::kSky)
+        std::ranges::find(kWithoutExtras, static_cast<Effect>(i)) == std::end(kWithoutExtras))
       return true;
   return false;
 }
@@ -68,7 +72,9 @@ std::string preamble(const Variant& variant) {
   text += fmt::format("#define MALUS_METHOD \"{}\"\n", variant.method);
   for (std::size_t i = 0; i < shaders::kCompiledEffects.size(); ++i) {
     const shaders::CompiledEffect& effect = shaders::kCompiledEffects[i];
-    text += fmt::format("#define {} {}\n", effect.macro, variant.effects >> i & 1);
+    // Shaders that recurse have no rays that return a hit.
+    const bool isLeftOut = variant.tracing == Tracing::recursion && static_cast<Effect>(i) == Effect::kFilteredShadows;
+    text += fmt::format("#define {} {}\n", effect.macro, isLeftOut ? 0u : variant.effects >> i & 1);
     if (effect.isSurface) text += fmt::format("#define k{} {}u\n", effect.identifier, i);
   }
   text += fmt::format("#define MALUS_MATERIAL_EXTRAS {}\n", readsMaterialExtras(variant) ? 1 : 0);
@@ -89,8 +95,9 @@ std::vector<StageSource> stageSources(const Variant& variant) {
     return sources;
   }
   sources.push_back({"shaders/stages/environment.rmiss", Stage::miss});
-  if (has(variant, Effect::kPointLights) && has(variant, Effect::kShadows))
-    sources.push_back({"shaders/stages/shadow.rmiss", Stage::miss});
+  const bool hasLights = has(variant, Effect::kPointLights) || has(variant, Effect::kAreaLights) ||
+                         has(variant, Effect::kEnvironmentLight);
+  if (hasLights && has(variant, Effect::kShadows)) sources.push_back({"shaders/stages/shadow.rmiss", Stage::miss});
   for (std::uint32_t kind = 0; kind < gpu::kSurfaceKinds; ++kind)
     if ((variant.effects >> kind & 1) != 0)
       sources.push_back({fmt::format("shaders/stages/surface.rchit, {}", shaders::kCompiledEffects[kind].identifier),

@@ -71,6 +71,33 @@ struct MeshMaps {
   real cutoff;
 };
 
+// An emitting triangle, or a rectangle, that lights diffuse surfaces. Read only by variants with
+// MALUS_EFFECT_AREA_LIGHTS.
+struct AreaLight {
+  real3 corner;
+  real3 edgeU;         // from the corner
+  real3 edgeV;         // from the corner; of a rectangle perpendicular to edgeU
+  real3 normal;        // unit, on the front
+  real3 radiance;      // of the front, as Material.radiance
+  real3 backRadiance;  // 0 if the back is dark
+  real3 axis;          // of polarized light, as MaterialExtra.axis
+  real degree;
+  real parallelogram;  // area of the parallelogram of the edges, in m^2
+  real isRectangle;    // 1, or 0: a triangle
+  real offset;         // distance before the light, in m, at which shadow rays end
+};
+
+// A node of the binary tree of the area lights: one light, or a group of them (optics/area_light.h, lightImportance).
+struct LightNode {
+  real3 centre;
+  real radius;
+  real3 axis;
+  real spread;   // cosine of the angle between the axis and the normals; -1: emits to all sides
+  real power;    // sum of radiance times area, over the colours
+  real isInner;  // 1: a group
+  word index;    // of the light, or of the first of the group's two parts, which the second follows
+};
+
 struct PointLight {
   real3 position;
   real3 intensity;  // W/sr

@@ -15,3 +15,4 @@ FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
   return f;
 }
 FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - f.r; }
+FN real3 transmittanceDifference(FresnelTerms f) { return splat3(R(0.0)); }

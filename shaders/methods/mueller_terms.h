@@ -40,3 +40,4 @@ FN FresnelTerms termsFromReflectance(Reflectance red, Reflectance green, Reflect
 #include "shaders/methods/exact_terms.h"
 
 FN real3 meanTransmittance(FresnelTerms f) { return splat3(R(1.0)) - (f.rs + f.rp) * R(0.5); }
+FN real3 transmittanceDifference(FresnelTerms f) { return (f.rp - f.rs) * R(0.5); }

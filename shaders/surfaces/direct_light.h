@@ -1,17 +1,5 @@
-// Light of the point, spot and directional lights and of the environment's ambient irradiance that a surface scatters
-// toward the camera, before the interface that it leaves through. Every surface blocks a point light.
-
-struct DirectLight {
-  real3 diffuse;    // radiance of the Lambert layer
-  real3 highlight;  // radiance in the direction of the mirror ray
-};
-
-FN DirectLight noDirectLight() {
-  DirectLight none;
-  none.diffuse = splat3(R(0.0));
-  none.highlight = splat3(R(0.0));
-  return none;
-}
+// Light of the lights and of the environment that a surface scatters toward the camera, before the interface that it
+// leaves through.
 
 FN real3 environmentIrradiance(real3 n) {
   real3 e;
@@ -33,22 +21,22 @@ FN void addPointLight(INOUT(DirectLight) sum, IN(Hit) h, IN(Material) m, IN(Poin
   LightSample s = sampleLight(h, m, light, reflected, diffuse, glossy);
   mask lit = s.lit;
   if (!anyM(lit)) return;
-  if (kEffectShadows) {
-    if (camera.shadows != 0u) {
-      ShadowRay ray = shadowRay(h, s);
-      lit = andM(lit, visible(lit, ray.origin, ray.way));
-      if (!anyM(lit)) return;
-    }
-  }
+  real c = minR(s.cosine, R(1.0));
+  LightRows rows;
+  if (kEffectFilteredShadows) rows = startRows(h, m, s.direction, c, diffuse);
+  lit = passShadow(h, shadowRay(h, s.toLight), lit, rows);
+  if (!anyM(lit)) return;
+  if (!kEffectFilteredShadows) rows = startRows(h, m, s.direction, c, diffuse);
   real3 none = splat3(R(0.0));
   if (kEffectLightShapes) s.distance = selectR(isFar, R(0.0), s.distance);  // absorbs as the environment does: nothing
   real3 irradiance = lightIrradiance(h, light, s);
   if (anyM(diffuse)) {
-    real3 radiance =
-        lambertRadiance(m.albedo, irradiance * s.cosine, enteringTransmittance(m, h.material, minR(s.cosine, R(1.0))));
+    real3 radiance = lambertRadiance(m.albedo, irradiance * s.cosine, rows.diffuse.w);
     sum.diffuse = sum.diffuse + select3(andM(lit, diffuse), radiance, none);
   }
-  sum.highlight = sum.highlight + select3(lit, irradiance * s.lobe, none);
+  real3 highlight = irradiance * s.lobe;
+  if (kEffectFilteredShadows) highlight = highlight * rows.highlight.w;
+  sum.highlight = sum.highlight + select3(lit, highlight, none);
 }
 
 // reflected: direction of the mirror ray, for the highlight.
@@ -69,6 +57,16 @@ FN DirectLight directLight(IN(Hit) h, IN(Material) m, real3 reflected) {
         addPointLight(sum, h, m, light, isFar, reflected, diffuse, glossy);
       }
   }
+#if MALUS_EFFECT_AREA_LIGHTS
+  if (camera.areaLightCount > 0) {
+    if (anyM(diffuse)) addAreaLights(sum, h, m, diffuse);
+  }
+#endif
+#if MALUS_EFFECT_ENVIRONMENT_LIGHT
+  if (camera.environmentLight != 0u) {
+    if (anyM(diffuse)) addEnvironmentLight(sum, h, m, diffuse);
+  }
+#endif
   if (kEffectAmbient) {
     if (anyM(andM(diffuse, lessR(R(0.0), camera.ambientIrradiance))))
       sum.diffuse = sum.diffuse + lambertRadiance(m.albedo, environmentIrradiance(h.normal) * camera.ambientIrradiance,

@@ -22,6 +22,17 @@
 //   mask visible(needed, origin, way)
 //     Returns whether no surface is between origin and origin + way. Called only if a lane needs it; the result means
 //     nothing in the others.
+//   AreaLight areaLight(index), LightNode lightNode(index)
+//     Only with MALUS_EFFECT_AREA_LIGHTS.
+//   real environmentDistribution(index)
+//     Entry of RenderScene::environmentDistributions; index is a whole number. Only with
+//     MALUS_EFFECT_ENVIRONMENT_LIGHT.
+//   mask findShadowHit(needed, ray, out hit)
+//     As findHit, for a ray from a hit toward a light, followed by materials[] and materialExtra() of the new hit.
+//     Called only if a lane needs it; the hit means nothing in the others. Only with MALUS_EFFECT_FILTERED_SHADOWS, as
+//     is
+//   void endShadowHits(hit)
+//     After the last of them: hit is that from which the rays began.
 //   real3 environmentTexel(x, y)
 //     Texel of the environment map, border included; x and y are whole numbers.
 //   real3 texel(texture, x, y)
@@ -63,6 +74,14 @@ LightShape lightShape(int index) {
 #endif
 }
 
+#if MALUS_EFFECT_AREA_LIGHTS
+AreaLight areaLight(word index) { return areaLights[index]; }
+LightNode lightNode(word index) { return lightNodes[index]; }
+#endif
+#if MALUS_EFFECT_ENVIRONMENT_LIGHT
+real environmentDistribution(real index) { return environmentDistributions[int(index)]; }
+#endif
+
 real3 environmentTexel(real x, real y) { return environmentTexels[int(y) * (camera.environmentSize + 2) + int(x)]; }
 
 #if MALUS_EFFECT_MESH_TEXTURES
@@ -90,6 +109,10 @@ void textureSize(word index, OUT(real) width, OUT(real) height) {
 bool findHit(Ray ray, OUT(Hit) hit);
 #else
 Payload traceRay(Ray ray);
+#endif
+#if MALUS_EFFECT_FILTERED_SHADOWS
+mask findShadowHit(mask needed, Ray ray, OUT(Hit) hit) { return findHit(ray, hit); }
+void endShadowHits(Hit hit) {}
 #endif
 mask visible(mask needed, real3 origin, real3 way);
 void noteFault(Hit h, vec4 stokes, uint kind, uint colour, float slack);

@@ -51,13 +51,13 @@ struct ShadowRay {
 // Ray that other surfaces block if they block the light. It starts outside the hit's error box, as every ray does, and
 // ends at the light; closer to the face than twice the box, where it could meet the face itself, it is parallel to the
 // way from the hit to the light.
-FN ShadowRay shadowRay(IN(Hit) h, LightSample s) {
+FN ShadowRay shadowRay(IN(Hit) h, real3 toLight) {
   ShadowRay r;
   r.origin = originAbove(h);
   real3 offset = r.origin - h.position;
-  real3 straight = s.toLight - offset;
+  real3 straight = toLight - offset;
   mask near = lessEqualR(dot3(h.face, straight - offset), R(0.0));
-  r.way = select3(near, s.toLight, straight);
+  r.way = select3(near, toLight, straight);
   return r;
 }
 
@@ -66,12 +66,4 @@ FN real3 lightIrradiance(IN(Hit) h, IN(PointLight) light, LightSample s) {
   real3 irradiance = light.intensity * (R(1.0) / divisor(s.distanceSq));
   if (kEffectAbsorption) irradiance = irradiance * transmittanceOver(mediumAbsorption(h), s.distance);
   return irradiance;
-}
-
-// Mean of s and p of the transmittance of the material's interface for light at an angle with cosine c; 1 for
-// materials without an interface. Light that enters the layer below is multiplied by it.
-FN real3 enteringTransmittance(IN(Material) m, word material, real c) {
-  mask opaque = orM(equalW(m.kind, kPaint), equalW(m.kind, kMetal));
-  if (!anyM(opaque)) return splat3(R(1.0));
-  return select3(opaque, meanTransmittance(opaqueTerms(c, m, material)), splat3(R(1.0)));
 }

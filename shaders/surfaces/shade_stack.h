@@ -107,6 +107,22 @@ FN bool facetReturned(INOUT(RoughSurface) rough, IN(Payload) returned, real3 sDi
   return false;
 }
 
+// Follows the transmitted ray of a surface whose reflected light has arrived.
+FN Ray followTransmitted(INOUT(PendingSurface) p) {
+  Ray ray = makeRay(p.below, p.transmitted, p.depth - R(1.0), R(0.0));
+#if MALUS_EFFECT_ABSORPTION
+  ray.originDistance = p.belowDistance;
+#endif
+#if MALUS_PATH_WORD
+  ray.path = p.belowPath;
+#endif
+  p.followed = p.transmitted;
+  p.terms = p.transmission;
+  p.highlight = splat3(R(0.0));
+  p.transmits = false;
+  return ray;
+}
+
 // Light along a ray.
 FN Payload traceRay(Ray ray) {
   CONST int kCheckedStackSize = kCheckNumerics ? kPendingStackSize : 1;
@@ -167,19 +183,7 @@ FN Payload traceRay(Ray ray) {
         arriving = lightAdd(arriving, lightUnpolarized(stack[top].highlight));
         stack[top].toCamera = lightAdd(stack[top].toCamera, lightThroughInterface(stack[top].terms, arriving));
         follows = stack[top].transmits;
-        if (follows) {
-          ray = makeRay(stack[top].below, stack[top].transmitted, stack[top].depth - R(1.0), R(0.0));
-#if MALUS_EFFECT_ABSORPTION
-          ray.originDistance = stack[top].belowDistance;
-#endif
-#if MALUS_PATH_WORD
-          ray.path = stack[top].belowPath;
-#endif
-          stack[top].followed = stack[top].transmitted;
-          stack[top].terms = stack[top].transmission;
-          stack[top].highlight = splat3(R(0.0));
-          stack[top].transmits = false;
-        }
+        if (follows) ray = followTransmitted(stack[top]);
       }
       if (kCheckNumerics) slacks[top] = slack;
       if (!follows) {

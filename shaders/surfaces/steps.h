@@ -17,4 +17,5 @@
 #include "shaders/surfaces/facet.h"
 #include "shaders/surfaces/emission.h"
 #include "shaders/surfaces/point_light.h"
+#include "shaders/surfaces/light_row.h"
 #include "shaders/surfaces/bilinear.h"

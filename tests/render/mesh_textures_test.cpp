@@ -340,7 +340,7 @@ TEST(TextureLevels, ADistantFloorHasTheMeanAtOneRayPerPixel) {
   const double n = 0.5 / 1.5, k = 2 * std::sqrt(0.5) / 1.5;
   for (const auto& [name, result] : renderEverywhere(scene))
     for (std::size_t i = 0; i < result.pixels.size(); i += result.channels) {
-      const auto row = static_cast<double>(i / result.channels / result.width);
+      const std::size_t row = i / result.channels / result.width;
       const double a = std::atan2(12.0, 100.0) + std::tan(2 * std::numbers::pi / 180) * (row + 0.5 - 12) / 12,
                    c = std::sin(a);
       EXPECT_NEAR(result.pixels[i + 3], (fresnel(n, k, c, false) + fresnel(n, k, c, true)) / 2, 2e-3) << name;
@@ -374,37 +374,6 @@ TEST(TextureLevels, ACurvedMirrorWidensTheCone) {
   for (const auto& [name, result] : renderEverywhere(scene))
     for (std::size_t i = 0; i < result.pixels.size(); i += result.channels)
       EXPECT_NEAR(result.pixels[i + 3], 0.5, 0.06) << name << ' ' << i / result.channels;
-}
-
-// renderEverywhere() checks numerics, which packets leave to the scalar tracers.
-TEST(MeshTextures, PacketsGiveTheImageOfTheReference) {
-  Material metal = test::metal(glm::dvec3(0.2), glm::dvec3(3));
-  pack::Scene scene = checkeredFloor(metal);
-  pack::MeshMaps& maps = scene.materials[0].meshMaps;
-  maps.reflectance = makeMap(0);
-  maps.metallic = makeMap(addTexture(scene, 1, {glm::vec3(0.3f), glm::vec3(1)}));
-  maps.coverage = makeMap(addTexture(scene, 3, {glm::vec3(0), glm::vec3(1), glm::vec3(1)}));
-  maps.normal = makeMap(addTexture(scene, 2, {{0.5f, 0.6f, 1}, {0.6f, 0.5f, 0.9f}}));
-  maps.coverage.u = maps.normal.u = {0.02, 0, 0};  // large enough to be seen
-  maps.normal.v = {0, 0.02, 0};
-  addSky(scene);
-  const render::RenderParameters parameters = render::defaultParameters(scene);
-  const RenderResult truth = reference::render(scene, parameters, 0);
-  embree::Renderer renderer(scene, 0);
-  for (const char* method : {"stokes", "importance"}) {
-    const RenderResult result = renderer.render(method, parameters);
-    double largest = 0, low = 1e9, high = 0;
-    for (std::size_t pixel = 0; pixel < std::size_t{truth.width} * truth.height; ++pixel)
-      for (std::size_t c = 0; c < 3; ++c)
-        largest = std::max(largest, std::abs(double{result.pixels[pixel * result.channels + c]} -
-                                             double{truth.pixels[pixel * truth.channels + c]}));
-    for (std::size_t i = 0; i < truth.pixels.size(); i += truth.channels) {
-      low = std::min(low, double{truth.pixels[i]});
-      high = std::max(high, double{truth.pixels[i]});
-    }
-    EXPECT_GT(high, 1.5 * low);
-    EXPECT_LT(largest, 2e-3) << method;  // the coordinates are up to 5000 repeats
-  }
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 namespace malus::test {
 
 // The image by every renderer with Stokes vectors, by its name.
-inline std::map<std::string, render::RenderResult> renderEverywhere(const pack::Scene& scene) {
-  render::RenderParameters parameters = render::defaultParameters(scene);
+inline std::map<std::string, render::RenderResult> renderEverywhere(const pack::Scene& scene,
+                                                                    render::RenderParameters parameters) {
   parameters.stokes = true;
   embree::Renderer embree(scene, 0);
   vulkan::Renderer vulkan(scene, {});
@@ -27,6 +27,9 @@ inline std::map<std::string, render::RenderResult> renderEverywhere(const pack::
     results[std::string("embree ") + method] = embree.render(method, parameters);
   for (const auto& [name, result] : results) EXPECT_EQ(result.faults.count, 0u) << name;
   return results;
+}
+inline std::map<std::string, render::RenderResult> renderEverywhere(const pack::Scene& scene) {
+  return renderEverywhere(scene, render::defaultParameters(scene));
 }
 
 }  // namespace malus::test

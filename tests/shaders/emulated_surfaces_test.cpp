@@ -178,7 +178,7 @@ TYPED_TEST(EmulatedSurfaces, ScatteringIsPhysical) {
     if (h.travelled.value == 0) {
       EXPECT_EQ(steps.mediumTransmittance(h).x.value, 1);
     }
-    expectShare(steps.enteringTransmittance(m, 0u, h.c), "entering");
+    expectShare(steps.enteringRow(h, m, h.d, h.c).w, "entering");
     const auto facet = steps.sampleFacet(h, number(draw, -0.7, 0.7), number(draw, -0.7, 0.7));
     expectUnit(facet.mirror, "facet");
     EXPECT_TRUE(facet.weight.value >= 0 && facet.weight.value * gpu::kFacets <= 1 + 8 * kUnit) << facet.weight.value;

@@ -236,8 +236,9 @@ void compareLight(Inputs<S, L>& in) {
     expectSame(lane, first, second, "emission");
   }
   {
-    MALUS_RUN([](auto& s, auto& h, auto& m, auto&) { return s.enteringTransmittance(m, h.material, h.c); })
-    expectSame(lane, first, second, "enteringTransmittance");
+    MALUS_RUN([](auto& s, auto& h, auto& m, auto&) { return s.enteringRow(h, m, h.d, h.c); })
+    expectSame(lane.w, first.w, second.w, "enteringRow w");
+    expectSame(lane.q, first.q, second.q, "enteringRow q");
   }
   {
     MALUS_RUN(([](auto& s, auto& h, auto& m, auto& light) {
@@ -246,9 +247,9 @@ void compareLight(Inputs<S, L>& in) {
     expectSame(lane.direction, first.direction, second.direction, "sampleLight direction");
     expectSame(lane.lobe, first.lobe, second.lobe, "sampleLight lobe");
     expectSame(lane.lit, first.lit, second.lit, "sampleLight lit");
-    const auto laneRay = in.lanes.shadowRay(in.laneHit, lane);
-    const auto firstRay = in.scalar[0].shadowRay(in.hit[0], first),
-               secondRay = in.scalar[1].shadowRay(in.hit[1], second);
+    const auto laneRay = in.lanes.shadowRay(in.laneHit, lane.toLight);
+    const auto firstRay = in.scalar[0].shadowRay(in.hit[0], first.toLight),
+               secondRay = in.scalar[1].shadowRay(in.hit[1], second.toLight);
     expectSame(laneRay.origin, firstRay.origin, secondRay.origin, "shadowRay origin");
     expectSame(laneRay.way, firstRay.way, secondRay.way, "shadowRay way");
     expectSame(in.lanes.lightIrradiance(in.laneHit, in.laneLight, lane),

@@ -283,6 +283,61 @@ class Stock(unittest.TestCase):
         self.assertGreater(stock.check_bounds(self.image, self.mean, 4096)["violations"], 0)
 
 
+class AreaLights(unittest.TestCase):
+    """Diffuse surfaces under area lamps: malus's reference with its fixed samples and Mitsuba's `direct` integrator."""
+    WIDTH = 32
+    QUADS = {"floor": quad((0, 0, -6), (4, 0, 0), (0, 4, 0)), "block": quad((0.4, 0.2, -5.5), (0.5, 0, 0.1), (0, 0.4, 0.2)),
+             "lamp": quad((-0.8, 0.5, -4), (0, 0.5, 0), (0.4, 0, -0.2)), "panel": quad((2.2, -0.5, -5), (0, 0.6, 0), (0, 0, 0.5))}
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        materials = {"white": {"type": "lambert", "albedo": 0.8}, "grey": {"type": "lambert", "albedo": 0.3},
+                     "lamp": {"type": "emitter", "radiance": [4, 4, 4], "illuminates": True},
+                     "panel": {"type": "emitter", "radiance": [2, 2, 2], "illuminates": True, "twoSided": True}}
+        of = {"floor": "white", "block": "grey"}
+        meshes = []
+        for name, corners in self.QUADS.items():
+            write_ply(self.folder / f"{name}.ply", corners)
+            meshes.append({"name": name, "file": f"{name}.ply", "material": of.get(name, name), "flat": True})
+        scene = {"malus": 1, "name": "lamps", "resolution": [self.WIDTH] * 2, "depth": 1, "materials": materials,
+                 "meshes": meshes, "camera": {"position": [0, 0, 0], "target": [0, 0, -1], "verticalFovDegrees": 55}}
+        (self.folder / "scene.json").write_text(json.dumps(scene))
+        self.malus("bake", "scene.json", "-o", "lamps.pack")
+
+    def malus(self, *arguments):
+        done = subprocess.run([kRoot / "build/release/bin/malus", *arguments], cwd=self.folder, capture_output=True,
+                              text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def image(self, *options) -> np.ndarray:
+        self.malus("render", "lamps.pack", "-o", "out.exr", "--backend", "reference", "--compression", "zip", *options)
+        bitmap = mi.Bitmap(str(self.folder / "out.exr"))
+        return np.array(bitmap, np.float64)[..., [field.name for field in bitmap.struct_()].index("G")]
+
+    def test_diffuse_surfaces_under_lamps_agree_within_the_noise(self):
+        self.malus("unpack", "lamps.pack", "-o", "unpacked")
+        unpacked = export.Unpacked(self.folder / "unpacked")
+        scene = export.mitsuba_scene(unpacked, 1, self.WIDTH, self.WIDTH)
+        direct = mi.load_dict({"type": "direct", "emitter_samples": 4, "bsdf_samples": 0})
+        runs = np.array([np.array(mi.render(scene, integrator=direct, spp=1024, seed=seed)).reshape(
+            self.WIDTH, self.WIDTH, -1)[..., 0] for seed in range(8)])
+        mean, error = runs.mean(0), runs.std(0, ddof=1) / math.sqrt(len(runs))
+        fine = self.image("--samples", "16", "--light-samples", "16")
+        other = self.image("--samples", "15", "--light-samples", "15")
+        # Grids of camera rays alias at the outlines of the lamps, which are parallel to them, mostly to different values.
+        z = (fine - mean) / np.sqrt(error**2 + (fine - other)**2 + (3e-4 * mean.mean())**2)
+        self.assertLess(np.mean(np.abs(z) > 5), 0.02, np.sort(np.abs(z).ravel())[-20:])
+        near = [np.roll(fine, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        inside = (np.max(near, 0) < 1) & (np.min(near, 0) > 0.3 * fine) & (np.abs(fine - other) < 5e-3 * fine)
+        self.assertGreater(inside.mean(), 0.5)
+        self.assertLess(abs(fine[inside].mean() / mean[inside].mean() - 1), 1e-3)
+        # 4 samples per hit are as right on average.
+        few = self.image("--samples", "16", "--light-samples", "4")
+        self.assertLess(abs(few[inside].mean() / mean[inside].mean() - 1), 1e-3)
+
+
 class Speed(unittest.TestCase):
     def test_both_trace_the_same_rays_without_glass(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -22,6 +22,8 @@ def simplified(scene: dict) -> tuple[dict, list[str]]:
     environment = scene.get("environment", {})
     if max(environment.pop(key, 0) for key in ("ambientIrradiance", "diffuseFill")) > 0:  # diffuseFill: deprecated
         changes.append("The ambient light on diffuse surfaces (ambientIrradiance) becomes 0.")
+    if environment.pop("illuminates", False):
+        changes.append("The light of the environment on diffuse surfaces (illuminates) is removed.")
     return scene, changes
 
 

@@ -143,6 +143,7 @@ static_assert(kFields<MaterialExtra> * 4 == sizeof(gpu::MaterialExtra));
 static_assert(kFields<LightShape> * 4 == sizeof(gpu::LightShape));
 static_assert(kFields<MeshMaps> * 4 == sizeof(gpu::MeshMaps) && kFields<TextureMap> * 4 == sizeof(gpu::TextureMap));
 static_assert(kFields<MeshTransform> * 4 == sizeof(gpu::MeshTransform));
+static_assert(kFields<AreaLight> * 4 == sizeof(gpu::AreaLight) && kFields<LightNode> * 4 == sizeof(gpu::LightNode));
 
 struct PacketAccess {
   const render::RenderScene* scene;
@@ -179,6 +180,13 @@ struct PacketAccess {
 
   LightShape lightShape(int index) {
     return gatherRow<LightShape>(scene->lightShapes.data(), static_cast<std::uint32_t>(index));
+  }
+
+  AreaLight areaLight(word index) { return gatherRow<AreaLight>(scene->areaLights.data(), index); }
+  LightNode lightNode(word index) { return gatherRow<LightNode>(scene->lightNodes.data(), index); }
+
+  real environmentDistribution(real index) {
+    return gatherR(scene->environmentDistributions.data(), wordOfReal(index));
   }
 
   real3 environmentTexel(real x, real y) {

@@ -179,14 +179,14 @@ Hit gatherInstanceHit(const Ray& traced, word mesh, Triangles& t) {
 
 // The hits of rays that meet a surface. Neighbouring rays mostly meet the same triangle.
 Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
-  const word mesh = gatherW(found.mesh, ray);
-  const word triangle = gatherW(found.triangle, ray);
+  return gatherHit(loadRay(batch, ray), gatherW(found.mesh, ray), gatherW(found.triangle, ray));
+}
+Hit gatherHit(const Ray& traced, word mesh, word triangle) {
   Triangles t;
   if (sameInAll(mesh) && sameInAll(triangle))
     gatherTriangles(firstLane(mesh), firstLane(triangle), t);
   else
     gatherTriangles(mesh, triangle, t);
-  const Ray traced = loadRay(batch, ray);
 #if MALUS_EFFECT_INSTANCES
   if (bvh->hasInstances()) return gatherInstanceHit(traced, mesh, t);
 #endif
@@ -211,6 +211,29 @@ Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
 #endif
   return makeHit(traced, t.p0, t.p1, t.p2, b.b1, b.b2, t.origin, interpolated, t.material);
 }
+
+// Finds the nearest surface along a ray toward a light.
+mask findShadowHit(mask needed, const Ray& ray, Hit& hit) {
+  needed = andM(needed, active);
+  hit = environmentHit(ray.d, ray.depth);
+  if (!anyM(needed)) return needed;
+  embree::RayHitPacket<kLanes>& query = nearestQuery;
+  HWY_ALIGN_MAX std::uint32_t valid[kLanes];
+  hn::Store(selectW(needed, ~0u, 0u).v, Words(), valid);
+  storeR(ray.origin.x, query.ray.org_x), storeR(ray.d.x, query.ray.dir_x);
+  storeR(ray.origin.y, query.ray.org_y), storeR(ray.d.y, query.ray.dir_y);
+  storeR(ray.origin.z, query.ray.org_z), storeR(ray.d.z, query.ray.dir_z);
+  embree::initializeHit(query);
+  bvh->nearest(reinterpret_cast<const int*>(valid), query, false);
+  rays += countM(needed);
+  const mask found = andM(needed, notM(equalW(loadW(query.hit.geomID), embree::Intersection::kMiss)));
+  if (!anyM(found)) return found;
+  // The other lanes get the first triangle of the scene.
+  hit = gatherHit(ray, selectW(found, foundMesh(), 0u), selectW(found, loadW(query.hit.primID), 0u));
+  loadExtra(hit.material);
+  return found;
+}
+void endShadowHits(const Hit& hit) { loadExtra(hit.material); }
 
 // Adds the chosen lanes to a batch and returns the index of the first; the others follow.
 std::uint32_t addRays(Rays& batch, mask chosen, const Ray& ray) {

@@ -38,12 +38,16 @@ struct Tracer : Method, PacketAccess {
 #include "shaders/surfaces/placed_texture.h"
 
 #include "render/embree/packets/hits-inl.h"
+// clang-format off
 #include "shaders/surfaces/camera_colour.h"
-#include "shaders/surfaces/direct_light.h"
 #include "shaders/surfaces/environment.h"
+#include "shaders/surfaces/shadows.h"
+#include "shaders/surfaces/sampled_lights.h"
+#include "shaders/surfaces/direct_light.h"
 #include "shaders/surfaces/sample_direction.h"
 #include "shaders/surfaces/surface_kinds.h"
 #include "shaders/surfaces/textures.h"
+// clang-format on
 #include MALUS_PACKET_DRIVER
 };
 

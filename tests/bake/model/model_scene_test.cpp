@@ -94,6 +94,7 @@ TEST_F(Model, HasAFramingCameraAndAStudio) {
   EXPECT_TRUE(scene.lights.empty());
   EXPECT_GT(scene.environment.size, 0u);
   EXPECT_EQ(scene.environment.ambientIrradiance, 1);
+  EXPECT_TRUE(scene.environment.illuminates);
   EXPECT_EQ(result.description.environmentPreset, kStudioPreset);
   EXPECT_GT(glm::dot(scene.camera.position, glm::dvec3(1, 0, 1)), 0);
   EXPECT_TRUE(result.notes.empty());
@@ -174,7 +175,7 @@ TEST_F(Model, TheWrittenSceneGivesTheSamePack) {
   const auto check = [&](const ModelOptions& options) {
     Baked model = baked(options);
     std::vector<std::string> choices;
-    applyModelProbe({{0.5, 0.25, 0.01}, {0.125, 0.5}, {}, 0, 0, 0}, model.description, model.scene, choices);
+    applyModelProbe({{0.5, 0.25, 0.01}, {0.125, 0.5}, {}, {}, 0, 0, 0}, model.description, model.scene, choices);
     const std::filesystem::path path = folder_.path() / "scenes" / "scene.json";
     std::filesystem::create_directories(path.parent_path());
     folder_.write("scenes/scene.json", sceneFileText(model.description, path));
@@ -221,7 +222,7 @@ TEST(ModelProbe, SetsDepthAndExposure) {
     SceneDescription description;
     pack::Scene scene;
     std::vector<std::string> choices;
-    applyModelProbe({std::move(beyond), {}, {}, 0, 0, 0}, description, scene, choices);
+    applyModelProbe({std::move(beyond), {}, {}, {}, 0, 0, 0}, description, scene, choices);
     EXPECT_EQ(scene.depth, description.depth);
     return scene.depth;
   };
@@ -234,7 +235,7 @@ TEST(ModelProbe, SetsDepthAndExposure) {
     SceneDescription description;
     pack::Scene scene;
     std::vector<std::string> choices;
-    applyModelProbe({{}, std::move(pixels), {}, 0, 0, 0}, description, scene, choices);
+    applyModelProbe({{}, std::move(pixels), {}, {}, 0, 0, 0}, description, scene, choices);
     return choices.back();
   };
   EXPECT_CONTAINS(choicesFor({0, 0, 0}), "black", "--environment");

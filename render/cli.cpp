@@ -1,6 +1,7 @@
 #include "render/cli.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -92,8 +93,9 @@ void checkCombinations(const RenderArguments& a) {
   const bool hasMethods = backendInfo(a.job.backend).hasMethods;
   if (!a.mosaic.empty() && a.filter.any())
     refuse("--mosaic", "has a polarizer before every pixel; excludes --polarizer, --analyser and --wave-plate");
-  if (a.job.maxError && !hasMethods) refuse("--max-error", "excludes --backend reference, which has no error");
-  if (a.job.maxError && a.job.tolerance > 0) refuse("--tolerance", "excludes --max-error");
+  const char* const budget = a.job.maxError ? "--max-error" : a.job.maxMs ? "--max-ms" : nullptr;
+  if (budget && !hasMethods) refuse(budget, "excludes --backend reference, which has no methods");
+  if (budget && a.job.tolerance > 0) refuse("--tolerance", fmt::format("excludes {}", budget));
   if (a.intensity && a.job.stokes) refuse("--intensity", "excludes --stokes");
   if (a.intensity && !stokesOption.empty()) refuse("--intensity", "excludes " + stokesOption);
   if (a.job.tolerance > 0 && (!hasMethods || !methodNamed(a.job.method).isIterative)) {
@@ -103,7 +105,7 @@ void checkCombinations(const RenderArguments& a) {
     refuse("--tolerance", fmt::format("needs an iterative method ({}), found {}", fmt::join(iterative, ", "),
                                       methodName(a.job.backend, a.job.method)));
   }
-  if (a.job.maxError) return;  // the choice is among methods that have Stokes vectors
+  if (budget) return;  // the choice is among methods that have Stokes vectors
   if (a.job.stokes) requireStokes(a.job.backend, a.job.method, "--stokes");
   if (!stokesOption.empty()) requireStokes(a.job.backend, a.job.method, stokesOption);
 }
@@ -124,14 +126,40 @@ void checkMosaicSize(const Region& region) {
                                    region.height));
 }
 
+// The choice of --max-error or --max-ms, and what each part of it was measured to add and to save alone.
+std::vector<std::string> budgetLines(const JobSettings& settings, const Budget& budget) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format(
+      "{}: {}; expected relative RMS error at most {:.3g}{}, over 1 % in {:.2g} % of the pixels; expected {:.3g} ms, "
+      "{:.3g} ms with everything; error of the precision {:.3g}",
+      settings.maxError ? fmt::format("--max-error {:g}", *settings.maxError)
+                        : fmt::format("--max-ms {:g}", *settings.maxMs),
+      budget.parts.empty() ? fmt::format("{}, nothing left out", budget.chosen.method)
+                           : fmt::format("{}, depth {}", budget.chosen.method, budget.chosen.depth),
+      budget.checked.relRms, settings.maxError ? fmt::format(" of {:g}", *settings.maxError) : "",
+      100 * budget.checked.wrongShare, budget.expectedMs, budget.completeMs, budget.precision));
+  for (const BudgetPart& part : budget.parts)
+    lines.push_back(fmt::format("  {}: relative RMS error {:.2g} alone, {} {:.0f} % of the time", part.what, part.error,
+                                part.savedShare >= 0 ? "saves" : "takes", 100 * std::abs(part.savedShare)));
+  return lines;
+}
+
+nlohmann::json toJson(const Budget& budget) {
+  nlohmann::json parts = nlohmann::json::array();
+  for (const BudgetPart& part : budget.parts)
+    parts.push_back({{"what", part.what}, {"relRms", part.error}, {"savedShare", part.savedShare}});
+  return {{"method", budget.chosen.method},          {"depth", budget.chosen.depth},
+          {"tolerance", budget.chosen.tolerance},    {"off", budget.chosen.off},
+          {"expectedRelRms", budget.checked.relRms}, {"expectedShareOver1Percent", budget.checked.wrongShare},
+          {"expectedMs", budget.expectedMs},         {"completeMs", budget.completeMs},
+          {"precisionRelRms", budget.precision},     {"parts", parts}};
+}
+
 // Prints how the job differs from what was asked for.
 void reportJob(const RenderArguments& a, const Job& job) {
-  if (const auto& best = job.estimate()) {
+  if (job.budget()) {
     console::progressDone();
-    console::error(
-        fmt::format("{}: relative RMS error of the method {:.3g} on a small image, {:.1f} ms; the fastest within {:g}; "
-                    "error of the precision {:.3g}",
-                    best->method, best->relRms, best->medianMs, *a.job.maxError, best->precisionRelRms));
+    for (const std::string& line : budgetLines(a.job, *job.budget())) console::error(line);
   }
   warnOfFilter(a.filter, makeAnalyser(a.filter),
                backendInfo(a.job.backend).hasMethods ? job.requestedMethod() : std::string());
@@ -202,6 +230,7 @@ void printResult(const RenderArguments& a, const Job& job, const std::string& sc
       {"numericsChecked", a.job.checkNumerics},
       {"effects", a.job.effects},
       {"substitutedFor", orNull(!substitutedFor.empty(), substitutedFor)},
+      {"budget", job.budget() ? toJson(*job.budget()) : nlohmann::json()},
       {"inPlaceOf", orNull(!substitutedFor.empty(), substitutedFor)},
       {"outputs", written}};
   console::printText(jsonText(document) + "\n");
@@ -270,10 +299,16 @@ void addMethodOptions(CLI::App& command, JobSettings& job) {
       .add_option("--effects", job.effects, "Effects to render: auto, all, or names from --list-effects, with commas")
       ->transform(effectList())
       ->capture_default_str();
+  CLI::Option* maxError =
+      command
+          .add_option("--max-error", job.maxError,
+                      "Choose method, effects, depth and tolerance: the fastest within this relative RMS error")
+          ->transform(numberBetween(0, 1e6));
   command
-      .add_option("--max-error", job.maxError,
-                  "Replace --method by the fastest one within this relative RMS error on the pack")
-      ->transform(numberBetween(0, 1e6));
+      .add_option("--max-ms", job.maxMs,
+                  "Choose them: the most accurate that is expected to trace the image in this time [ms]")
+      ->transform(numberBetween(1e-3, 1e9))
+      ->excludes(maxError);
   command.add_flag("--stokes", job.stokes, "Iterative methods: Stokes channels too, by four times the rays");
   command
       .add_option("--tolerance", job.tolerance,

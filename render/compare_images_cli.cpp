@@ -36,17 +36,19 @@ struct CompareImagesArguments {
 
 void printDifference(const CompareImagesArguments& arguments, const ImageDifference& d) {
   if (!arguments.json) {
-    console::printLine("mean {:.6g}  rms {:.6g}  max {:.6g}  99.9 % {:.6g}  outliers over {:g}: {} of {} pixels{}",
-                       d.mean, d.rms, d.max, d.p999, arguments.threshold, d.outliers, d.pixels,
-                       d.nonFinite > 0 ? fmt::format(", {} with NaN or infinity", d.nonFinite) : "");
+    console::printLine(
+        "mean {:.6g}  rms {:.6g}  relative rms {:.6g}  max {:.6g}  99.9 % {:.6g}  outliers over {:g}: {} of {} "
+        "pixels{}",
+        d.mean, d.rms, d.relRms, d.max, d.p999, arguments.threshold, d.outliers, d.pixels,
+        d.nonFinite > 0 ? fmt::format(", {} with NaN or infinity", d.nonFinite) : "");
     return;
   }
   // JSON has no infinity.
   const auto number = [](double v) { return std::isfinite(v) ? nlohmann::json(v) : nlohmann::json(); };
-  const nlohmann::json result = {{"mean", d.mean},         {"rms", d.rms},
-                                 {"max", number(d.max)},   {"p999", number(d.p999)},
-                                 {"outliers", d.outliers}, {"nonFinite", d.nonFinite},
-                                 {"pixels", d.pixels},     {"threshold", arguments.threshold}};
+  const nlohmann::json result = {
+      {"mean", d.mean},           {"rms", d.rms},           {"relRms", number(d.relRms)},
+      {"max", number(d.max)},     {"p999", number(d.p999)}, {"outliers", d.outliers},
+      {"nonFinite", d.nonFinite}, {"pixels", d.pixels},     {"threshold", arguments.threshold}};
   console::printText(jsonText(result) + "\n");
 }
 

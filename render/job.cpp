@@ -80,8 +80,11 @@ RenderResult renderImage(Renderer& renderer, std::string_view method, const Rend
 }
 
 Job::Job(const pack::Pack& pack, const JobSettings& settings)
-    : pack_(pack), settings_(settings), parameters_(renderParameters(settings, pack.scene)) {
-  if (settings_.maxError) chooseMethod();
+    : pack_(pack),
+      settings_(settings),
+      parameters_(renderParameters(settings, pack.scene)),
+      renderers_(pack.scene, settings.backend, {settings.device, settings.threads}) {
+  if (settings_.maxError || settings_.maxMs) applyBudget();
   requestedMethod_ = settings_.method;
   applyEffects();
   parameters_.checkNumerics = settings_.checkNumerics;
@@ -91,24 +94,20 @@ RenderResult Job::render() {
   const std::string title =
       fmt::format("rendering {} with {} {}", scene().name, backendInfo(settings_.backend).name, method());
   console::progress(title);
-  renderer().setProgress(
+  Renderer& renderer = renderers_[reduced_];
+  renderer.setProgress(
       [title](double fraction) { console::progress(fmt::format("{}: {:.0f} %", title, 100 * fraction)); });
-  return renderImage(renderer(), settings_.method, parameters_, settings_.countRays);
+  return renderImage(renderer, settings_.method, parameters_, settings_.countRays);
 }
 
-Renderer& Job::renderer() {
-  if (!renderer_) renderer_ = makeRenderer(settings_.backend, scene(), {settings_.device, settings_.threads});
-  return *renderer_;
-}
-
-// Takes the fastest method within maxError, among those that have the Stokes channels asked for.
-void Job::chooseMethod() {
-  std::vector<MethodEstimate> estimates =
-      estimateMethods(pack_, parameters_, renderer(), settings_.threads, console::progress);
-  if (parameters_.stokes)
-    std::erase_if(estimates, [](const MethodEstimate& e) { return !methodNamed(e.method).hasStokes; });
-  estimate_ = cheapestUnder(estimates, *settings_.maxError);
-  settings_.method = estimate_->method;
+void Job::applyBudget() {
+  const bool leavesOutEffects = settings_.effects == "auto";
+  budget_ = findBudget(pack_, parameters_, renderers_,
+                       {settings_.maxError, settings_.maxMs, leavesOutEffects, settings_.threads}, console::progress);
+  settings_.method = budget_->image.method;
+  parameters_ = budget_->image.parameters;
+  reduced_ = budget_->image.scene;
+  renderers_.keepOnly(reduced_);
 }
 
 // Chooses the method and the scene for the effects that are asked for.
@@ -121,7 +120,7 @@ void Job::applyEffects() {
 
   const EffectsChoice choice =
       chooseEffects(splitAtCommas(settings_.effects), hasMethods ? settings_.method : completeRecursiveMethod().name,
-                    pack_.scene, request);
+                    scene(), request);
   for (const EffectWarning& warning : choice.warnings)  // the reference always traces polarization
     if (hasMethods || !isPolarization(warning.effect)) warnings_.push_back(warning.text);
   if (hasMethods && choice.method != settings_.method) {
@@ -129,8 +128,9 @@ void Job::applyEffects() {
     settings_.method = choice.method;
   }
 
+  if (choice.off.empty()) return;
   reduced_ = leaveOut(pack_.scene, choice.off, parameters_);
-  if (reduced_) renderer_.reset();  // it refers to the whole scene
+  renderers_.keepOnly(reduced_);
 }
 
 }  // namespace malus::render

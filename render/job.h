@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "bake/pack/reader.h"
-#include "render/compare/cheapest_method.h"
+#include "render/budget/budget.h"
 #include "render/renderer.h"
+#include "render/renderer_pool.h"
 
 namespace malus::render {
 
@@ -30,7 +31,8 @@ struct JobSettings {
   Analyser analyser = kNoFilter;
 
   std::string effects = "auto";    // auto, all, or names of the effects to keep, separated by commas
-  std::optional<double> maxError;  // choose the fastest method with at most this relative RMS error
+  std::optional<double> maxError;  // choose method, effects and depth within this relative RMS error (budget.h)
+  std::optional<double> maxMs;     // or within this time of tracing, in milliseconds
   double tolerance = 0;            // RenderParameters::tolerance
   bool stokes = false;             // RenderParameters::stokes
   bool needsLinear = false;        // S1 and S2 are read, for DoLP, AoLP or a mosaic
@@ -48,8 +50,8 @@ RenderResult renderImage(Renderer& renderer, std::string_view method, const Rend
 
 class Job {
  public:
-  // Chooses size, method and effects. With maxError, measures every method or reads earlier measurements. pack must
-  // outlive the job. Throws Error: a size, region or effect that does not exist, no method within maxError.
+  // Chooses size, method and effects. With maxError or maxMs, measures the choices or reads earlier measurements. pack
+  // must outlive the job. Throws Error: a size, region or effect that does not exist, nothing within maxMs.
   Job(const pack::Pack& pack, const JobSettings& settings);
   Job(pack::Pack&& pack, const JobSettings& settings) = delete;
 
@@ -59,7 +61,7 @@ class Job {
   Backend backend() const { return settings_.backend; }
   // The method that renders; "reference" if the backend has no methods.
   std::string method() const { return methodName(settings_.backend, settings_.method); }
-  // The method that was asked for or that maxError chose, before --effects.
+  // The method that was asked for or that the budget chose, before --effects.
   const std::string& requestedMethod() const { return requestedMethod_; }
   // "METHOD: reason" if an exact, cheaper method replaces the one that was asked for; else empty.
   const std::string& substitutedFor() const { return substitutedFor_; }
@@ -68,22 +70,21 @@ class Job {
   const pack::Scene& scene() const { return reduced_ ? *reduced_ : pack_.scene; }
   // Effects that the scene needs and that are left out, with a bound of the error.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  // Measurement of the chosen method; only with maxError.
-  const std::optional<MethodEstimate>& estimate() const { return estimate_; }
+  // The choice by maxError or maxMs.
+  const std::optional<Budget>& budget() const { return budget_; }
 
  private:
-  Renderer& renderer();
-  void chooseMethod();
+  void applyBudget();
   void applyEffects();
 
   const pack::Pack& pack_;
   JobSettings settings_;
   RenderParameters parameters_;
   std::shared_ptr<const pack::Scene> reduced_;  // the scene without the removed effects; null if none is removed
-  std::unique_ptr<Renderer> renderer_;          // of scene()
+  RendererPool renderers_;
   std::string requestedMethod_, substitutedFor_;
   std::vector<std::string> warnings_;
-  std::optional<MethodEstimate> estimate_;
+  std::optional<Budget> budget_;
 };
 
 }  // namespace malus::render

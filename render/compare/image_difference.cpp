@@ -36,7 +36,7 @@ ImageDifference difference(const image::Image& a, const image::Image& b, const s
   ImageDifference result;
   result.pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
   std::vector<double> largest(result.pixels);
-  double sum = 0, squares = 0;
+  double sum = 0, squares = 0, values = 0;
   std::uint64_t counted = 0;
   for (std::size_t i = 0; i < result.pixels; ++i) {
     bool finite = true;
@@ -50,6 +50,7 @@ ImageDifference difference(const image::Image& a, const image::Image& b, const s
       largest[i] = std::max(largest[i], d);
       sum += d;
       squares += d * d;
+      values += y * y;
       ++counted;
     }
     if (!finite) {
@@ -61,6 +62,7 @@ ImageDifference difference(const image::Image& a, const image::Image& b, const s
   if (counted > 0) {
     result.mean = sum / static_cast<double>(counted);
     result.rms = std::sqrt(squares / static_cast<double>(counted));
+    if (squares > 0) result.relRms = values > 0 ? std::sqrt(squares / values) : std::numeric_limits<double>::infinity();
   }
   if (!largest.empty()) {
     const auto at = static_cast<std::size_t>(0.999 * static_cast<double>(largest.size() - 1));

@@ -12,6 +12,7 @@ namespace malus::render {
 struct ImageDifference {
   double mean = 0;  // absolute difference, over pixels and channels
   double rms = 0;
+  double relRms = 0;  // root of the sum of squared differences over that of squared values of the second image
   double max = 0;
   double p999 = 0;             // 99.9 percentile over the pixels of the largest difference of any channel
   std::uint64_t outliers = 0;  // pixels whose largest difference is above the threshold

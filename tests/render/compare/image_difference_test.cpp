@@ -37,6 +37,7 @@ TEST(ImageDifference, CountsWhatIsKnown) {
   const ImageDifference d = difference(a, b, kRgb, 0.5);
   EXPECT_NEAR(d.mean, 2.0 / 30000, 1e-12);
   EXPECT_NEAR(d.rms, std::sqrt(4.0 / 30000), 1e-12);
+  EXPECT_NEAR(d.relRms, std::sqrt(4.0 / 30008), 1e-12);
   EXPECT_EQ(d.max, 2);
   EXPECT_EQ(d.p999, 0);  // one pixel in ten thousand
   EXPECT_EQ(d.outliers, 1u);

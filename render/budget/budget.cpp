@@ -1,0 +1,139 @@
+#include "render/budget/budget.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "meshprep/base/error.h"
+#include "render/budget/measure.h"
+#include "render/compare/statistics.h"
+#include "render/scene/methods.h"
+
+namespace malus::render {
+
+namespace {
+
+using Kind = MeasuredChoice::Kind;
+
+constexpr int kAttempts = 8;
+constexpr int kTimedRounds = 3;
+
+std::vector<BudgetPart> describe(const Combination& c, const Measurements& m) {
+  std::vector<BudgetPart> parts;
+  const double completeMs = m.find(Kind::method, completeRecursiveMethod().name)->milliseconds;
+  const auto add = [&](const std::string& what, const MeasuredChoice& choice) {
+    parts.push_back({what, choice.error, 1 - choice.milliseconds / completeMs});
+  };
+  for (const MeasuredChoice& choice : m.choices) {
+    if (choice.kind == Kind::method && choice.name == c.method && c.tolerance == 0 &&
+        choice.name != completeRecursiveMethod().name)
+      add("method " + choice.name, choice);
+    if (choice.kind == Kind::tolerance && choice.name == c.method && choice.tolerance == c.tolerance)
+      add(fmt::format("method {}, tolerance {:g}", choice.name, choice.tolerance), choice);
+    if (choice.kind == Kind::depth && choice.depth == c.depth && c.depth != m.depth)
+      add(fmt::format("depth {}", choice.depth), choice);
+    if (choice.kind == Kind::effect && std::find(c.off.begin(), c.off.end(), choice.name) != c.off.end())
+      add("without " + choice.name, choice);
+  }
+  return parts;
+}
+
+bool isComplete(const Combination& c, const Measurements& m) {
+  return c.method == completeRecursiveMethod().name && c.off.empty() && c.depth == m.depth && c.tolerance == 0;
+}
+
+Combination completeCombination(const Measurements& m) {
+  const MeasuredChoice* whole = m.find(Kind::method, completeRecursiveMethod().name);
+  if (whole == nullptr)
+    throw Error("--max-error", fmt::format("the exact method '{}' does not render", completeRecursiveMethod().name),
+                "a device and depth that it can render");
+  return {whole->name, {}, m.depth, 0, 0, whole->milliseconds};
+}
+
+// Time of a combination on the small image.
+double measuredMs(const pack::Scene& scene, const Combination& c, const RenderParameters& full, RendererPool& pool) {
+  const PlannedImage image = planImage(scene, c, smallParameters(full));
+  std::vector<double> samples;
+  for (int i = 0; i < kTimedRounds; ++i)
+    samples.push_back(pool[image.scene].render(image.method, image.parameters).cost.traceMs);
+  return computeSpread(samples).median;
+}
+
+// The fastest combination whose checked error is within the bound.
+Combination chooseByError(const std::vector<Combination>& list, const Measurements& m, double maxError,
+                          ErrorCheck& check, CheckedError& checked) {
+  double bound = maxError;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const auto next = std::find_if(list.begin(), list.end(), [&](const Combination& c) { return c.error <= bound; });
+    if (next == list.end() || isComplete(*next, m)) break;
+    checked = check(*next);
+    if (checked.relRms <= maxError) return *next;
+    // Be more careful by as much as the check is above the bound.
+    bound = std::min(0.8 * next->error, next->error * maxError / checked.relRms);
+  }
+  checked = {};
+  return completeCombination(m);
+}
+
+// The most accurate combination that is expected to keep the time.
+Combination chooseByTime(std::vector<Combination> list, double maxMs, double scale, const pack::Scene& scene,
+                         const RenderParameters& full, RendererPool& pool) {
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Combination& a, const Combination& b) { return a.error < b.error; });
+  double bound = maxMs, least = 0;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const auto next =
+        std::find_if(list.begin(), list.end(), [&](const Combination& c) { return c.milliseconds * scale <= bound; });
+    if (next == list.end()) break;
+    const double found = measuredMs(scene, *next, full, pool) * scale;
+    if (found <= maxMs) {
+      next->milliseconds = found / scale;
+      return *next;
+    }
+    least = least == 0 ? found : std::min(least, found);
+    bound = std::min(0.8 * bound, bound * maxMs / found);
+  }
+  for (const Combination& c : list)
+    if (least == 0 || c.milliseconds * scale < least) least = c.milliseconds * scale;
+  throw Error("--max-ms", fmt::format("nothing renders this image in {:g} ms", maxMs),
+              fmt::format("{:.3g} or more, the least that is expected, or a smaller image", least));
+}
+
+}  // namespace
+
+Budget findBudget(const pack::Pack& pack, const RenderParameters& full, RendererPool& pool,
+                  const BudgetSettings& settings, const Progress& progress) {
+  const Measurements m = measureChoices(pack, full, pool, settings.threads, settings.leavesOutEffects, progress);
+  const Combination complete = completeCombination(m);
+  const std::vector<Combination> list = combinations(m, complete.method);
+  const double scale = m.fullPixels / m.measuredPixels;
+  Budget budget;
+  budget.chosen = complete;
+  budget.precision = m.precision;
+  budget.completeMs = complete.milliseconds * scale;
+  if (settings.maxMs) budget.chosen = chooseByTime(list, *settings.maxMs, scale, pack.scene, full, pool);
+  if (settings.maxMs || (settings.maxError && *settings.maxError > 0)) {
+    progress("checking the error on tiles of the image");
+    ErrorCheck check(pack.scene, complete.method, full, pool);
+    if (settings.maxMs)
+      budget.checked = isComplete(budget.chosen, m) ? CheckedError() : check(budget.chosen);
+    else
+      budget.chosen = chooseByError(list, m, *settings.maxError, check, budget.checked);
+  }
+  budget.image = planImage(pack.scene, budget.chosen, full);
+  budget.expectedMs = budget.chosen.milliseconds * scale;
+  budget.parts = describe(budget.chosen, m);
+  return budget;
+}
+
+std::vector<Combination> fastestWithin(const Measurements& measurements, const std::vector<double>& errors) {
+  const std::vector<Combination> list = combinations(measurements, completeRecursiveMethod().name);
+  std::vector<Combination> result;
+  for (const double error : errors) {
+    const auto found = std::find_if(list.begin(), list.end(), [&](const Combination& c) { return c.error <= error; });
+    if (found != list.end()) result.push_back(*found);
+  }
+  return result;
+}
+
+}  // namespace malus::render

@@ -1,0 +1,26 @@
+// Measurements of every choice on a small image, cached in the user's cache folder.
+#pragma once
+
+#include <string>
+
+#include "bake/pack/reader.h"
+#include "render/budget/combination.h"
+#include "render/progress.h"
+#include "render/renderer_pool.h"
+#include "render/scene/render_parameters.h"
+
+namespace malus::render {
+
+// A small image of the same view: at most this many pixels on the longer side, one sample per pixel; the region in
+// proportion.
+inline constexpr std::uint32_t kSmallSide = 256;
+RenderParameters smallParameters(const RenderParameters& full);
+
+// Measures methods, effects, depths and tolerances (combination.h) on a small image, or reads earlier measurements of
+// the same pack, view, filter, device and version. leaveOutEffects: effects and depths too, else methods and tolerances
+// alone. threads: of the reference, 0 for all. Leaves out methods that the device cannot render by. Throws Error if the
+// complete method does not render.
+Measurements measureChoices(const pack::Pack& pack, const RenderParameters& full, RendererPool& renderers,
+                            unsigned threads, bool leaveOutEffects, const Progress& progress);
+
+}  // namespace malus::render

@@ -27,7 +27,7 @@ constexpr double kGlassMargin = 0x1p-10;      // of the largest extent of a body
 constexpr double kSharedTolerance = 0x1p-46;  // of the largest coordinate: 64 rounding errors of double
 constexpr std::size_t kMostNeighbours = 8;    // with more, all vertices are compared
 
-// Reasons for a mesh of its own.
+// Reasons for a separate mesh.
 enum class Reason : std::uint8_t { none, condition, shared, glass };
 constexpr std::size_t kReasons = 4;
 constexpr std::array<const char*, kReasons> kReasonTexts = {

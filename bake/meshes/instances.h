@@ -1,7 +1,7 @@
-// Which places of a mesh are stored as instances of one mesh, and which as meshes of their own.
+// Which places of a mesh are stored as instances of one mesh, and which as separate meshes.
 //
 // A mesh that a scene places several times is stored once if that saves at least kLeastSavedTriangles triangles; copies
-// of smaller ones are traced faster. A place is left out, with the reason, and becomes a mesh of its own
+// of smaller ones are traced faster. A place is left out, with the reason, and becomes a separate mesh
 // - if its transform, relative to the first place, scales lengths by factors beyond 1:1000 (pack/format.h),
 // - if it shares positions with another place of any mesh: a shared position must be rounded to one grid, or a crack
 //   appears (meshprep/compress/rounding.h),

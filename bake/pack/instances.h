@@ -47,14 +47,14 @@ glm::dmat3 cofactors(const glm::dmat3& linear);
 // A box around the image of a box: of its corners, so that it may be larger than that of the mesh's points.
 Box placedBox(const Box& box, const Instance& instance);
 
-// The mesh at a place of its own. Its origin is that of the mesh, placed and rounded to floats; its positions are
+// The mesh of an instance at its place. Its origin is that of the mesh, placed and rounded to floats; its positions are
 // floats relative to it. Mirrored triangles have their second and third corner exchanged.
 Mesh placedMesh(const Scene& scene, const Instance& instance);
 
-// The scene with each instance as a mesh of its own, behind the others.
+// The scene with each instance as a separate mesh, behind the others.
 Scene withoutInstances(const Scene& scene);
 
-// Where a mesh of the scene is: instance: null at its first place.
+// A place of a mesh. instance: null at its first place.
 struct Placement {
   const Mesh* mesh;
   const Instance* instance;

@@ -126,18 +126,22 @@ compress::RoundedTextures roundTextures(const Scene& scene, const Mesh& mesh, co
   return textures;
 }
 
-}  // namespace
-
-EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const PreviousPack* previous) {
-  // Round the meshes.
+std::vector<compress::MeshView> viewMeshes(const Scene& scene, std::span<const compress::Magnification> magnified) {
   std::vector<compress::MeshView> views;
-  const std::vector<compress::Magnification> magnified = magnifications(scene);
   for (const Mesh& mesh : scene.meshes) {
     views.emplace_back(mesh.positions, mesh.normals, mesh.triangles);
     views.back().magnification = magnified[views.size() - 1];
   }
-  const std::vector<compress::RoundedMesh> rounded =
-      compress::roundMeshes(views, settings.bounds, compress::Precision::floats, settings.inspection);
+  return views;
+}
+
+}  // namespace
+
+EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, const PreviousPack* previous) {
+  // Round the meshes.
+  const std::vector<compress::Magnification> magnified = magnifications(scene);
+  const std::vector<compress::RoundedMesh> rounded = compress::roundMeshes(
+      viewMeshes(scene, magnified), settings.bounds, compress::Precision::floats, settings.inspection);
   EncodedMeshes all;
   const ReusableMeshes reusable(previous);
 

@@ -33,9 +33,7 @@ const PolarizingPaths& EffectQuery::paths() const {
   return *paths_;
 }
 
-bool EffectQuery::isDiffuse() const {
-  return any(isDiffuseMaterial);
-}
+bool EffectQuery::isDiffuse() const { return any(isDiffuseMaterial); }
 
 bool EffectQuery::hasHighlights() const {
   return reflects() && !scene.lights.empty() && any([](const Material& m) { return m.highlightStrength > 0; });

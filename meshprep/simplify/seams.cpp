@@ -47,10 +47,10 @@ Seams::Seams(Mesh& mesh) : sourceVertices_(mesh.sourceVertices) {
   });
 
   // Make a vertex of each piece. A vertex of no triangle is dropped.
-  std::vector<std::uint32_t> vertexOf(corners, kNone);
+  std::vector<std::uint32_t> vertexIds(corners, kNone);
   std::vector<glm::dvec3> positions;
   for (std::uint32_t corner = 0; corner < corners; ++corner) {
-    std::uint32_t& vertex = vertexOf[pieces.find(corner)];
+    std::uint32_t& vertex = vertexIds[pieces.find(corner)];
     std::uint32_t& old = mesh.triangles[corner / 3][static_cast<int>(corner % 3)];
     if (vertex == kNone) {
       vertex = static_cast<std::uint32_t>(positions.size());

@@ -56,7 +56,7 @@ ErrorCheck::ErrorCheck(const pack::Scene& scene, std::string method, const Rende
   complete_ = pool_[nullptr].render(method_, small_);
 }
 
-std::vector<Region> ErrorCheck::tilesOf(const std::vector<SquaredError>& small) const {
+std::vector<Region> ErrorCheck::chooseTiles(const std::vector<SquaredError>& small) const {
   const Region& r = full_.region;
   const std::uint32_t columns = (r.width + kTileSide - 1) / kTileSide, rows = (r.height + kTileSide - 1) / kTileSide;
   const Scale scale{static_cast<double>(r.width) / complete_.width, static_cast<double>(r.height) / complete_.height};
@@ -89,7 +89,7 @@ CheckedError ErrorCheck::operator()(const Combination& combination) {
   // Compare the tiles where they differ most.
   const Region& r = full_.region;
   const bool isFull = r.width == complete_.width && r.height == complete_.height && full_.samples == 1;
-  const std::vector<Region> tiles = isFull ? std::vector<Region>() : tilesOf(pixels);
+  const std::vector<Region> tiles = isFull ? std::vector<Region>() : chooseTiles(pixels);
   SquaredError inside;
   for (const Region& tile : tiles) {
     PlannedImage part = planImage(scene_, combination, full_);

@@ -12,7 +12,7 @@
 
 namespace malus::render {
 
-// What renders a combination.
+// Method, parameters and scene that render a combination.
 struct PlannedImage {
   std::string method;
   RenderParameters parameters;
@@ -27,7 +27,7 @@ struct CheckedError {
 
 // Estimates errors against the complete image by stratified sampling. The pixels of the small image are samples of the
 // full one outside of the tiles: kTiles blocks of kTileSide pixels of the full image, where the small image differs
-// most, which are rendered by both. So thin structures that the small image hits once are seen as they are.
+// most, which are rendered by both. Thin structures that the small image hits once are so seen at full resolution.
 inline constexpr std::uint32_t kTileSide = 64, kTiles = 12;
 class ErrorCheck {
  public:
@@ -37,7 +37,7 @@ class ErrorCheck {
   CheckedError operator()(const Combination& combination);
 
  private:
-  std::vector<Region> tilesOf(const std::vector<SquaredError>& small) const;
+  std::vector<Region> chooseTiles(const std::vector<SquaredError>& small) const;
 
   const pack::Scene& scene_;
   std::string method_;

@@ -16,7 +16,7 @@ struct Combination {
   double milliseconds = 0;       // expected time of the image that was measured
 };
 
-// What one choice was measured to add: the method, an effect that is left out, a depth or a tolerance.
+// Error and time of one choice alone: the method, an effect that is left out, a depth or a tolerance.
 struct MeasuredChoice {
   enum class Kind { method, effect, depth, tolerance } kind = Kind::method;
   std::string name;         // of the method or the effect; of a tolerance its method

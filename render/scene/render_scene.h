@@ -33,11 +33,11 @@ struct RenderScene {
   std::vector<glm::vec3> textureTexels;
   // Textures by the texture coordinates of meshes: each is followed by the levels of its pyramid in `textures`.
   bool hasMeshTextures = false;
-  std::vector<gpu::MeshMaps> materialMaps;    // one per material, at least one
-  std::vector<gpu::TextureMap> textureMaps;   // row 0 is unused
-  std::vector<glm::vec4> textureCoordinates;  // sets 0 and 1, one per position; one element without mesh textures
-  std::vector<glm::vec4> tangents;            // the same, where a material has a normal map
-  std::vector<glm::vec3> environmentTexels;   // with their border; one texel if there is no map
+  std::vector<gpu::MeshMaps> materialMaps;      // one per material, at least one
+  std::vector<gpu::TextureMap> textureMaps;     // row 0 is unused
+  std::vector<glm::vec4> textureCoordinates;    // sets 0 and 1, one per position; one element without mesh textures
+  std::vector<glm::vec4> tangents;              // the same, where a material has a normal map
+  std::vector<glm::vec3> environmentTexels;     // with their border; one texel if there is no map
   std::vector<gpu::AreaLight> areaLights;       // at least one
   std::vector<gpu::LightNode> lightNodes;       // the root is the first; at least one
   std::vector<float> environmentDistributions;  // environment_distribution.h; at least one number

@@ -10,8 +10,8 @@
 namespace malus::render {
 
 // Returns the next level of a texture's pyramid: half the width and half the height, rounded down and at least 1. A
-// texel is the mean of the area of the texture that it covers. Values are linear; normals are averaged as they are
-// stored, so that a level's normals are shorter where they differ.
+// texel is the mean of the area of the texture that it covers. Values are linear; normals are averaged as stored,
+// so that a level's normals are shorter where they differ.
 pack::Texture halfSize(const pack::Texture& texture);
 
 // Adds the textures, those that a mesh map reads with all levels down to one texel.

@@ -61,7 +61,7 @@ struct MeshMaps {
   word eta;
   word k;
   word reflectance;    // of a metal at normal incidence, in place of eta and k
-  word metallic;       // x: edge tint that goes with it; none: 1
+  word metallic;       // x: edge tint of the reflectance; none: 1
   word roughness;      // x
   word radiance;       // in W/(m^2 sr)
   word transmittance;  // of thin glass

@@ -94,14 +94,14 @@ struct CameraParameters {
   vec3 forward;             // unit vector; that of the rays of an orthographic camera
   float coneWidth;          // of the cones of its rays (optics/ray_cone.h), and their growth per length
   float coneSpread;
-  uint orthographic;        // not 0: the samples are points of the image, from which parallel rays start
-  int areaLightCount;       // 0: no surface lights others
-  int lightLevels;          // most nodes between the root of the tree of lights and a light
-  uint lightSamples;        // of the area lights, and of the environment, per hit; 1 to 256
-  uint environmentLight;    // not 0: the environment is sampled, in place of its ambient irradiance
-  uint environmentStep;     // largest power of two that is at most environmentSize
-  float lightReach;         // a distance beyond all surfaces
-  uint filteredShadows;     // not 0: light passes polarizing elements and thin glass on its way to a surface
+  uint orthographic;      // not 0: the samples are points of the image, from which parallel rays start
+  int areaLightCount;     // 0: no surface lights others
+  int lightLevels;        // most nodes between the root of the tree of lights and a light
+  uint lightSamples;      // of the area lights, and of the environment, per hit; 1 to 256
+  uint environmentLight;  // not 0: the environment is sampled, in place of its ambient irradiance
+  uint environmentStep;   // largest power of two that is at most environmentSize
+  float lightReach;       // a distance beyond all surfaces
+  uint filteredShadows;   // not 0: light passes polarizing elements and thin glass on its way to a surface
 };
 MALUS_SIZE(CameraParameters, 484);
 

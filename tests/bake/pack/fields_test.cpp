@@ -73,8 +73,8 @@ TEST(Fields, MaterialsHaveUniqueNamesAndTheBytesOfTheDocument) {
   visitMaterial(materials, any);
   visitMaterial(surfaces, any);
   EXPECT_EQ(materials.bytes(), 124u);
-  EXPECT_EQ(surfaces.bytes(), 276u);
-  EXPECT_EQ(newestSurfaceVersion(), 2u);  // twoSided
+  EXPECT_EQ(surfaces.bytes(), 280u);
+  EXPECT_EQ(newestSurfaceVersion(), 3u);  // illuminates
 }
 
 // Each field stored in SRFX requires SRFX by itself; no other field does.

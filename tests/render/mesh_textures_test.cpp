@@ -341,7 +341,8 @@ TEST(TextureLevels, ADistantFloorHasTheMeanAtOneRayPerPixel) {
   for (const auto& [name, result] : renderEverywhere(scene))
     for (std::size_t i = 0; i < result.pixels.size(); i += result.channels) {
       const std::size_t row = i / result.channels / result.width;
-      const double a = std::atan2(12.0, 100.0) + std::tan(2 * std::numbers::pi / 180) * (row + 0.5 - 12) / 12,
+      const double a = std::atan2(12.0, 100.0) +
+                       std::tan(2 * std::numbers::pi / 180) * (static_cast<double>(row) + 0.5 - 12) / 12,
                    c = std::sin(a);
       EXPECT_NEAR(result.pixels[i + 3], (fresnel(n, k, c, false) + fresnel(n, k, c, true)) / 2, 2e-3) << name;
     }

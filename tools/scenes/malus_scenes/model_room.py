@@ -103,7 +103,7 @@ def materials(model):
         "mesh": model.material("wire mesh", (1, 1, 1, 1), roughness=0.6, alphaMode="MASK", doubleSided=True,
                                maps={"baseColorTexture": {"index": model.image_texture("lattice", images.lattice())}}),
         "lamp": model.material("lamp", (0, 0, 0, 1), emissiveFactor=[1.0, 0.93, 0.82], extensions={
-            "KHR_materials_emissive_strength": {"emissiveStrength": 9.0}}),
+            "KHR_materials_emissive_strength": {"emissiveStrength": 30.0}}),
         "sky": model.material("sky", (0, 0, 0, 1), emissiveFactor=[0.62, 0.80, 1.0], extensions={
             "KHR_materials_emissive_strength": {"emissiveStrength": 2.5}}),
     }

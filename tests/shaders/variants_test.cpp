@@ -169,7 +169,7 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
     const auto expectBinding = [&](const Counts& c, std::uint32_t binding, bool there) {
       EXPECT_EQ(std::count(c.bindings.begin(), c.bindings.end(), binding) > 0, there) << method << ' ' << binding;
     };
-    for (const std::uint32_t binding : {12u, 13u, 14u, 20u, 21u, 22u}) expectBinding(without, binding, false);
+    for (const std::uint32_t binding : {12u, 13u, 14u, 21u, 22u, 23u}) expectBinding(without, binding, false);
     for (const Effect effect : {Effect::kPolarizingElement, Effect::kThinGlass, Effect::kTextures, Effect::kAbsorption,
                                 Effect::kCoatings, Effect::kRoughness, Effect::kSky, Effect::kPolarizedEmitters,
                                 Effect::kAreaLights, Effect::kEnvironmentLight}) {
@@ -180,8 +180,8 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
       EXPECT_GT(with.words, without.words);
       expectBinding(with, 12,
                     effect != Effect::kSky && effect != Effect::kAreaLights && effect != Effect::kEnvironmentLight);
-      expectBinding(with, 20, effect == Effect::kAreaLights);
-      expectBinding(with, 22, effect == Effect::kEnvironmentLight);
+      expectBinding(with, 21, effect == Effect::kAreaLights);
+      expectBinding(with, 23, effect == Effect::kEnvironmentLight);
       expectBinding(with, 13, effect == Effect::kTextures);
       // Effects that trace additional rays add trace sites; an iterative method always has two.
       const bool traces =

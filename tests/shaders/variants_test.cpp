@@ -211,8 +211,9 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
 }
 
 TEST(VariantsTest, StageCounts) {
-  // Ray generation, two misses, a closest hit per kind of surface; without lights and with one kind, three.
-  EXPECT_EQ(vulkan::stageSources({}).size(), 3u + std::size_t{gpu::kSurfaceKinds});
+  // Ray generation, two misses, a closest hit per kind of surface, the any hit of cut-outs; without lights and with one
+  // kind, three.
+  EXPECT_EQ(vulkan::stageSources({}).size(), 4u + std::size_t{gpu::kSurfaceKinds});
   Variant metal;
   metal.effects = effectMask({Effect::kMetal});
   EXPECT_EQ(vulkan::stageSources(metal).size(), 3u);
@@ -251,13 +252,14 @@ TEST(VariantsTest, HitRecordsAreTheOnlyPayload) {
     for (int flags = 0; flags < 16; flags += 5) {  // each set, and each property with and without
       const Variant variant = withoutRecursion(method, vulkan::Tracing::hitRecords, flags);
       const std::vector<vulkan::StageSource> sources = vulkan::stageSources(variant);
-      ASSERT_EQ(sources.size(), 3u);
+      ASSERT_EQ(sources.size(), vulkan::has(variant, Effect::kCutOuts) ? 4u : 3u);
       for (const vulkan::StageSource& source : sources) {
         SCOPED_TRACE(std::string(method) + " flags " + std::to_string(flags) + " " + source.path);
         const Module module(compiled(variant, source));
         const std::vector<std::uint32_t> one = {static_cast<std::uint32_t>(render::kHitRecordBytes)}, none;
+        const bool readsPayload = source.stage != Stage::raygen && source.stage != Stage::anyHit;
         EXPECT_EQ(module.outgoing, source.stage == Stage::raygen ? one : none);
-        EXPECT_EQ(module.incoming, source.stage == Stage::raygen ? none : one);
+        EXPECT_EQ(module.incoming, readsPayload ? one : none);
       }
       EXPECT_EQ(countInstructions(variant).queries, 0u);
     }

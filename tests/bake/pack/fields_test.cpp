@@ -73,7 +73,7 @@ TEST(Fields, MaterialsHaveUniqueNamesAndTheBytesOfTheDocument) {
   visitMaterial(materials, any);
   visitMaterial(surfaces, any);
   EXPECT_EQ(materials.bytes(), 124u);
-  EXPECT_EQ(surfaces.bytes(), 280u);
+  EXPECT_EQ(surfaces.bytes(), 276u);
   EXPECT_EQ(newestSurfaceVersion(), 3u);  // illuminates
 }
 

@@ -12,14 +12,24 @@ namespace malus::render {
 using shaders::Effect;
 
 namespace {
+
+// Effects of data that a scene has or lacks: sampled lights, filters before lights, maps and instances. Without the
+// data their code cannot run, but it is most of the code of a variant, which a CPU takes minutes to compile.
+constexpr std::uint32_t kOfData = shaders::effectBit(Effect::kAreaLights) |
+                                  shaders::effectBit(Effect::kEnvironmentLight) |
+                                  shaders::effectBit(Effect::kFilteredShadows) |
+                                  shaders::effectBit(Effect::kMeshTextures) | shaders::effectBit(Effect::kNormalMaps) |
+                                  shaders::effectBit(Effect::kCutOuts) | shaders::effectBit(Effect::kInstances);
+
 std::uint32_t neededEffects(const pack::Scene& scene, const RenderParameters& parameters) {
   return bake::findCompiledEffects(scene, {parameters.depth, parameters.analyser, false, false});
 }
+
 }  // namespace
 
 std::uint32_t compiledEffects(const pack::Scene& scene, const RenderParameters& parameters) {
-  if (parameters.everyEffect) return shaders::kEveryEffect;
   std::uint32_t needed = neededEffects(scene, parameters);
+  if (parameters.everyEffect) needed |= shaders::kEveryEffect & ~kOfData;
   if (!parameters.shadows) needed &= ~shaders::effectBit(Effect::kShadows);
   if (!filtersShadows(scene, parameters)) needed &= ~shaders::effectBit(Effect::kFilteredShadows);
   return needed;

@@ -134,10 +134,8 @@ void addBakeCommand(CLI::App& app, MeasureDepth measure) {
       ->transform(positiveNumber())
       ->type_name("DEGREES");
   command
-      ->add_option(
-          "--max-uv-error", job.settings.bounds.uvErrorTexels,
-          "Largest error of a texture coordinate [texels of the largest image of the mesh]; without it 1/16 is "
-          "a goal")
+      ->add_option("--max-uv-error", job.settings.bounds.uvErrorTexels,
+                   "Largest error of a texture coordinate [texels of the largest image, or of 4096]")
       ->transform(positiveNumber())
       ->type_name("TEXELS");
   command->add_option("--position-bits", job.settings.bounds.positionBits, "Exact number of bits per coordinate")

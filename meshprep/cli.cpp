@@ -251,7 +251,7 @@ void addCompressionOptions(CLI::App& prep, compress::Bounds& bounds) {
       ->transform(positiveNumber())
       ->type_name("DEGREES");
   prep.add_option("--max-uv-error", bounds.uvErrorTexels,
-                  "Keep texture coordinates and tangents; largest error of a coordinate [texels of an image of 4096]")
+                  "Largest error of a texture coordinate [texels of the largest image, or of 4096]")
       ->transform(positiveNumber())
       ->type_name("TEXELS");
   prep.add_option("--position-bits", bounds.positionBits, "Exact number of bits per coordinate")

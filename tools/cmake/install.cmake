@@ -26,6 +26,7 @@ set(MALUS_PUBLIC_HEADERS
   meshprep/compress/deviation.h
   meshprep/compress/draco_mesh.h
   meshprep/compress/rounding.h
+  meshprep/compress/texture_rounding.h
   shaders/optics/*.h)
 install(CODE "
   set(headers \"${MALUS_PUBLIC_HEADERS}\")

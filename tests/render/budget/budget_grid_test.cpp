@@ -62,8 +62,6 @@ TEST(Budget, KeepsTheErrorInNearlyEveryCase) {
     const bake::Baked baked = bake::bake(bake::readSceneFile(scene), settings, [](std::string_view) {});
     const pack::Pack pack =
         pack::parse(pack::serialize(baked.scene, settings).bytes, scene.parent_path().filename().string());
-    std::printf("%s\n", pack.scene.name.c_str());
-    std::fflush(stdout);
     for (const std::uint32_t width : {200u, 420u})
       for (const Analyser& analyser : {kNoFilter, linearPolarizer(60)})
         for (const double bound : {0.001, 0.01, 0.05}) {

@@ -105,7 +105,7 @@ def materials(model):
         "lamp": model.material("lamp", (0, 0, 0, 1), emissiveFactor=[1.0, 0.93, 0.82], extensions={
             "KHR_materials_emissive_strength": {"emissiveStrength": 30.0}}),
         "sky": model.material("sky", (0, 0, 0, 1), emissiveFactor=[0.62, 0.80, 1.0], extensions={
-            "KHR_materials_emissive_strength": {"emissiveStrength": 2.5}}),
+            "KHR_materials_emissive_strength": {"emissiveStrength": 0.8}}),
     }
 
 

@@ -34,6 +34,7 @@ const Combination& fastest(const std::vector<Combination>& list, double error) {
 
 TEST(Combinations, LeaveOutWhatSavesMostPerErrorFirst) {
   const std::vector<Combination> list = combinations(measured(), "stokes");
+  EXPECT_TRUE(std::any_of(list.begin(), list.end(), [](const Combination& c) { return c.off.size() == 2; }));
   for (const Combination& c : list) {
     // highlights: 5 % for 0.0001; shadows: 30 % for 0.02.
     if (c.off.size() == 1) {
@@ -90,7 +91,7 @@ TEST(DisplayError, IsRelativeRms) {
 TEST(DisplayError, ClampsAtTheDisplaysWhite) {
   const RenderResult sun = image({1000, 0.5f, 0.5f}), other = image({500, 0.5f, 0.5f});
   EXPECT_EQ(displayError(sun, other, 0).relRms(), 0);
-  EXPECT_EQ(displayError(sun, other, -8).relRms(), std::sqrt((256.0 - 256.0) / 1));
+  EXPECT_EQ(displayError(sun, other, -8).relRms(), 0);
   EXPECT_GT(displayError(sun, other, -10).relRms(), 0.4);
 }
 

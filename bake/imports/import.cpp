@@ -145,7 +145,7 @@ void dropUnusedTextures(const ImportDescription& description, prep::SourceScene&
     }
     if (!needs.tangents) polygons.tangents.clear();
   }
-  if (anyDropped) prep::addNote(source.notes, std::string(prep::kTextureCoordinatesNote));
+  if (anyDropped) prep::addNote(source.notes, std::string(prep::kUnusedCoordinatesNote));
 }
 
 // factors: the materials before the means of their images are applied.

@@ -36,9 +36,11 @@ inline bool isAcceptedCoordinate(double value) {
   return value >= -kMaxTextureCoordinate && value <= kMaxTextureCoordinate;
 }
 
-// Note about texture coordinates that are not used.
+// Notes about texture coordinates and tangents that are left out, and about those that change nothing.
 inline constexpr std::string_view kTextureCoordinatesNote = "texture coordinates";
 inline constexpr std::string_view kTangentsNote = "tangents";
+inline constexpr std::string_view kUnusedCoordinatesNote = "texture coordinates that no texture uses";
+inline constexpr std::string_view kUnusedTangentsNote = "tangents that no normal map uses";
 // Note about corners that lack them beside others.
 inline constexpr std::string_view kMissingCoordinatesNote =
     "accepted: corners without texture coordinates, which get (0, 0)";

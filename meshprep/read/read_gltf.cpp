@@ -61,8 +61,10 @@ class PrimitiveNeeds {
         tangents += primitive.tangent ? 1 : 0;
         for (const gltf::MorphTarget& target : primitive.targets) tangents += target.tangent ? 1 : 0;
       }
-    if (tangents > 0) addNote(notes, countedNote(kTangentsNote, tangents, {}));
-    if (coordinates > 0) addNote(notes, countedNote(kTextureCoordinatesNote, coordinates, {}));
+    const bool areUnused = textures_ == KeepTextures::needed;
+    if (tangents > 0) addNote(notes, countedNote(areUnused ? kUnusedTangentsNote : kTangentsNote, tangents, {}));
+    if (coordinates > 0)
+      addNote(notes, countedNote(areUnused ? kUnusedCoordinatesNote : kTextureCoordinatesNote, coordinates, {}));
   }
 
  private:

@@ -63,7 +63,7 @@ void copyFaces(const Polygons& source, const std::vector<std::size_t>& faces, So
   }
 }
 
-// Drops the texture coordinates that are not kept, and the note about them if none are dropped.
+// Drops the texture coordinates that are not kept, and replaces the note about them unless all are left out.
 void keepCoordinates(SourceScene& scene, KeepTextures textures) {
   bool anyKept = false, anyDropped = false;
   for (SourcePart& part : scene.parts) {
@@ -73,7 +73,10 @@ void keepCoordinates(SourceScene& scene, KeepTextures textures) {
     (isKept ? anyKept : anyDropped) = true;
     if (!isKept) part.polygons.dropTextureAttributes();
   }
-  if (anyKept && !anyDropped) std::erase(scene.notes, kTextureCoordinatesNote);
+  if (textures != KeepTextures::none) {
+    std::erase(scene.notes, kTextureCoordinatesNote);
+    if (anyDropped) addNote(scene.notes, std::string(kUnusedCoordinatesNote));
+  }
   if (!anyKept) std::erase(scene.notes, kMissingCoordinatesNote);
 }
 

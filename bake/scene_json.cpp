@@ -8,6 +8,7 @@
 
 #include "bake/pack/field_io.h"
 #include "bake/pack/material_fields.h"
+#include "bake/pack/mesh_maps.h"
 #include "bake/pack/record_fields.h"
 
 namespace malus::bake {
@@ -45,6 +46,9 @@ class JsonWriter {
   static json valueJson(const pack::Field&, pack::LightKind kind) {
     return pack::kLightKindNames[static_cast<std::size_t>(kind)];
   }
+  static json valueJson(const pack::Field&, pack::Wrap wrap) {
+    return pack::kWrapNames[static_cast<std::size_t>(wrap)];
+  }
   static json valueJson(const pack::Field& field, std::int32_t value) {
     return field.isTexture && value < 0 ? json() : json(value);
   }
@@ -56,6 +60,18 @@ class JsonWriter {
   json& object_;
   pack::FieldFilter filter_;
 };
+
+// The maps that the material has, by name, and their factors.
+json meshMapsJson(const pack::MeshMaps& maps) {
+  json result;
+  pack::visitMeshMaps(
+      [&](const pack::MapRule& rule, const pack::MeshMap& map) {
+        if (map.isUsed()) pack::visitMeshMap(JsonWriter(result[std::string(rule.name)]), map);
+      },
+      maps);
+  pack::visitMeshMapFactors(JsonWriter(result), maps);
+  return result;
+}
 
 json environmentJson(const pack::Environment& e) {
   json result;
@@ -92,6 +108,7 @@ json materialJson(const pack::Material& m) {
   pack::visitMaterial(JsonWriter(result, {pack::kMaterials}), m);
   if (m.highlightStrength == 0) result["highlight"] = nullptr;
   if (!m.isPlain()) pack::visitMaterial(JsonWriter(result, {pack::kSurfaces, pack::newestSurfaceVersion()}), m);
+  if (m.meshMaps.any()) result["meshMaps"] = meshMapsJson(m.meshMaps);
   return result;
 }
 

@@ -73,6 +73,15 @@ TEST(Diff, NamesWhatChanged) {
   EXPECT_CONTAINS(text, "LGHT  changed");
 }
 
+TEST(Diff, NamesTheMapsThatChanged) {
+  const pack::Scene a = test::mappedScene();
+  pack::Scene b = a;
+  b.materials[1].meshMaps.albedo.wrapU = pack::Wrap::mirror;
+  b.materials[1].meshMaps.normalScale = 3;
+  const std::string name = "materials." + a.materials[1].name + ".meshMaps.";
+  EXPECT_EQ(changedFields(findChanges(a, b)), (std::vector<std::string>{name + "albedo.wrapU", name + "normalScale"}));
+}
+
 TEST(Diff, MeshesAreMatchedByName) {
   const pack::Scene a = test::smallScene();
   pack::Scene b = a;

@@ -116,6 +116,18 @@ inline pack::Scene smallScene() {
   return scene;
 }
 
+// A small scene whose gold has maps by texture coordinates.
+inline pack::Scene mappedScene() {
+  pack::Scene scene = smallScene();
+  scene.textures = {{"image", 2, 1, {{0.25f, 0.5f, 1}, {0, 0.125f, 0.75f}}}};
+  pack::MeshMaps& maps = scene.materials[1].meshMaps;
+  maps.albedo = {0, 1, pack::Wrap::clamp, pack::Wrap::mirror, {1, 2, 3}, {-4, 5, 6}};
+  maps.normal.texture = 0;
+  maps.normalScale = -2;
+  maps.cutoff = 0.25;
+  return scene;
+}
+
 // A small scene with all optional sections.
 inline pack::Scene unusualScene() {
   pack::Scene scene = smallScene();

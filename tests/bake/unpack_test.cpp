@@ -69,6 +69,25 @@ TEST(Unpack, WritesTextureCoordinatesAndTangents) {
   EXPECT_EQ(prep::readMesh(folder.path() / "out/meshes/000.ply").positions, mesh.positions);
 }
 
+TEST(Unpack, WritesTheMapsOfMaterials) {
+  const test::TemporaryFolder folder;
+  const pack::Pack pack = pack::parse(pack::serialize(test::mappedScene(), {}).bytes, "mapped");
+  const json document = unpack(pack, folder.path() / "out");
+  for (std::size_t i = 0; i < pack.scene.materials.size(); ++i)
+    EXPECT_EQ(document.at("materials")[i].contains("meshMaps"), pack.scene.materials[i].meshMaps.any());
+  const json maps = document.at("materials")[1].at("meshMaps");
+  EXPECT_EQ(maps.at("albedo"), json({{"texture", 0},
+                                     {"set", 1},
+                                     {"wrapU", "clamp"},
+                                     {"wrapV", "mirror"},
+                                     {"u", {1.0, 2.0, 3.0}},
+                                     {"v", {-4.0, 5.0, 6.0}}}));
+  EXPECT_EQ(maps.at("normal").at("wrapU"), "repeat");
+  EXPECT_EQ(maps.at("normalScale"), -2);
+  EXPECT_EQ(maps.at("cutoff"), 0.25);
+  EXPECT_FALSE(maps.contains("roughness"));  // no map
+}
+
 TEST(Unpack, WritesTheSourceMapIfStored) {
   const test::TemporaryFolder folder;
   pack::WriteSettings settings;

@@ -16,7 +16,8 @@ import numpy as np
 if mi.variant() is None:  # speed.py has chosen another
     mi.set_variant("llvm_ad_mono_polarized")
 
-from environment import Environment  # noqa: E402  (needs the variant)
+import textures  # noqa: E402  (needs the variant, as the next)
+from environment import Environment  # noqa: E402
 
 WAVELENGTHS_NM = (630, 532, 465)  # of the colours 0, 1, 2
 TWO_SIDED_AREA = "two_sided_area"  # plugin below: Mitsuba's `area` is black on the back of its shape
@@ -79,6 +80,10 @@ class Unpacked:
             places.append((meshes[instance["mesh"]], mi.ScalarTransform4f(matrix)))
         return places
 
+    def has_lamps(self) -> bool:
+        """Returns whether emitters light diffuse surfaces."""
+        return any(m.get("illuminates") for m in self.materials.values())
+
     def up(self) -> list:
         """Returns the y axis of the image, to which the camera frame of every ray refers."""
         return self.json["camera"]["up"]
@@ -86,11 +91,16 @@ class Unpacked:
     def environment(self, colour: int) -> Environment:
         return Environment(self.json["environment"], self.folder, colour)
 
+    def texture(self, index: int) -> np.ndarray:
+        """Returns the linear texels (height, width, 3), rows from the top."""
+        return np.array(mi.Bitmap(str(self.folder / self.json["textures"][index]["file"])), dtype=np.float64)
+
     def smooth_part(self) -> "Unpacked":
         """The same with black diffuse surfaces."""
         part = copy.deepcopy(self)
         for m in part.json["materials"]:
             m["albedo"] = [0.0] * 3
+            m.get("meshMaps", {}).pop("albedo", None)
         return part
 
     def diffuse_part(self) -> "Unpacked":
@@ -102,25 +112,29 @@ class Unpacked:
         return part
 
 
-def glass(m: dict, colour: int) -> dict:
+def glass(m: dict, colour: int, maps: textures.Maps) -> dict:
     # No dispersion: the index at 532 nm in every colour.
     return {"type": "dielectric", "int_ior": m["eta"][1], "ext_ior": m["outsideEta"]}
 
 
-def metal(m: dict, colour: int) -> dict:
-    return {"type": "conductor", "eta": m["eta"][colour] / m["outsideEta"], "k": m["k"][colour] / m["outsideEta"]}
+def metal(m: dict, colour: int, maps: textures.Maps) -> dict:
+    index = {part: m[part][colour] / m["outsideEta"] for part in ("eta", "k")}
+    if "reflectance" in maps:
+        index = maps.conductor(colour, m["outsideEta"])
+    return {"type": "conductor"} | index
 
 
-def mirror_glass(m: dict, colour: int) -> dict:
+def mirror_glass(m: dict, colour: int, maps: textures.Maps) -> dict:
     # A conductor with k = 0 is a dielectric that only reflects.
     return {"type": "conductor", "eta": m["eta"][1] / m["outsideEta"], "k": 0.0}
 
 
-def diffuse(m: dict, colour: int) -> dict:
-    return {"type": "diffuse", "reflectance": m["albedo"][colour]}
+def diffuse(m: dict, colour: int, maps: textures.Maps) -> dict:
+    return {"type": "diffuse",
+            "reflectance": maps.bitmap("albedo", colour) if "albedo" in maps else m["albedo"][colour]}
 
 
-def black(m: dict, colour: int) -> dict:
+def black(m: dict, colour: int, maps: textures.Maps) -> dict:
     return {"type": "diffuse", "reflectance": 0.0}
 
 
@@ -130,9 +144,14 @@ BSDFS = {"glass": glass, "metal": metal, "mirror-glass": mirror_glass, "lambert"
          "emitter": black}
 
 
-def bsdf(m: dict, colour: int) -> dict:
-    """Returns the BSDF of material m on the side of its normal. The kind of m must be in BSDFS."""
-    return BSDFS[m["type"]](m, colour)
+# Maps that Mitsuba is given; others are left out.
+EXPORTED_MAPS = {"albedo", "reflectance", "metallic", "normal", "normalScale", "cutoff"}
+
+
+def bsdf(m: dict, colour: int, maps: textures.Maps, has_tangents: bool) -> dict:
+    """Returns the BSDF of material m on the side of its normal. The kind of m must be in BSDFS. has_tangents: of the
+    mesh."""
+    return maps.with_normal(BSDFS[m["type"]](m, colour, maps), has_tangents)
 
 
 def require_exportable(scene: Unpacked) -> None:
@@ -176,6 +195,8 @@ def omissions(scene: Unpacked) -> list[str]:
                 value = any(value[name] is not None for name in ("albedo", "eta", "k"))
             if np.any(value):
                 omitted.append(f"Material '{m['name']}': {what} left out.")
+        for name in sorted(set(m.get("meshMaps", {})) - EXPORTED_MAPS):
+            omitted.append(f"Material '{m['name']}': the map '{name}' is left out.")
         if m["highlight"]:
             omitted.append(f"Material '{m['name']}': the highlight is left out.")
     if "sky" in scene.json["environment"]:
@@ -214,16 +235,27 @@ def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environ
     for i, light in enumerate(scene.json["lights"]):
         description[f"light{i}"] = {"type": "point", "position": light["position"],
                                     "intensity": light["intensity"][colour]}
+    tangents = {}
     for i, (mesh, to_world) in enumerate(scene.places()):
         material = scene.materials[mesh["material"]]
+        maps = textures.Maps(scene, material)
         path = scene.folder / mesh["file"]
+        found = textures.read_tangents(path) if "normal" in maps else None
+        if found is not None:
+            tangents[f"mesh{i}"] = found
         shape = {"type": "ply", "id": f"mesh{i}", "filename": str(path), "face_normals": not has_normals(path),
-                 "to_world": to_world, "bsdf": bsdf(material, colour)}
+                 "to_world": to_world, "bsdf": bsdf(material, colour, maps, found is not None)}
         if material["type"] == "emitter" and material["radiance"][colour] > 0:
             shape["emitter"] = {"type": TWO_SIDED_AREA if material.get("twoSided") else "area",
                                 "radiance": material["radiance"][colour]}
         description[f"mesh{i}"] = shape
-    return mi.load_dict(description, parallel=False, optimize=False)
+    # The PLY reader warns about the tangents, which it does not read.
+    level = mi.log_level()
+    mi.set_log_level(mi.LogLevel.Error if tangents else level)
+    result = mi.load_dict(description, parallel=False, optimize=False)
+    mi.set_log_level(level)
+    textures.add_tangents(result, tangents)
+    return result
 
 
 def has_normals(path: pathlib.Path) -> bool:

@@ -17,6 +17,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
+import lamps
 import malus_rules
 
 REFLECTION, TRANSMISSION = mi.BSDFFlags.DeltaReflection, mi.BSDFFlags.DeltaTransmission
@@ -56,15 +57,16 @@ class Image:
         np.maximum.at(self.largest, pixel, np.abs(value) / p)
 
 
-def render(scene: mi.Scene, up, depth: int, rules: malus_rules.Rules | None = None, pixels=None,
-           shift=(0.0, 0.0)) -> Image:
+def render(scene: mi.Scene, up, depth: int, rules: malus_rules.Rules | None = None, pixels=None, shift=(0.0, 0.0),
+           lamps: lamps.Lamps | None = None) -> Image:
     """Returns the image of `pixels` (default: all, row by row from the top), their centres moved by `shift` pixels.
-    up: the y axis of the image. rules: those of malus; None: only those of Mitsuba."""
+    up: the y axis of the image. rules: those of malus; None: only those of Mitsuba. lamps: samples of the area lights
+    that light diffuse surfaces; None: they do not."""
     rays = primary_rays(scene, up, pixels, shift)
     image = Image(len(rays.pixel))
     rays.index *= rules.camera_index if rules else 1
     for left in range(depth, -1, -1):
-        rays = follow(scene, rays, left, image, rules)
+        rays = follow(scene, rays, left, image, rules, lamps)
     return image
 
 
@@ -104,7 +106,8 @@ def lanes(value, n: int) -> np.ndarray:
     return np.broadcast_to(np.array(value), (n,))
 
 
-def follow(scene: mi.Scene, rays: Rays, left: int, image: Image, rules: malus_rules.Rules | None) -> Rays:
+def follow(scene: mi.Scene, rays: Rays, left: int, image: Image, rules: malus_rules.Rules | None,
+           lamps: lamps.Lamps | None) -> Rays:
     """Adds the light of the sources along the rays to the image and returns the next generation.
     left: number of specular interactions that the paths may still have."""
     n = len(rays.pixel)
@@ -120,7 +123,8 @@ def follow(scene: mi.Scene, rays: Rays, left: int, image: Image, rules: malus_ru
     sources = [si.emitter(scene).eval(si)[0, 0].x]
     if rules:
         malus_rules.orient_normal(si, ray, bsdf, hit, smooth, glass)
-    sources += point_lights(scene, si, hit & mi.has_flag(bsdf.flags(), mi.BSDFFlags.DiffuseReflection), rules)
+    diffuse = hit & mi.has_flag(bsdf.flags(), mi.BSDFFlags.DiffuseReflection)
+    sources += point_lights(scene, si, diffuse, rules)
 
     # Follow both branches of smooth interfaces.
     reflection = Branch(si, bsdf, REFLECTION, smooth, rules)
@@ -130,6 +134,8 @@ def follow(scene: mi.Scene, rays: Rays, left: int, image: Image, rules: malus_ru
     scale = rules.source_scale(si, rays.index, lanes(hit, n)) if rules else 1.0
     for i, light in enumerate(sources):
         image.add(rays, lanes(light, n) * scale, 1.0 if i == 0 else 1 / (len(sources) - 1))
+    if lamps:
+        image.add(rays, lanes(lamps.light(scene, si, diffuse, n), n) * scale)
     if rules:
         image.add(rays, np.where(lanes(hit, n), 0, rules.environment(rays.direction)) * scale)
     if left == 0:

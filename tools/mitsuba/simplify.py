@@ -2,7 +2,7 @@
 
 Mitsuba lacks polarized light from a Lambert surface under a smooth interface, a Phong lobe for point lights only,
 diffuse light under a metal, and ambient light without interreflection. These are replaced or removed, each with a
-sentence; everything else is kept.
+sentence; everything else is kept. Materials of imported files are not changed.
 """
 import json
 import pathlib
@@ -31,8 +31,8 @@ def write_simplified(source: pathlib.Path, target: pathlib.Path) -> list[str]:
     """Reads a scene.json and writes the simplified one with absolute paths. Returns a sentence for each change."""
     folder = source.resolve().parent
     scene, changes = simplified(json.loads(source.read_text()))
-    for mesh in scene["meshes"]:
-        mesh["file"] = str(folder / mesh["file"])
+    for entry in scene.get("meshes", []) + scene.get("imports", []):
+        entry["file"] = str(folder / entry["file"])
     if "image" in scene.get("environment", {}):
         scene["environment"]["image"] = str(folder / scene["environment"]["image"])
     target.write_text(json.dumps(scene, indent=1))

@@ -5,7 +5,7 @@ RENDERERS = ("reference", "embree")
 
 def markdown(results: dict) -> str:
     lines = ["| scene | malus | RMS S0 | S1 | S2 | S3 | outliers | not explained |", "|---|---|---|---|---|---|---|---|"]
-    for name, scene in results.items():
+    for name, scene in deterministic(results):
         for renderer in RENDERERS:
             r = scene[renderer]
             cells = [f"{value:.1e}" for value in r["rmsOrdinary"]]
@@ -15,7 +15,7 @@ def markdown(results: dict) -> str:
               "1e-3 (S0 + mean S0)). Explained: the pixel changes as much if its centre moves by 1/1000 pixel.", "",
               "| scene | integrator of Mitsuba | values | outside the bound | RMS z | largest z |",
               "|---|---|---|---|---|---|"]
-    for name, scene in results.items():
+    for name, scene in deterministic(results):
         for part in ("smooth", "diffuse"):
             if part in scene["stock"]:
                 s = scene["stock"][part]
@@ -23,7 +23,26 @@ def markdown(results: dict) -> str:
                 lines.append(f"| {name} | path, {part} | {s['values']} | {s['violations']} | {z[0]} | {z[1]} |")
         if "stokesMax" in scene["stock"]:
             lines.append(f"| {name} | stokes | largest difference {scene['stock']['stokesMax']:.1e} | | | |")
-    return "\n".join(lines + [""])
+    return "\n".join(lines + sampled(results) + [""])
+
+
+def deterministic(results: dict) -> list:
+    """Returns the names and results of the scenes that are compared pixel by pixel without noise."""
+    return [(name, scene) for name, scene in results.items() if "lamps" not in scene]
+
+
+def sampled(results: dict) -> list[str]:
+    """Returns the lines about scenes that lamps light."""
+    lines = []
+    for name, scene in results.items():
+        for renderer, r in scene.get("lamps", {}).items():
+            cells = [" ".join(f"{value:.{digits}}" for value in r[key]) for key, digits in
+                     (("noise", "0e"), ("meanDifference", "1e"), ("bias", "1f"))]
+            numbers = f"{r['values']} | {r['violations']} | {r['rmsZ']:.2f} | {r['maxZ']:.2f}"
+            lines.append(f"| {name} | {renderer} | {numbers} | {' | '.join(cells)} |")
+    head = ["", "| scene with lamps | malus | values | outside the bound | RMS z | largest z | noise of a value, S0 to S3 "
+            "| difference of the means | the same in standard errors |", "|---|---|---|---|---|---|---|---|---|"]
+    return head + lines if lines else []
 
 
 def failures(results: dict, tolerances: dict) -> list[str]:
@@ -36,6 +55,12 @@ def failures(results: dict, tolerances: dict) -> list[str]:
 
     for name, scene in results.items():
         most = tolerances["default"] | tolerances["scenes"].get(name, {})
+        for renderer, r in scene.get("lamps", {}).items():
+            check(f"{name}, {renderer}: number of values outside the bound", r["violations"], 0)
+            check(f"{name}, {renderer}: RMS of z", r["rmsZ"], most["rmsZ"])
+            check(f"{name}, {renderer}: difference of the means in standard errors", max(r["bias"]), most["bias"])
+        if "lamps" in scene:
+            continue
         for renderer in RENDERERS:
             r = scene[renderer]
             for k in range(4):

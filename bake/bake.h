@@ -40,7 +40,7 @@ Baked bake(const SceneDescription& description, const pack::WriteSettings& setti
            const std::function<void(std::string_view)>& progress, const BakeOptions& options = {});
 
 // Raise this number when the pack of the same sources changes (tests/bake/golden.json).
-inline constexpr int kBakerRevision = 9;
+inline constexpr int kBakerRevision = 10;
 
 // A file that a scene reads, or that a file which it reads refers to.
 struct SourceFile {

@@ -72,6 +72,12 @@ class MaterialIndices {
     return made_[key] = find(material);
   }
 
+  // The material of the opaque texels of a material of the scene that the rules made two of (MaterialMaps::split()).
+  std::optional<std::uint32_t> opaqueTexels(std::uint32_t material) const {
+    const auto found = opaque_.find(material);
+    return found == opaque_.end() ? std::nullopt : std::optional(found->second);
+  }
+
  private:
   std::uint32_t find(const std::optional<std::size_t>& material) {
     // Use the material that the scene names.
@@ -83,18 +89,20 @@ class MaterialIndices {
     }
 
     // Convert it by the rules.
-    if (materials_.size() >= pack::kMaxMaterials)
-      throw Error(description_.file.string(), "has too many materials",
-                  fmt::format("at most {} in a scene", pack::kMaxMaterials));
-    pack::Material made = material ? convertOne(*material) : defaultMaterial();
-    if (made.name.empty()) made.name = fmt::format("material {}", *material);
-    made.name = names_.take(made.name);
-    materials_.push_back(std::move(made));
-    return static_cast<std::uint32_t>(materials_.size() - 1);
+    if (!material) return add(defaultMaterial(), material);
+    const prep::SourceMaterial factors = readableFactors(*material);
+    const prep::SourceMaterial& means = source_.materials[*material];
+    if (auto split = maps_.split(factors, means)) {
+      const std::uint32_t clear = add(std::move(split->clear), material);
+      split->opaque.name = fmt::format("{} (opaque)", materials_[clear].name);
+      opaque_[clear] = add(std::move(split->opaque), material);
+      return clear;
+    }
+    return add(maps_.convert(factors, means), material);
   }
 
-  // Without the images that cannot be read, or whose variation is not drawn.
-  pack::Material convertOne(std::size_t index) {
+  // Without the images that cannot be read.
+  prep::SourceMaterial readableFactors(std::size_t index) const {
     const prep::SourceMaterial& means = source_.materials[index];
     prep::SourceMaterial factors = factors_[index];
     factors.baseColourImage = means.baseColourImage;
@@ -102,7 +110,19 @@ class MaterialIndices {
     factors.emissiveImage = means.emissiveImage;
     factors.normalImage = means.normalImage;
     factors.coverageImage = means.coverageImage;
-    return maps_.convert(factors, means);
+    factors.specularGlossinessImage = means.specularGlossinessImage;
+    factors.transmissionImage = means.transmissionImage;
+    return factors;
+  }
+
+  std::uint32_t add(pack::Material made, const std::optional<std::size_t>& material) {
+    if (materials_.size() >= pack::kMaxMaterials)
+      throw Error(description_.file.string(), "has too many materials",
+                  fmt::format("at most {} in a scene", pack::kMaxMaterials));
+    if (made.name.empty()) made.name = fmt::format("material {}", *material);
+    made.name = names_.take(made.name);
+    materials_.push_back(std::move(made));
+    return static_cast<std::uint32_t>(materials_.size() - 1);
   }
 
   const ImportDescription& description_;
@@ -112,6 +132,7 @@ class MaterialIndices {
   UniqueNames& names_;
   MaterialMaps& maps_;
   std::map<std::size_t, std::uint32_t> made_;
+  std::map<std::uint32_t, std::uint32_t> opaque_;
 };
 
 // Removes the instances of parts whose material is not drawn, unless the scene replaces it. Throws Error if none is
@@ -237,6 +258,16 @@ std::vector<std::string> fileNotes(const std::filesystem::path& file, const std:
 
 namespace {
 
+// Adds a mesh and, if its material has opaque texels, another one at the same place.
+void place(ImportedMesh mesh, const std::optional<std::uint32_t>& opaqueTexels, UniqueNames& meshNames,
+           Imported& result) {
+  result.meshes.push_back(mesh);
+  if (!opaqueTexels) return;
+  mesh.name = meshNames.take(fmt::format("{} (opaque)", mesh.name));
+  mesh.material = *opaqueTexels;
+  result.meshes.push_back(std::move(mesh));
+}
+
 // Keeps or notes the cameras and lights, and makes sentences of all notes. joined: those about joined parts.
 void finish(const ImportDescription& description, prep::SourceScene source, const std::vector<std::string>& joined,
             Imported& result) {
@@ -327,7 +358,7 @@ Imported importScene(const ImportDescription& description, std::vector<pack::Mat
     mesh.part = *preparedPart;
     mesh.name = meshNames.take(instance.name);
     mesh.worldFromObject = worldFromFile * instance.worldFromObject;
-    result.meshes.push_back(std::move(mesh));
+    place(mesh, indices.opaqueTexels(mesh.material), meshNames, result);
   }
   if (result.meshes.empty() && firstError) throw Error(*firstError);
   finish(description, std::move(source), joined, result);

@@ -82,9 +82,8 @@ const MaterialMaps::Decoded* MaterialMaps::decode(const std::optional<std::size_
 
 // Makes a texture of the size of an image, with a value per texel, or finds the one that was made before. recipe: how
 // the texels are made.
-template <class Texel>
 pack::MeshMap MaterialMaps::add(std::size_t image, const prep::SourcePlacement& where, const std::string& recipe,
-                                Texel texel) {
+                                const Texel& texel) {
   const std::string name = fmt::format("{} {}", image, recipe);
   if (const auto found = made_.find(name); found != made_.end()) return place(found->second, where);
   const Decoded& source = *decode(image);
@@ -282,6 +281,7 @@ pack::Material MaterialMaps::convert(prep::SourceMaterial factors, prep::SourceM
     addMetal(factors, material);
   else
     addColour(factors, material);
+  addSpecular(factors, means, material);
   if (isCutOut) addCoverage(factors, material);
   addRadiance(factors, material);
   if (!pack::isEmitter(material.kind)) addNormal(factors, material);

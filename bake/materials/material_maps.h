@@ -8,6 +8,12 @@
 //                        the dielectric, with the edge tint metallic (conductorIndex in shaders/optics/texture_map.h: 0
 //                        is a dielectric, 1 a metal), and of the albedo colour (1 - metallic)
 //   emission             radiance of an emitter, or of the layer below the interface
+//   specular-glossiness  reflectance, as its index, of paint and metal, and their roughness. A texel with a reflectance
+//                        over 0.25 in a colour is a metal, as a factor is; where others are not, the material is metal
+//                        with the edge tint 1 or 0. The diffuse colour is the albedo: the light that enters through the
+//                        interface is what KHR_materials_pbrSpecularGlossiness approximates by 1 - max(specular)
+//   transmission         a thin wall whose texels transmit more than half of the light and others not is two
+//                        materials, each cut out where the other one is (split())
 //   normal               normal map
 //   alpha                of a mask: cut out below its cutoff. Of a blended material: cut out below 0.5 if at most a
 //   tenth
@@ -16,6 +22,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,6 +45,13 @@ class MaterialMaps {
   // Converts a material. factors: as in the file; means: the same, its factors multiplied by the means of the images.
   pack::Material convert(prep::SourceMaterial factors, prep::SourceMaterial means);
 
+  // The materials of the texels of a thin wall that transmit and of those that do not, for two surfaces at the same
+  // place; nothing if one of them has no texel, and then, with a note, where the mean of the transmission is used.
+  struct Split {
+    pack::Material clear, opaque;
+  };
+  std::optional<Split> split(const prep::SourceMaterial& factors, const prep::SourceMaterial& means);
+
  private:
   struct Decoded {
     image::Image image;
@@ -54,11 +68,13 @@ class MaterialMaps {
   const Decoded* decode(const std::optional<std::size_t>& image);
   bool isMixed(const prep::SourceMaterial& factors);
   bool hasSharpAlpha(const prep::SourceMaterial& factors);
-  template <class Texel>
-  pack::MeshMap add(std::size_t image, const prep::SourcePlacement& place, const std::string& recipe, Texel texel);
+  using Texel = std::function<glm::vec3(const Decoded&, std::size_t pixel)>;
+  pack::MeshMap add(std::size_t image, const prep::SourcePlacement& place, const std::string& recipe,
+                    const Texel& texel);
   void addColour(const prep::SourceMaterial& factors, pack::Material& material);
   void addRoughness(const prep::SourceMaterial& factors, pack::Material& material);
   void addMetal(const prep::SourceMaterial& factors, pack::Material& material);
+  void addSpecular(const prep::SourceMaterial& factors, const prep::SourceMaterial& means, pack::Material& material);
   void addMixed(const prep::SourceMaterial& factors, const prep::SourceMaterial& means, pack::Material& material);
   void addCoverage(const prep::SourceMaterial& factors, pack::Material& material);
   void addNormal(const prep::SourceMaterial& factors, pack::Material& material);

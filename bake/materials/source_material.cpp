@@ -63,7 +63,7 @@ void setOpaqueDielectric(const prep::SourceMaterial& source, double alpha, pack:
   using Kind = pack::MaterialKind;
   const glm::dvec3 reflectance = normalReflectance(source);
   result.albedo = glm::clamp(source.baseColour, 0.0, 1.0);
-  if (largest(reflectance) > kMostDielectricReflectance && source.specular > 0) {
+  if (isMetallicReflectance(reflectance) && source.specular > 0) {
     result.kind = Kind::metal;
     setMetal(result, reflectance);
     for (int c = 0; c < 3; ++c)
@@ -116,6 +116,8 @@ glm::dvec3 normalReflectance(const prep::SourceMaterial& source) {
   const double root = (source.ior - 1) / (source.ior + 1);
   return glm::min(glm::dvec3(source.ior == 0 ? 1.0 : root * root) * source.specularColour, glm::dvec3(1.0));
 }
+
+bool isMetallicReflectance(const glm::dvec3& reflectance) { return largest(reflectance) > kMostDielectricReflectance; }
 
 double facetAlpha(double roughness) { return roughness * roughness < kLeastAlpha ? 0 : roughness * roughness; }
 

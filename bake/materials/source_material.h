@@ -50,6 +50,9 @@ bool isInvisible(const prep::SourceMaterial& source);
 // Reflectance of the dielectric at normal incidence, per colour.
 glm::dvec3 normalReflectance(const prep::SourceMaterial& source);
 
+// Whether a material of this reflectance at normal incidence is a metal.
+bool isMetallicReflectance(const glm::dvec3& reflectance);
+
 // GGX alpha of a roughness.
 double facetAlpha(double roughness);
 

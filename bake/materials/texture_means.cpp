@@ -78,17 +78,9 @@ glm::dvec3 toColour(const Mean& mean) { return {mean[0], mean[1], mean[2]}; }
 
 void applyTextureMeans(prep::SourceScene& scene, bool strict) {
   TextureMeans means(scene, strict);
-  std::size_t applied = 0;
   const auto take = [&](std::optional<std::size_t>& image, Role role) -> std::optional<Mean> {
     const std::optional<Mean> mean = image ? means(*image, role) : std::nullopt;
     if (!mean) image.reset();
-    return mean;
-  };
-  // Images whose variation is not drawn.
-  const auto takeMean = [&](std::optional<std::size_t>& image, Role role) {
-    const std::optional<Mean> mean = take(image, role);
-    applied += mean ? 1 : 0;
-    image.reset();
     return mean;
   };
   for (prep::SourceMaterial& m : scene.materials) {
@@ -102,12 +94,11 @@ void applyTextureMeans(prep::SourceScene& scene, bool strict) {
       m.roughness *= std::clamp((*mean)[1], 0.0, 1.0);
       m.metallic *= std::clamp((*mean)[2], 0.0, 1.0);
     }
-    if (const auto mean = takeMean(m.specularGlossinessImage, Role::colour)) {
+    if (const auto mean = take(m.specularGlossinessImage, Role::colour)) {
       m.specularColour *= toColour(*mean);
       m.roughness = 1 - (1 - m.roughness) * std::clamp((*mean)[3], 0.0, 1.0);
     }
-    if (const auto mean = takeMean(m.transmissionImage, Role::numbers))
-      m.transmission *= std::clamp((*mean)[0], 0.0, 1.0);
+    if (const auto mean = take(m.transmissionImage, Role::numbers)) m.transmission *= std::clamp((*mean)[0], 0.0, 1.0);
     take(m.normalImage, Role::numbers);
     take(m.coverageImage, Role::numbers);
     const auto emission = take(m.emissiveImage, Role::colour);
@@ -119,7 +110,6 @@ void applyTextureMeans(prep::SourceScene& scene, bool strict) {
                     fmt::format("the emission of material '{}', whose emissive texture cannot be read", m.name));
     }
   }
-  if (applied > 0) prep::addNote(scene.notes, fmt::format("variation of textures ({}; their means are used)", applied));
 }
 
 }  // namespace malus::bake

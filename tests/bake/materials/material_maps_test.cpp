@@ -1,6 +1,7 @@
 // Maps of imported materials: a uniform image gives what the factor gives, the others follow the rules per texel.
 #include "bake/materials/material_maps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -175,6 +176,59 @@ TEST_F(MaterialMapsTest, PlacesAreThoseOfTheTexture) {
     EXPECT_NEAR(map.u[i], (glm::dvec3{0, 3, 0.25})[i], 1e-12);
     EXPECT_NEAR(map.v[i], (glm::dvec3{-2, 0, 0.5})[i], 1e-12);
   }
+}
+
+TEST_F(MaterialMapsTest, AUniformSpecularGlossinessGivesWhatTheFactorsGive) {
+  for (const double f : {0.04, 0.2, 0.6})
+    for (const double glossiness : {1.0, 0.7, 0.1}) {
+      prep::SourceMaterial factor;
+      factor.metallic = factor.ior = 0;
+      factor.specularColour = glm::dvec3(f);
+      factor.roughness = 1 - glossiness;
+      const pack::Material expected = convertMaterial(factor, notes_);
+      prep::SourceMaterial textured = factor;
+      textured.specularColour = glm::dvec3(1);
+      textured.roughness = 0;
+      const float x = encoded(f), g = static_cast<float>(glossiness);
+      textured.specularGlossinessImage = add(2, {x, x, x, g, x, x, x, g});
+      const pack::Material made = convert(textured);
+      EXPECT_EQ(made.kind, expected.kind) << f << ", " << glossiness;
+      EXPECT_NEAR(made.roughness, expected.roughness, 1e-6);
+      EXPECT_NEAR(made.eta.y, expected.eta.y, 1e-5);
+      if (made.kind == MaterialKind::lambert) continue;
+      EXPECT_NEAR(texel(made.meshMaps.roughness, 1).x, expected.roughness, 1e-6);
+      EXPECT_FALSE(made.meshMaps.metallic.isUsed());
+      if (made.kind == MaterialKind::paint)
+        EXPECT_NEAR(texel(made.meshMaps.eta, 1).y, expected.eta.y, 1e-5);
+      else
+        EXPECT_NEAR(texel(made.meshMaps.reflectance, 1).y, f, 1e-6);
+    }
+}
+
+TEST_F(MaterialMapsTest, TexelsOfSpecularGlossiness) {
+  prep::SourceMaterial source;
+  source.metallic = source.ior = 0;
+  source.roughness = 0.5;  // glossiness 0.5, times that of the texel
+  source.specularColour = glm::dvec3(0.5, 1, 1);
+  source.specularGlossinessPlacement.wrapU = prep::SourceWrap::mirror;
+  const float low = encoded(0.04), high = encoded(0.8);
+  source.specularGlossinessImage = add(2, {high, low, low, 1, low, low, low, 0.5f});
+  const pack::Material made = convert(source);
+  ASSERT_EQ(made.kind, MaterialKind::metal);
+  EXPECT_NEAR(texel(made.meshMaps.reflectance, 0).x, 0.4, 1e-6);
+  EXPECT_NEAR(texel(made.meshMaps.reflectance, 1).x, 0.02, 1e-6);
+  EXPECT_EQ(texel(made.meshMaps.metallic, 0), glm::vec3(1));
+  EXPECT_EQ(texel(made.meshMaps.metallic, 1), glm::vec3(0));
+  EXPECT_NEAR(texel(made.meshMaps.roughness, 0).x, 0.25, 1e-6);
+  EXPECT_NEAR(texel(made.meshMaps.roughness, 1).x, 0.75 * 0.75, 1e-6);
+  EXPECT_EQ(made.meshMaps.reflectance.wrapU, pack::Wrap::mirror);
+
+  source.clearcoat = 1;  // its interface is that of the coat
+  const pack::Material coated = convert(source);
+  EXPECT_FALSE(coated.meshMaps.reflectance.isUsed() || coated.meshMaps.roughness.isUsed());
+  EXPECT_TRUE(std::any_of(notes_.begin(), notes_.end(), [](const std::string& note) {
+    return note.find("specular-glossiness texture") != std::string::npos;
+  }));
 }
 
 }  // namespace

@@ -148,10 +148,14 @@ BSDFS = {"glass": glass, "metal": metal, "mirror-glass": mirror_glass, "lambert"
 EXPORTED_MAPS = {"albedo", "reflectance", "metallic", "normal", "normalScale", "cutoff"}
 
 
-def bsdf(m: dict, colour: int, maps: textures.Maps, has_tangents: bool) -> dict:
+def bsdf(m: dict, colour: int, maps: textures.Maps, has_tangents: bool, rough: bool) -> dict:
     """Returns the BSDF of material m on the side of its normal. The kind of m must be in BSDFS. has_tangents: of the
-    mesh."""
-    return maps.with_normal(BSDFS[m["type"]](m, colour, maps), has_tangents)
+    mesh. rough: metals have their roughness, as `roughconductor`; it is left out otherwise."""
+    result = BSDFS[m["type"]](m, colour, maps)
+    alpha = maps.bitmap("roughness", 0) if "roughness" in maps else m.get("roughness", 0)
+    if rough and result["type"] == "conductor" and alpha:
+        result |= {"type": "roughconductor", "distribution": "ggx", "alpha": alpha}
+    return maps.with_normal(result, has_tangents)
 
 
 def require_exportable(scene: Unpacked) -> None:
@@ -224,9 +228,10 @@ def sensor(scene: Unpacked, width: int, height: int) -> dict:
     }
 
 
-def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environment: bool = True) -> mi.Scene:
-    """Returns the scene at WAVELENGTHS_NM[colour], with or without its environment. Raises ValueError for materials
-    without an equivalent in Mitsuba."""
+def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environment: bool = True,
+                  rough: bool = False) -> mi.Scene:
+    """Returns the scene at WAVELENGTHS_NM[colour], with or without its environment and the roughness of metals. Raises
+    ValueError for materials without an equivalent in Mitsuba."""
     require_exportable(scene)
     description = {"type": "scene", "sensor": sensor(scene, width, height)}
     infinity = scene.environment(colour).emitter() if environment else None
@@ -244,7 +249,7 @@ def mitsuba_scene(scene: Unpacked, colour: int, width: int, height: int, environ
         if found is not None:
             tangents[f"mesh{i}"] = found
         shape = {"type": "ply", "id": f"mesh{i}", "filename": str(path), "face_normals": not has_normals(path),
-                 "to_world": to_world, "bsdf": bsdf(material, colour, maps, found is not None)}
+                 "to_world": to_world, "bsdf": bsdf(material, colour, maps, found is not None, rough)}
         if material["type"] == "emitter" and material["radiance"][colour] > 0:
             shape["emitter"] = {"type": TWO_SIDED_AREA if material.get("twoSided") else "area",
                                 "radiance": material["radiance"][colour]}

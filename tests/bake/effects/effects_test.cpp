@@ -310,7 +310,10 @@ TEST(Effects, ImageRequestAddsEffects) {
   EXPECT_TRUE(on(gold, "linear-polarization"));
   request = {8, {0.5, 0.5, 0, 0}, false, false};
   EXPECT_TRUE(on(gold, "linear-polarization") && on(gold, "filter"));
-  EXPECT_NEAR(polarizationErrorBound(cubes(MaterialKind::mirrorGlass, {cubeAt({0, 0, 0})}), request).x, 1, 1e-9)
+  pack::Scene glass = cubes(MaterialKind::mirrorGlass, {cubeAt({0, 0, 0})});
+  EXPECT_LT(polarizationErrorBound(glass, request).x, 0.6) << "too steep or too grazing for Brewster's angle";
+  glass.camera.position = {1.5, 0, 1.5};
+  EXPECT_NEAR(polarizationErrorBound(glass, request).x, 1, 1e-9)
       << "a filter in front of Brewster's angle: twice the light, or none";
   // Between a filter and a glass mirror two gold mirrors are enough for circular light, three depths in all.
   const pack::Scene both = makeScene({material(MaterialKind::metal), material(MaterialKind::mirrorGlass)}, 3);

@@ -158,7 +158,7 @@ void addBakeCommand(CLI::App& app, MeasureDepth measure) {
   command->callback([arguments] { runBake(*arguments); });
 }
 
-void addInfoCommand(CLI::App& app) {
+void addInfoCommand(CLI::App& app, MeasurePolarization measure) {
   struct Arguments {
     std::string input, other;
     double tolerance = kInfoTolerance;
@@ -179,7 +179,7 @@ void addInfoCommand(CLI::App& app) {
       ->type_name("PACK");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   addRemovedOption(*command, "--tolerance", "--bounce-tolerance");  // `render`: loss along a path
-  command->callback([arguments] {
+  command->callback([arguments, measure = std::move(measure)] {
     const pack::Pack pack = pack::read(arguments->input);  // makes every check of the reader
     if (!arguments->other.empty()) {
       const nlohmann::json difference = diffJson(pack, pack::read(arguments->other));
@@ -188,9 +188,9 @@ void addInfoCommand(CLI::App& app) {
       return;
     }
     if (arguments->json) {
-      console::printText(jsonText(infoJson(pack, arguments->tolerance)) + "\n");
+      console::printText(jsonText(infoJson(pack, arguments->tolerance, measure)) + "\n");
     } else {
-      console::printText(infoText(pack, arguments->tolerance));
+      console::printText(infoText(pack, arguments->tolerance, measure));
       if (arguments->verify)
         console::printLine("verified: {} sections, every hash, count, index and number", pack.sections.size());
     }

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bake/depth_probe.h"
+#include "bake/polarization_probe.h"
 
 namespace malus::bake {
 
@@ -17,7 +18,8 @@ struct PacksDiffer {};
 
 // measure: the depth probe of a renderer; without it, packs have no measurement.
 void addBakeCommand(CLI::App& app, MeasureDepth measure = {});
-void addInfoCommand(CLI::App& app);
+// measure: of a renderer; without it, `info` measures nothing.
+void addInfoCommand(CLI::App& app, MeasurePolarization measure = {});
 void addUnpackCommand(CLI::App& app);
 
 // For --list-materials: one line per material with its constants and source.

@@ -1,6 +1,7 @@
 #include "bake/info.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,56 @@ glm::dvec3 errorBound(const pack::Scene& scene) {
   ImageRequest request;
   request.depth = scene.depth;
   return polarizationErrorBound(scene, request);
+}
+
+// Measures the difference that polarization makes if the bound is too large.
+std::optional<PolarizationProbe> probe(const pack::Scene& scene, const glm::dvec3& bound,
+                                       const MeasurePolarization& measure) {
+  if (!measure || isUseful(bound)) return std::nullopt;
+  return measure(scene);
+}
+
+json toJson(const std::optional<PolarizationProbe>& probed) {
+  if (!probed) return {};
+  return {{"width", probed->width},
+          {"height", probed->height},
+          {"relRms", probed->relRms},
+          {"shareOver1Percent", probed->shareOver1Percent}};
+}
+
+std::string polarizationText(const pack::Scene& scene, const MeasurePolarization& measure) {
+  const glm::dvec3 bound = errorBound(scene);
+  if (bound == glm::dvec3(0.0)) return "  the unpolarized intensity without a filter is exact\n";
+  if (isUseful(bound))
+    return fmt::format(
+        "  without polarization the relative error of the intensity is at most {:.3g}, {:.3g}, {:.3g} (r, g, b)\n",
+        bound.x, bound.y, bound.z);
+  std::string text = "  without polarization: no useful bound of the error";
+  if (const std::optional<PolarizationProbe> probed = probe(scene, bound, measure))
+    text +=
+        fmt::format("; measured at {} x {} pixels: relative RMS {:.2g}, {:.2g} % of the pixels off by more than 1 %",
+                    probed->width, probed->height, probed->relRms, 100 * probed->shareOver1Percent);
+  return text + "\n";
+}
+
+// The number of interactions after which at most a share of the light of the bake's small image arrives; none if the
+// bake measured no light.
+std::optional<std::size_t> measuredDeepest(const pack::Scene& scene, double tolerance) {
+  if (scene.lightBeyond.empty()) return std::nullopt;
+  std::size_t depth = 0;
+  while (depth < scene.depth && shareBeyond(scene.lightBeyond, depth) > tolerance) ++depth;
+  return depth;
+}
+
+std::string depthText(const pack::Scene& scene, double tolerance) {
+  std::string text = fmt::format("  deepest bounce that can change a pixel by more than {:g} of its radiance: {}\n",
+                                 tolerance, deepestBounce(scene, scene.depth, tolerance));
+  if (const std::optional<std::size_t> deepest = measuredDeepest(scene, tolerance))
+    text += fmt::format("  measured on a small image: {:.3g} % of the light arrives after more than {} bounces\n",
+                        100 * shareBeyond(scene.lightBeyond, *deepest), *deepest);
+  if (!scene.lightBeyond.empty())
+    text += fmt::format("  light beyond the depth: {:.3g} %\n", 100 * shareBeyond(scene.lightBeyond, scene.depth));
+  return text;
 }
 
 // Of each mesh.
@@ -97,7 +148,7 @@ std::vector<pack::Effect> currentEffects(const pack::Scene& scene) {
 }
 }  // namespace
 
-json infoJson(const pack::Pack& pack, double tolerance) {
+json infoJson(const pack::Pack& pack, double tolerance, const MeasurePolarization& measure) {
   const pack::Scene& scene = pack.scene;
   const std::vector<std::size_t> places = countPlaces(scene);
   json meshes = json::array(), materials = json::array(), sections = json::array();
@@ -124,6 +175,7 @@ json infoJson(const pack::Pack& pack, double tolerance) {
                         {"sizeBytes", s.sizeBytes},
                         {"hash", hex(s.hash)}});
   const glm::dvec3 bound = errorBound(scene);
+  const std::optional<std::size_t> deepest = measuredDeepest(scene, tolerance);
   const pack::InstanceCounts counts = pack::countInstances(scene);
   const json provenance = provenanceJson(pack.scene);
   return {{"formatVersion", pack.formatVersion},
@@ -144,14 +196,18 @@ json infoJson(const pack::Pack& pack, double tolerance) {
           {"lights", scene.lights.size()},
           {"effects", effectsJson(currentEffects(scene))},
           {"polarizationErrorBound", {bound.x, bound.y, bound.z}},
-          {"deepestBounce", {{"tolerance", tolerance}, {"bounce", deepestBounce(scene, scene.depth, tolerance)}}},
+          {"withoutPolarization", toJson(probe(scene, bound, measure))},
+          {"deepestBounce",
+           {{"tolerance", tolerance},
+            {"bounce", deepestBounce(scene, scene.depth, tolerance)},
+            {"measured", deepest ? json(*deepest) : json()}}},
           {"lightBeyondDepth", scene.lightBeyond.empty() ? json() : json(shareBeyond(scene.lightBeyond, scene.depth))},
           {"sections", sections},
           {"warnings", bakeWarnings(scene)},
           {"provenance", provenance}};
 }
 
-std::string infoText(const pack::Pack& pack, double tolerance) {
+std::string infoText(const pack::Pack& pack, double tolerance, const MeasurePolarization& measure) {
   const pack::Scene& scene = pack.scene;
   std::string text =
       fmt::format("{}  {}\n{} vertices, {}, {} lights, {} x {} pixels, depth {}\npack {} (format {})\n",
@@ -178,16 +234,8 @@ std::string infoText(const pack::Pack& pack, double tolerance) {
   text += "\neffects\n";
   for (const pack::Effect& e : currentEffects(scene))
     text += fmt::format("  {:<3} {:<22} {}\n", e.on ? "on" : "off", printable(e.name), printable(e.reason));
-  const glm::dvec3 bound = errorBound(scene);
-  text += bound == glm::dvec3(0.0) ? "  the unpolarized intensity without a filter is exact\n"
-                                   : fmt::format(
-                                         "  without polarization the relative error of the intensity is at most "
-                                         "{:.3g}, {:.3g}, {:.3g} (r, g, b)\n",
-                                         bound.x, bound.y, bound.z);
-  text += fmt::format("  deepest bounce that can change a pixel by more than {:g} of its radiance: {}\n", tolerance,
-                      deepestBounce(scene, scene.depth, tolerance));
-  if (!scene.lightBeyond.empty())
-    text += fmt::format("  light beyond the depth: {:.3g} %\n", 100 * shareBeyond(scene.lightBeyond, scene.depth));
+  text += polarizationText(scene, measure);
+  text += depthText(scene, tolerance);
   text += "\nsections\n";
   for (const pack::Section& s : pack.sections)
     text +=

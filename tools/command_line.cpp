@@ -19,6 +19,7 @@
 #include "render/devices_cli.h"
 #include "render/make_renderer.h"
 #include "render/material_cli.h"
+#include "render/polarization_probe.h"
 #include "render/sweep_cli.h"
 #include "tools/completion.h"
 
@@ -119,7 +120,7 @@ CommandLine::CommandLine() : app_("malus: polarized mirror and glass reflections
   app_.add_flag("--list-devices", listsDevices_, "List the Vulkan devices");
   prep::addPrepCommand(app_);
   bake::addBakeCommand(app_, render::probeDepth);
-  bake::addInfoCommand(app_);
+  bake::addInfoCommand(app_, render::probePolarization);
   bake::addUnpackCommand(app_);
   render::addRenderCommand(app_);
   render::addCompareCommand(app_);

@@ -40,8 +40,12 @@ std::string warningText(Effect effect, const pack::Scene& scene, const bake::Ima
   std::string size = "the error can be as large as its light";
   if (isPolarization(effect)) {
     const glm::dvec3 bound = bake::polarizationErrorBound(scene, request);
-    size = fmt::format("the relative error of the unpolarized intensity is at most {:.3g}, {:.3g}, {:.3g} (r, g, b)",
-                       bound.x, bound.y, bound.z);
+    size =
+        bake::isUseful(bound)
+            ? fmt::format("the relative error of the unpolarized intensity is at most {:.3g}, {:.3g}, {:.3g} (r, g, b)",
+                          bound.x, bound.y, bound.z)
+            : "there is no useful bound of the error of the unpolarized intensity ('malus compare --effects' measures "
+              "it)";
   }
   return fmt::format("--effects leaves out {0}, which this scene needs: {1}; add {0} to --effects to keep it",
                      shaders::effectName(effect), size);

@@ -123,5 +123,36 @@ TEST(Info, InvalidUtf8) {
   EXPECT_NO_THROW(info.dump(2, ' ', false, json::error_handler_t::replace));
 }
 
+// Two glass mirrors at any angle: the bound is 1 at depth 2, and useless at depth 5.
+TEST(Info, MeasuresPolarizationWhereTheBoundSaysNothing) {
+  pack::Scene scene = test::smallScene();
+  for (pack::Mesh& mesh : scene.meshes) mesh.material = 0;
+  int calls = 0;
+  const MeasurePolarization measure = [&](const pack::Scene&) {
+    ++calls;
+    return PolarizationProbe{64, 48, 0.0125, 0.031};
+  };
+  const pack::Pack pack = writeAndParse(scene);
+  const std::string text = infoText(pack, kInfoTolerance, measure);
+  EXPECT_CONTAINS(text, "no useful bound", "measured at 64 x 48 pixels", "0.013", "3.1 %");
+  EXPECT_EQ(infoJson(pack, kInfoTolerance, measure)["withoutPolarization"]["relRms"], 0.0125);
+  EXPECT_EQ(calls, 2);
+  EXPECT_TRUE(infoJson(pack)["withoutPolarization"].is_null());
+  scene.depth = 0;
+  infoText(writeAndParse(scene), kInfoTolerance, measure);
+  EXPECT_EQ(calls, 2) << "the bound suffices";
+}
+
+TEST(Info, TellsTheMeasuredDeepestBounce) {
+  pack::Scene scene = test::smallScene();
+  scene.lightBeyond = {0.9, 0.2, 0.02, 5e-4, 1e-4, 2e-5};
+  const pack::Pack pack = writeAndParse(scene);
+  EXPECT_EQ(infoJson(pack, 1e-3)["deepestBounce"]["measured"], 3);
+  EXPECT_EQ(infoJson(pack, 0.1)["deepestBounce"]["measured"], 2);
+  EXPECT_CONTAINS(infoText(pack, 1e-3), "0.05 % of the light arrives after more than 3 bounces");
+  scene.lightBeyond.clear();
+  EXPECT_TRUE(infoJson(writeAndParse(scene))["deepestBounce"]["measured"].is_null());
+}
+
 }  // namespace
 }  // namespace malus::bake

@@ -17,7 +17,7 @@ namespace {
 using pack::Material;
 using pack::MaterialKind;
 
-constexpr ImageRequest depthOf(std::uint32_t depth) { return {depth, {1, 0, 0, 0}, false, false}; }
+constexpr ImageRequest imageOfDepth(std::uint32_t depth) { return {depth, {1, 0, 0, 0}, false, false}; }
 
 Material gold() {
   Material m = material(MaterialKind::metal);
@@ -119,8 +119,8 @@ TEST(PolarizationBound, TheLargestValueOfARange) {
 TEST(PolarizationBound, SmallMirrorsMeetOnlySteepRays) {
   const double half = 0.1;
   const double toSecond = 1 / std::sqrt(1 + 8 * half * half), toFirst = 0.5 / std::sqrt(0.25 + 2 * half * half);
-  const glm::dvec3 bound = polarizationErrorBound(facingSquares(gold(), half, 2), depthOf(2));
-  const glm::dvec3 any = polarizationErrorBound(makeScene({gold()}, 2), depthOf(2));
+  const glm::dvec3 bound = polarizationErrorBound(facingSquares(gold(), half, 2), imageOfDepth(2));
+  const glm::dvec3 any = polarizationErrorBound(makeScene({gold()}, 2), imageOfDepth(2));
   for (int i = 0; i < 3; ++i) {
     const std::complex<double> n(gold().eta[i], -gold().k[i]);
     const double exact = reflectedD(n, toFirst) * reflectedD(n, toSecond);
@@ -134,8 +134,8 @@ TEST(PolarizationBound, SmallMirrorsMeetOnlySteepRays) {
 TEST(PolarizationBound, BrewstersAngleMustBeInReach) {
   Material glass = material(MaterialKind::mirrorGlass);
   glass.eta = glm::dvec3(1.5);
-  EXPECT_LT(polarizationErrorBound(facingSquares(glass, 0.1, 4), depthOf(4)).x, 0.1);
-  EXPECT_NEAR(polarizationErrorBound(facingSquares(glass, 2, 2), depthOf(2)).x, 1, 1e-9);
+  EXPECT_LT(polarizationErrorBound(facingSquares(glass, 0.1, 4), imageOfDepth(4)).x, 0.1);
+  EXPECT_NEAR(polarizationErrorBound(facingSquares(glass, 2, 2), imageOfDepth(2)).x, 1, 1e-9);
 }
 
 // Every chain of mirrors that a ray can take is below the bound: rays between random points of a prism of mirrors.
@@ -152,7 +152,7 @@ TEST(PolarizationBound, HoldsForRandomChains) {
     scene.meshes.push_back(mesh);
   }
   scene.camera.position = {0, 0, 0};
-  const double bound = polarizationErrorBound(scene, depthOf(3)).z;
+  const double bound = polarizationErrorBound(scene, imageOfDepth(3)).z;
   const std::complex<double> n(gold().eta.z, -gold().k.z);
   std::mt19937 random(11);
   double largest = 0;

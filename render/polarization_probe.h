@@ -1,0 +1,12 @@
+// Measurement of the difference that polarization makes in a small image of a scene, for `malus info`.
+#pragma once
+
+#include "bake/polarization_probe.h"
+
+namespace malus::render {
+
+// Renders 64 pixels along the longer side with Embree, by the complete recursive method and by that without
+// polarization. Throws as Renderer::render() does.
+bake::PolarizationProbe probePolarization(const pack::Scene& scene);
+
+}  // namespace malus::render

@@ -71,7 +71,9 @@ AblationRow makeRow(const Group& group, const Variant& variant) {
 }
 
 std::string imageName(const Group& group, const AblationRow& row) {
-  const std::string what = row.kind == VariantKind::complete ? "complete" : "without-" + row.name;
+  const std::string what = row.kind == VariantKind::complete  ? "complete"
+                           : row.kind == VariantKind::samples ? row.name
+                                                              : "without-" + row.name;
   return fmt::format("{}-{}x{}-{}-{}.exr", safeName(row.scene), row.width, row.height, backendInfo(group.backend).name,
                      safeName(what));
 }
@@ -158,7 +160,10 @@ void firstPass(Ablation& ablation, Group& group, std::vector<Variant> variants, 
       break;
     }
     const Variant& variant = variants[i];
-    progress(fmt::format("{}: {}", group.title(), i == 0 ? "complete" : "without " + variant.name));
+    progress(fmt::format("{}: {}", group.title(),
+                         i == 0                                 ? "complete"
+                         : variant.kind == VariantKind::samples ? variant.name
+                                                                : "without " + variant.name));
     renderFirst(ablation, group, variant, images, folder);
     if (i == 0 && !ablation.rows.back().ok()) return;  // nothing to compare with
   }

@@ -25,9 +25,11 @@ std::string lossText(const AblationRow& row) {
   const ImageError& error = row.error;
   if (error.maxAbs == 0) return "no difference here";
   if (isInvisible(error)) return fmt::format("no visible difference here (relative RMS {:.2g})", error.relRms);
-  return fmt::format("without {} {} of the pixels change by more than 1 % (relative RMS {:.2g})",
-                     row.kind == VariantKind::depth ? "them" : "it", percentText(error.shareOver1Percent),
-                     error.relRms);
+  const char* change = row.kind == VariantKind::samples ? "with these alone"
+                       : row.kind == VariantKind::depth ? "without them"
+                                                        : "without it";
+  return fmt::format("{} {} of the pixels change by more than 1 % (relative RMS {:.2g})", change,
+                     percentText(error.shareOver1Percent), error.relRms);
 }
 
 std::string costText(const AblationRow& row) {
@@ -35,12 +37,15 @@ std::string costText(const AblationRow& row) {
   if (row.samplesMs.size() < kFewestRounds)
     return fmt::format("the time needs {} rounds, has {}", kFewestRounds, row.samplesMs.size());
   const double saved = savedShare(row);
+  if (saved > 0 && row.kind == VariantKind::samples)
+    return fmt::format("the others cost {} of the time on {}", percentText(saved), renderer);
   if (saved > 0) return fmt::format("costs {} of the time on {}", percentText(saved), renderer);
   if (saved < 0) return fmt::format("the image takes {} more time on {} without", percentText(-saved), renderer);
   return fmt::format("costs no significant time on {}", renderer);
 }
 
 std::string leaveOutText(const AblationRow& row) {
+  if (row.kind == VariantKind::samples) return "take fewer by --light-samples";
   if (row.kind == VariantKind::depth) return fmt::format("leave out by --depth {}", row.depth);
   if (row.kind == VariantKind::polarization) return fmt::format("leave out by --method {}", row.method);
   return "leave out";
@@ -63,7 +68,7 @@ double savedShare(const AblationRow& row) { return row.differs ? 1 - row.ratioTo
 std::string advice(const AblationRow& row) {
   if (!row.ok()) return fmt::format("{}: {}", subject(row), row.status);
   const bool saves = savedShare(row) > 0, isTimed = row.samplesMs.size() >= kFewestRounds;
-  std::string action = "keep";
+  std::string action = row.kind == VariantKind::samples ? "keep the others" : "keep";
   if (isInvisible(row.error)) action = saves || !isTimed ? leaveOutText(row) : "leaving it out gains nothing";
   return fmt::format("{}: {}; {}: {}", subject(row), lossText(row), costText(row), action);
 }

@@ -35,6 +35,14 @@ Variant depthVariant(const Variant& complete, std::uint32_t depth) {
   return variant;
 }
 
+Variant samplesVariant(const Variant& complete, std::uint32_t samples) {
+  Variant variant = complete;
+  variant.kind = VariantKind::samples;
+  variant.name = fmt::format("{} of {} light samples", samples, complete.parameters.lightSamples);
+  variant.parameters.lightSamples = samples;
+  return variant;
+}
+
 }  // namespace
 
 const char* variantKindName(VariantKind kind) {
@@ -47,6 +55,8 @@ const char* variantKindName(VariantKind kind) {
       return "polarization";
     case VariantKind::depth:
       return "depth";
+    case VariantKind::samples:
+      return "samples";
   }
   return "";
 }
@@ -56,8 +66,9 @@ std::vector<Variant> ablationVariants(const pack::Scene& scene, const RenderPara
   std::vector<Variant> variants = {{VariantKind::complete, "", complete.name, parameters, nullptr}};
   const Variant first = variants.front();
   const bake::ImageRequest request{parameters.depth, parameters.analyser, false, false};
+  const std::vector<pack::Effect> found = bake::findEffects(scene, request);
   std::vector<Variant> effects;
-  for (const pack::Effect& effect : bake::findEffects(scene, request)) {
+  for (const pack::Effect& effect : found) {
     const Effect which = bake::effectNamed(effect.name);
     if (!effect.on || which == Effect::kTir) continue;  // total reflection follows from dielectric interfaces
     Variant variant = first;
@@ -74,6 +85,9 @@ std::vector<Variant> ablationVariants(const pack::Scene& scene, const RenderPara
   }
   variants.insert(variants.end(), effects.begin(), effects.end());
   for (const std::uint32_t depth : shorterDepths(parameters.depth)) variants.push_back(depthVariant(first, depth));
+  if (bake::isOn(found, Effect::kAreaLights) || bake::isOn(found, Effect::kEnvironmentLight))
+    for (std::uint32_t samples = parameters.lightSamples / 2; samples > 0; samples /= 2)
+      variants.push_back(samplesVariant(first, samples));
   return variants;
 }
 

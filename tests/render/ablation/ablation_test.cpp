@@ -66,6 +66,30 @@ TEST(AblationVariants, MeasureFewBouncesOfALongPath) {
   EXPECT_TRUE(std::adjacent_find(depths.begin(), depths.end()) == depths.end());
 }
 
+// A diffuse floor below a lamp, which lights it.
+pack::Scene lamp() {
+  pack::Scene scene = test::emptyScene(1);
+  test::addMaterial(scene, test::dielectric(pack::MaterialKind::lambert, 1, 0.5));
+  test::addMaterial(scene, test::emitter({1, 1, 1}));
+  scene.materials[1].illuminates = true;
+  test::addSquare(scene, 0, {0, 0, 0}, {0, 1, 0}, 1);
+  test::addSquare(scene, 1, {0, 2, 0}, {0, -1, 0}, 1);
+  test::look(scene, {0, 1, 3}, {0, 0, 0});
+  return scene;
+}
+
+TEST(AblationVariants, HalveTheLightSamples) {
+  const pack::Scene scene = lamp();
+  RenderParameters parameters = defaultParameters(scene);
+  parameters.lightSamples = 8;
+  std::vector<std::uint32_t> samples;
+  for (const Variant& variant : ablationVariants(scene, parameters))
+    if (variant.kind == VariantKind::samples) samples.push_back(variant.parameters.lightSamples);
+  EXPECT_EQ(samples, (std::vector<std::uint32_t>{4, 2, 1}));
+  ASSERT_NE(named(ablationVariants(scene, parameters), "2 of 8 light samples"), nullptr);
+  for (const Variant& variant : ablationVariants(mirrors(1), parameters)) EXPECT_NE(variant.kind, VariantKind::samples);
+}
+
 AblationRow timedRow(double relRms, double share, double ratio, std::size_t rounds) {
   AblationRow row;
   row.kind = VariantKind::effect;

@@ -101,9 +101,9 @@ RenderResult Job::render() {
 }
 
 void Job::applyBudget() {
-  const bool leavesOutEffects = settings_.effects == "auto";
-  budget_ = findBudget(pack_, parameters_, renderers_,
-                       {settings_.maxError, settings_.maxMs, leavesOutEffects, settings_.threads}, console::progress);
+  BudgetSearch search(pack_, parameters_, renderers_, settings_.effects == "auto", settings_.threads,
+                      console::progress);
+  budget_ = settings_.maxMs ? search.withinTime(*settings_.maxMs) : search.withinError(*settings_.maxError);
   settings_.method = budget_->image.method;
   parameters_ = budget_->image.parameters;
   reduced_ = budget_->image.scene;

@@ -101,39 +101,44 @@ Combination chooseByTime(std::vector<Combination> list, double maxMs, double sca
 
 }  // namespace
 
-Budget findBudget(const pack::Pack& pack, const RenderParameters& full, RendererPool& pool,
-                  const BudgetSettings& settings, const Progress& progress) {
-  const Measurements m = measureChoices(pack, full, pool, settings.threads, settings.leavesOutEffects, progress);
-  const Combination complete = completeCombination(m);
-  const std::vector<Combination> list = combinations(m, complete.method);
-  const double scale = m.fullPixels / m.measuredPixels;
-  Budget budget;
-  budget.chosen = complete;
-  budget.precision = m.precision;
-  budget.completeMs = complete.milliseconds * scale;
-  if (settings.maxMs) budget.chosen = chooseByTime(list, *settings.maxMs, scale, pack.scene, full, pool);
-  if (settings.maxMs || (settings.maxError && *settings.maxError > 0)) {
-    progress("checking the error on tiles of the image");
-    ErrorCheck check(pack.scene, complete.method, full, pool);
-    if (settings.maxMs)
-      budget.checked = isComplete(budget.chosen, m) ? CheckedError() : check(budget.chosen);
-    else
-      budget.chosen = chooseByError(list, m, *settings.maxError, check, budget.checked);
-  }
-  budget.image = planImage(pack.scene, budget.chosen, full);
-  budget.expectedMs = budget.chosen.milliseconds * scale;
-  budget.parts = describe(budget.chosen, m);
-  return budget;
+BudgetSearch::BudgetSearch(const pack::Pack& pack, const RenderParameters& full, RendererPool& pool,
+                           bool leavesOutEffects, unsigned threads, const Progress& progress)
+    : pack_(pack),
+      full_(full),
+      pool_(pool),
+      progress_(progress),
+      measurements_(measureChoices(pack, full, pool, threads, leavesOutEffects, progress)),
+      complete_(completeCombination(measurements_)),
+      combinations_(combinations(measurements_, complete_.method)) {}
+
+Budget BudgetSearch::withinError(double maxError) {
+  CheckedError checked;
+  const Combination chosen =
+      maxError > 0 ? chooseByError(combinations_, measurements_, maxError, check(), checked) : complete_;
+  return makeBudget(chosen, checked);
 }
 
-std::vector<Combination> fastestWithin(const Measurements& measurements, const std::vector<double>& errors) {
-  const std::vector<Combination> list = combinations(measurements, completeRecursiveMethod().name);
-  std::vector<Combination> result;
-  for (const double error : errors) {
-    const auto found = std::find_if(list.begin(), list.end(), [&](const Combination& c) { return c.error <= error; });
-    if (found != list.end()) result.push_back(*found);
-  }
-  return result;
+Budget BudgetSearch::withinTime(double maxMs) {
+  const Combination chosen = chooseByTime(combinations_, maxMs, scale(), pack_.scene, full_, pool_);
+  return makeBudget(chosen, isComplete(chosen, measurements_) ? CheckedError() : check()(chosen));
+}
+
+ErrorCheck& BudgetSearch::check() {
+  progress_("checking the error on tiles of the image");
+  if (!check_) check_.emplace(pack_.scene, complete_.method, full_, pool_);
+  return *check_;
+}
+
+Budget BudgetSearch::makeBudget(const Combination& chosen, const CheckedError& checked) const {
+  Budget budget;
+  budget.chosen = chosen;
+  budget.image = planImage(pack_.scene, chosen, full_);
+  budget.checked = checked;
+  budget.expectedMs = chosen.milliseconds * scale();
+  budget.completeMs = complete_.milliseconds * scale();
+  budget.precision = measurements_.precision;
+  budget.parts = describe(chosen, measurements_);
+  return budget;
 }
 
 }  // namespace malus::render

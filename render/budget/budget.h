@@ -13,13 +13,6 @@
 
 namespace malus::render {
 
-struct BudgetSettings {
-  std::optional<double> maxError;  // relative RMS against the complete image of the same renderer (display_error.h)
-  std::optional<double> maxMs;     // of tracing the image
-  bool leavesOutEffects = true;    // false: the user chose the effects
-  unsigned threads = 0;            // of the reference, 0 for all
-};
-
 // Part of a choice, with what it was measured to add alone.
 struct BudgetPart {
   std::string what;       // "method fresnel", "without highlights", "depth 4"
@@ -37,13 +30,36 @@ struct Budget {
   std::vector<BudgetPart> parts;  // empty: the complete image
 };
 
-// Chooses by measurements of a small image (measure.h) and checks the choice on tiles of the full one; a choice that
-// fails is replaced by a more careful one. pack.scene and pool: the whole scene. Throws Error if nothing keeps the
-// time, naming the least that was found.
-Budget findBudget(const pack::Pack& pack, const RenderParameters& full, RendererPool& pool,
-                  const BudgetSettings& settings, const Progress& progress);
+// Chooses for one image by measurements of a small one (measure.h), and checks each choice on tiles of the full image;
+// a choice that fails is replaced by a more careful one.
+class BudgetSearch {
+ public:
+  // Measures, or reads earlier measurements. pack.scene and pool: the whole scene; both must outlive the search.
+  // leavesOutEffects: false if the user chose the effects. threads: of the reference, 0 for all. Throws Error if the
+  // complete method does not render.
+  BudgetSearch(const pack::Pack& pack, const RenderParameters& full, RendererPool& pool, bool leavesOutEffects,
+               unsigned threads, const Progress& progress);
 
-// The fastest combination for each of some errors, by the measurements alone: for the plot of `malus compare`.
-std::vector<Combination> fastestWithin(const Measurements& measurements, const std::vector<double>& errors);
+  // The fastest within a relative RMS error, 0 or more, against the complete image of the same renderer
+  // (display_error.h).
+  Budget withinError(double maxError);
+  // The most accurate within a time of tracing the image, in milliseconds. Throws Error if nothing keeps it, naming the
+  // least that was found.
+  Budget withinTime(double maxMs);
+
+ private:
+  ErrorCheck& check();
+  Budget makeBudget(const Combination& chosen, const CheckedError& checked) const;
+  double scale() const { return measurements_.fullPixels / measurements_.measuredPixels; }
+
+  const pack::Pack& pack_;
+  RenderParameters full_;
+  RendererPool& pool_;
+  Progress progress_;
+  Measurements measurements_;
+  Combination complete_;
+  std::vector<Combination> combinations_;  // fastest first
+  std::optional<ErrorCheck> check_;        // made when it is first needed
+};
 
 }  // namespace malus::render

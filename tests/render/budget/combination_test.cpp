@@ -67,10 +67,6 @@ TEST(Combinations, TheFastestWithinAnErrorIsExactForZero) {
   EXPECT_TRUE(fastest(list, 0).off.empty());
   EXPECT_EQ(fastest(list, 0.0012).method, "importance");
   EXPECT_EQ(fastest(list, 1).method, "fresnel");
-  const std::vector<Combination> points = fastestWithin(measured(), {0.001, 0.01, 0.05});
-  ASSERT_EQ(points.size(), 3u);
-  EXPECT_GE(points[0].milliseconds, points[1].milliseconds);
-  EXPECT_GE(points[1].milliseconds, points[2].milliseconds);
 }
 
 RenderResult image(std::vector<float> pixels) {

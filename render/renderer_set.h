@@ -1,10 +1,9 @@
-// The renderers of one scene, each made when it is first needed.
+// The renderers of one scene, and of copies of it without effects, by backend.
 #pragma once
 
 #include <map>
-#include <memory>
 
-#include "render/make_renderer.h"
+#include "render/renderer_pool.h"
 
 namespace malus::render {
 
@@ -14,17 +13,15 @@ class RendererSet {
   RendererSet(const pack::Scene& scene, RendererOptions options) : scene_(scene), options_(std::move(options)) {}
   RendererSet(pack::Scene&& scene, RendererOptions options) = delete;
 
-  // Throws as makeRenderer() does.
-  Renderer& operator[](Backend backend) {
-    std::unique_ptr<Renderer>& renderer = renderers_[backend];
-    if (!renderer) renderer = makeRenderer(backend, scene_, options_);
-    return *renderer;
-  }
+  // The renderer of the scene. Throws as makeRenderer() does.
+  Renderer& operator[](Backend backend) { return pool(backend)[nullptr]; }
+
+  RendererPool& pool(Backend backend) { return pools_.try_emplace(backend, scene_, backend, options_).first->second; }
 
  private:
   const pack::Scene& scene_;
   RendererOptions options_;
-  std::map<Backend, std::unique_ptr<Renderer>> renderers_;
+  std::map<Backend, RendererPool> pools_;
 };
 
 }  // namespace malus::render

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "render/compare/statistics.h"
 #include "render/progress.h"
 #include "render/scene/embree_path.h"
+#include "render/scene/render_parameters.h"
 #include "render/scene/vulkan_path.h"
 
 namespace malus::render {
@@ -39,6 +41,18 @@ struct ComparisonSettings {
   std::vector<std::string> gpuFamilies;           // for a compiler's static estimates: navi21, navi31, ...
 };
 
+// Errors for which a comparison shows what `malus render --max-error` chooses.
+inline constexpr double kShownErrors[] = {0.001, 0.01, 0.05};
+
+// A row with less work than the image needs, as --max-error chooses it.
+struct ErrorChoice {
+  std::vector<double> maxErrors;   // for which it is chosen
+  std::vector<std::string> parts;  // "method fresnel", "without highlights", "depth 4"; empty: the whole image
+  std::shared_ptr<const pack::Scene> scene;  // without effects; null: the whole one
+  RenderParameters parameters;               // of the image
+  double displayError = 0;                   // relative RMS, clamped at the display's white, which maxErrors bound
+};
+
 // One method on one renderer with one view of one scene.
 struct ComparisonRow {
   std::string scene, method;
@@ -47,6 +61,7 @@ struct ComparisonRow {
   VulkanPath vulkanPath = VulkanPath::automatic;  // of the Vulkan renderer: the path taken
   EmbreePath embreePath = EmbreePath::automatic;  // of the Embree renderer: the path taken
   bool isSecondPath = false;                      // a method once more, by the path that is not taken automatically
+  std::optional<ErrorChoice> choice;              // a choice of --max-error, not a method
   std::string withoutRecursion;                   // as RenderResult::withoutRecursion
   std::uint32_t width = 0, height = 0, depth = 0;
   std::size_t payloadBytes = 0;  // per ray: of a recursive method, or a hit record
@@ -65,7 +80,7 @@ struct ComparisonRow {
   std::string image;                    // file name in images/
   bool ok() const { return status == "ok"; }
   // Rows that are compared by method: one per method, renderer and view.
-  bool isMain() const { return !everyEffect && !isSecondPath; }
+  bool isMain() const { return !everyEffect && !isSecondPath && !choice; }
 };
 
 // Of the renderer that rendered the row; "auto" if it failed.

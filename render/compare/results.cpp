@@ -7,6 +7,7 @@
 
 #include <commit.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bake/pack/instances.h"
 #include "render/compare/machine.h"
@@ -65,6 +66,17 @@ json toJson(const ComparisonRow& row) {
   result["precision"] = row.precision && rendered ? toJson(*row.precision) : json();
   result["errorToReference"] = when(rendered, toJson(row.errorToReference));
   result["image"] = when(rendered && !row.image.empty(), fmt::format("images/{}", row.image));
+  return result;
+}
+
+// A row of a choice of --max-error.
+json choiceJson(const ComparisonRow& row) {
+  json result = toJson(row);
+  result["maxErrors"] = row.choice->maxErrors;
+  result["parts"] = row.choice->parts;
+  result["tracedDepth"] = row.choice->parameters.depth;
+  result["tolerance"] = row.choice->parameters.tolerance;
+  result["displayRelRms"] = row.ok() ? number(row.choice->displayError) : json();
   return result;
 }
 
@@ -194,6 +206,32 @@ std::string effectsTable(const Comparison& comparison) {
   return text;
 }
 
+// "0.1 %, 1 %"
+std::string errorList(const std::vector<double>& errors) {
+  std::vector<std::string> texts;
+  for (const double e : errors) texts.push_back(fmt::format("{:g} %", 100 * e));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string choicesTable(const Comparison& comparison) {
+  std::string text;
+  for (const ComparisonRow& r : comparison.rows) {
+    if (!r.choice) continue;
+    if (text.empty())
+      text = fmt::format(
+          "\nchosen by --max-error: relative RMS error of the displayed image against the exact one\n"
+          "  {:<34}{:<16}{:>10}{:>10}  {:<22}{}\n",
+          "", "error at most", "rel RMS", "ms", "ratio to schlick", "choice");
+    text += fmt::format("  {:<34}{:<16}{:>10.2g}{:>10}  {:<22}{}\n",
+                        fmt::format("{} {} x {}, {}", r.scene, r.width, r.height, backendInfo(r.backend).name),
+                        errorList(r.choice->maxErrors), r.choice->displayError,
+                        r.samplesMs.empty() ? "-" : fmt::format("{:.1f}", r.time.median), ratioText(r.ratioToSchlick),
+                        r.choice->parts.empty() ? "the exact method with every effect"
+                                                : fmt::format("{}", fmt::join(r.choice->parts, ", ")));
+  }
+  return text;
+}
+
 std::string pathsTable(const Comparison& comparison, Backend backend, const std::string& title) {
   std::string text;
   for (const PathComparison& e : comparison.paths) {
@@ -228,7 +266,8 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
   json backends = json::array();
   for (const Backend b : settings.backends) backends.push_back(backendInfo(b).name);
   json scenes = json::object(), references = json::array(), rows = json::array(), everything = json::array(),
-       secondPath = json::array(), effects = json::array(), paths = json::array(), exposure = json::object();
+       secondPath = json::array(), choices = json::array(), effects = json::array(), paths = json::array(),
+       exposure = json::object();
   for (const auto& [name, pack] : comparison.packs) {
     const pack::InstanceCounts instances = pack::countInstances(pack.scene);
     scenes[name] = {{"title", pack.scene.title},
@@ -247,7 +286,10 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
                           {"depth", r.depth},
                           {"image", fmt::format("images/{}", r.image)}});
   for (const ComparisonRow& row : comparison.rows)
-    (row.everyEffect ? everything : row.isSecondPath ? secondPath : rows).push_back(toJson(row));
+    if (row.choice)
+      choices.push_back(choiceJson(row));
+    else
+      (row.everyEffect ? everything : row.isSecondPath ? secondPath : rows).push_back(toJson(row));
   for (const EffectsComparison& e : comparison.effects) effects.push_back(toJson(e, comparison));
   for (const PathComparison& e : comparison.paths) paths.push_back(toJson(e, comparison));
   return {{"malus", MALUS_VERSION},
@@ -280,6 +322,7 @@ json toJson(const Comparison& comparison, const ComparisonSettings& settings) {
           {"rows", rows},
           {"rowsWithAllEffects", everything},
           {"rowsOnSecondPath", secondPath},
+          {"rowsWithinError", choices},
           {"effects", effects},
           {"paths", paths},
           {"gpuModel", comparison.gpuModel}};
@@ -302,6 +345,12 @@ std::string csvText(const std::string& text) {
   return quoted + '"';
 }
 
+// The column `effects`: a choice of --max-error lists what it leaves out.
+std::string effectsText(const ComparisonRow& row) {
+  if (row.choice) return csvText(fmt::format("{}", fmt::join(row.choice->parts, ", ")));
+  return row.everyEffect ? "all" : "auto";
+}
+
 }  // namespace
 
 std::string toCsv(const Comparison& comparison) {
@@ -314,11 +363,11 @@ std::string toCsv(const Comparison& comparison) {
   for (const ComparisonRow& r : comparison.rows) {
     text += fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-        isPlain(r.scene) ? r.scene : csvText(r.scene), backendInfo(r.backend).name, r.method,
-        r.everyEffect ? "all" : "auto", r.width, r.height, r.depth, r.payloadBytes, r.stateBytes, r.rays, r.time.median,
-        r.time.low, r.time.high, median(r.wallMs), median(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs,
-        median(r.readBackMs), r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high, r.error.meanAbs,
-        r.error.maxAbs, r.error.relRms, r.error.shareOver1Percent, r.error.perceptual, r.error.energyRatio,
+        isPlain(r.scene) ? r.scene : csvText(r.scene), backendInfo(r.backend).name, r.method, effectsText(r), r.width,
+        r.height, r.depth, r.payloadBytes, r.stateBytes, r.rays, r.time.median, r.time.low, r.time.high,
+        median(r.wallMs), median(r.cpuMs), r.buildMs, r.uploadMs, r.compileMs, median(r.readBackMs),
+        r.ratioToSchlick.median, r.ratioToSchlick.low, r.ratioToSchlick.high, r.error.meanAbs, r.error.maxAbs,
+        r.error.relRms, r.error.shareOver1Percent, r.error.perceptual, r.error.energyRatio,
         r.precision ? fmt::format("{}", r.precision->relRms) : "",
         r.precision ? fmt::format("{}", r.precision->shareOver1Percent) : "", r.errorToReference.relRms,
         r.errorToReference.shareOver1Percent, r.vulkanPath == VulkanPath::automatic ? "" : vulkanPathName(r.vulkanPath),
@@ -340,7 +389,7 @@ std::string toTable(const Comparison& comparison) {
     group.push_back(&r);
     text += rowText(r);
   }
-  return text + groupEnd(group) + effectsTable(comparison) + pathsTables(comparison);
+  return text + groupEnd(group) + choicesTable(comparison) + effectsTable(comparison) + pathsTables(comparison);
 }
 
 }  // namespace malus::render

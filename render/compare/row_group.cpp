@@ -28,8 +28,12 @@ std::string groupTitle(const RowGroup& group) {
   return fmt::format("{} {} x {}, depth {}", group.pack->scene.name, p.width, p.height, p.depth);
 }
 
+Renderer& rowRenderer(const ComparisonRow& row, RowGroup& group) {
+  return group.renderers->pool(row.backend)[row.choice ? row.choice->scene : nullptr];
+}
+
 RenderParameters rowParameters(const ComparisonRow& row, const RowGroup& group) {
-  RenderParameters parameters = group.parameters;
+  RenderParameters parameters = row.choice ? row.choice->parameters : group.parameters;
   parameters.everyEffect = row.everyEffect;
   parameters.vulkanPath = row.vulkanPath;
   parameters.embreePath = row.embreePath;
@@ -38,8 +42,7 @@ RenderParameters rowParameters(const ComparisonRow& row, const RowGroup& group) 
 
 void renderTimed(ComparisonRow& row, RowGroup& group) {
   const double cpuBefore = cpuMs();
-  const RenderResult result =
-      renderImage((*group.renderers)[row.backend], row.method, rowParameters(row, group), false);
+  const RenderResult result = renderImage(rowRenderer(row, group), row.method, rowParameters(row, group), false);
   row.cpuMs.push_back(cpuMs() - cpuBefore);
   row.samplesMs.push_back(result.cost.traceMs);
   row.wallMs.push_back(result.cost.wallMs);
@@ -47,7 +50,7 @@ void renderTimed(ComparisonRow& row, RowGroup& group) {
 }
 
 RenderResult renderFirst(ComparisonRow& row, RowGroup& group) {
-  RenderResult result = renderImage((*group.renderers)[row.backend], row.method, rowParameters(row, group), true);
+  RenderResult result = renderImage(rowRenderer(row, group), row.method, rowParameters(row, group), true);
   row.buildMs = result.cost.buildMs;
   row.uploadMs = result.cost.uploadMs;
   row.compileMs = result.cost.compileMs;

@@ -21,6 +21,9 @@ struct RowGroup {
 // "SCENE WIDTH x HEIGHT, depth DEPTH", for progress messages.
 std::string groupTitle(const RowGroup& group);
 
+// The renderer of a row: that of its scene. Throws as makeRenderer() does.
+Renderer& rowRenderer(const ComparisonRow& row, RowGroup& group);
+
 // The parameters of a row: those of its group, with the effects and the path of the row.
 RenderParameters rowParameters(const ComparisonRow& row, const RowGroup& group);
 

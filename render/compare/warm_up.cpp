@@ -8,8 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
+#include "render/budget/display_error.h"
+#include "render/compare/choice_rows.h"
 #include "render/compare/effects_table.h"
 #include "render/compare/packs.h"
 #include "render/compare/paths_table.h"
@@ -117,6 +120,8 @@ RenderResult renderRow(ComparisonRow& row, RowGroup& group, const Exact& exact, 
                               row.isSecondPath ? fmt::format(", {}", pathName(row)) : ""));
   RenderResult result = renderFirst(row, group);
   storeErrors(row, result, exact, pack.scene.exposureEv);
+  if (row.choice && exact.image)
+    row.choice->displayError = displayError(result, *exact.image, pack.scene.exposureEv).relRms();
   if (!row.isMain()) return result;
   row.image = fileName(group, fmt::format("{}-{}", backend, row.method));
   writeImage(output.images / row.image, toImage(result, pack, group.parameters, backend, row.method), 0);
@@ -169,6 +174,26 @@ PathChoice secondPath(RowGroup& group, Backend backend, const PathChoice& chosen
   return second;
 }
 
+// Renders what --max-error chooses, unless the time is over or only some methods are compared.
+void renderChoices(Comparison& comparison, RowGroup& group, Backend backend, const ComparisonSettings& settings,
+                   const Exact& exact, const Share& share, const Output& output) {
+  const std::vector<std::string> names = methodNames();
+  const bool comparesAll = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return std::find(settings.methods.begin(), settings.methods.end(), name) != settings.methods.end();
+  });
+  if (!comparesAll || !exact.image || interrupted() || share.isOver()) return;
+  try {
+    for (ComparisonRow& row : choiceRows(group, backend, settings.threads, output.progress)) {
+      renderRow(row, group, exact, output);
+      group.rows.push_back(comparison.rows.size());
+      comparison.rows.push_back(std::move(row));
+    }
+  } catch (const Interrupted&) {  // the rows before it are kept
+  } catch (const Error& error) {
+    console::warn(fmt::format("{}: no choices of --max-error: {}", groupTitle(group), error.what()));
+  }
+}
+
 // Renders every method on one backend.
 void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const ComparisonSettings& settings,
                 const RenderResult& reference, const Share& share, const Output& output) {
@@ -205,6 +230,7 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
     group.rows.push_back(index);
     comparison.rows.push_back(std::move(row));
   }
+  renderChoices(comparison, group, backend, settings, exact, share, output);
   if (backend == Backend::vulkan && comparison.devices.contains(backendInfo(backend).name))
     comparison.deviceInfo = vulkan::toJson(vulkan::chosenDevice(settings.device));
   if (EffectsComparison entry; effects.finish(entry)) comparison.effects.push_back(std::move(entry));

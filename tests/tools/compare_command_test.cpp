@@ -1,4 +1,5 @@
 // `malus compare` and `malus render --max-error`: results, wrong arguments, failing rows, interruption.
+#include <algorithm>
 #include <csignal>
 #include <map>
 #include <set>
@@ -205,10 +206,31 @@ TEST_F(Compare, InterruptingKeepsTheFinishedRounds) {
   EXPECT_TRUE(contains(finished.err, "interrupted")) << finished.err;
 }
 
+// Each error has one row, whose error it bounds; rows are timed in the same rounds as the methods.
+TEST_F(Compare, ShowsWhatMaxErrorChooses) {
+  ASSERT_EQ(compare({"--rounds", "2", "--backends", "embree"}).exitCode, 0);
+  const json document = results();
+  std::vector<double> errors;
+  for (const json& row : document.at("rowsWithinError")) {
+    EXPECT_EQ(row.at("status"), "ok");
+    EXPECT_EQ(row.at("samplesMs").size(), 2u);
+    EXPECT_LE(row.at("tracedDepth"), row.at("depth"));
+    for (const double maxError : row.at("maxErrors")) {
+      errors.push_back(maxError);
+      EXPECT_LE(row.at("displayRelRms"), maxError) << row.dump(1);
+    }
+  }
+  std::sort(errors.begin(), errors.end());
+  EXPECT_EQ(errors, (std::vector<double>{0.001, 0.01, 0.05}));
+
+  ASSERT_EQ(compare({"--rounds", "1", "--backends", "embree", "--methods", "fresnel"}).exitCode, 0);
+  EXPECT_TRUE(results().at("rowsWithinError").empty()) << "only some methods are compared";
+}
+
 TEST_F(Compare, InterruptingAnImageOfSeveralLaunchesKeepsTheFinishedRounds) {
   Start start;
   start.environment = {{"MALUS_DEVICE", "llvmpipe"}};
-  start.sendSignalWhen = [](std::string_view err) { return contains(err, "round 2"); };
+  start.sendSignalWhen = [](std::string_view err) { return contains(err, "round 2 of 100000"); };
   start.sendSignal = SIGINT;
   const Finished finished = malus({"-v", "compare", pack(), "-o", report(), "--backends", "vulkan", "--methods",
                                    "fresnel", "--width", "100", "--rounds", "100000", "--no-report"},

@@ -10,10 +10,12 @@ import numpy
 kFolder = pathlib.Path(__file__).resolve().parents[2] / "tools" / "report"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(kFolder))
+import report_choices  # noqa: E402
 import report_colours  # noqa: E402
 import report_data  # noqa: E402
 import report_errors  # noqa: E402
 import report_images  # noqa: E402
+import report_plots  # noqa: E402
 
 kWidth, kHeight = 12, 9
 
@@ -60,6 +62,23 @@ class Parts(unittest.TestCase):
         for at, s in ((6, 1), (9, 2)):
             relative = (planes[:, :, at:at + 3].astype(float) - 128) / 127
             self.assertLess(numpy.abs(relative - stokes[:, :, s] / stokes[:, :, 0]).max(), 0.00395)
+
+    def test_choices_are_points(self):
+        method = {"scene": "a", "renderer": "embree", "method": "stokes", "width": 8, "height": 8, "depth": 2, "status": "ok",
+                  "medianMs": 3.0, "error": {"relRms": 0.0}}
+        choice = {**method, "medianMs": 1.0, "error": {"relRms": 0.004, "shareOver1Percent": 0.1}, "displayRelRms": 0.003,
+                  "maxErrors": [0.01, 0.05], "parts": ["without highlights", "depth 1"]}
+        results = {"scenes": {"a": {}}, "rows": [method], "references": [], "rowsWithinError": [choice]}
+        (group,) = report_data.group_rows(results)
+        self.assertEqual(group.points("embree"), [method, choice])
+        self.assertEqual(group.points("vulkan"), [])
+        self.assertEqual(report_data.pareto(group.points("embree")), [choice, method])
+        self.assertEqual([report_choices.point_name(row) for row in group.points("embree")],
+                         ["stokes", "error ≤ 1 % and 5 %"])
+        (entry,) = report_choices.choice_table(group)
+        self.assertEqual((entry["within"], entry["parts"], entry["error"]),
+                         ("1 % and 5 %", "without highlights, depth 1", 0.003))
+        self.assertIn("error ≤ 1 % and 5 %", report_plots.error_against_time(group, "embree"))
 
     def test_pareto_front(self):
         make = lambda ms, rms: {"status": "ok", "medianMs": ms, "error": {"relRms": rms}}  # noqa: E731

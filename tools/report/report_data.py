@@ -27,6 +27,7 @@ class Group:
     height: int
     depth: int
     rows: list = field(default_factory=list)
+    choices: list = field(default_factory=list)  # of malus render --max-error
     reference: dict = None
 
     @property
@@ -36,6 +37,10 @@ class Group:
     @property
     def renderers(self) -> list:
         return list(dict.fromkeys(row["renderer"] for row in self.rows))
+
+    def points(self, renderer: str) -> list:
+        """The rows and choices of a renderer: the points of the plot of error against time."""
+        return [row for row in self.rows + self.choices if row["renderer"] == renderer]
 
     def row(self, renderer: str, method: str):
         """Returns the row, or None if it is missing or failed."""
@@ -97,6 +102,10 @@ def group_rows(results: dict) -> list:
     for row in results["rows"]:
         key = (row["scene"], row["width"], row["height"], row["depth"])
         groups.setdefault(key, Group(*key)).rows.append(row)
+    for choice in results.get("rowsWithinError") or []:
+        key = tuple(choice[name] for name in ("scene", "width", "height", "depth"))
+        if key in groups:
+            groups[key].choices.append(choice)
     for reference in results["references"]:
         key = tuple(reference[name] for name in ("scene", "width", "height", "depth"))
         if key in groups:

@@ -10,6 +10,7 @@ from markupsafe import Markup
 import report_format
 from report_colours import (aolp_colours, difference_colours, difference_limit, dolp_colours, kSignificantDoLP,
                             linear_polarization, luminance, mapped, signed_difference, tone_mapped)
+from report_choices import choice_table
 from report_data import group_rows, number, pareto
 from report_effects import ratio_interval, replacement_reasons
 from report_errors import ErrorSummary, kOff, relative_error
@@ -35,7 +36,7 @@ class GroupView:
         self.differences, self.limit, self.polarization, self.stokes = {}, 0, None, None
         self.exposure_ev = exposure_ev
         front = [id(row) for renderer in group.renderers
-                 for row in pareto([r for r in group.rows if r["renderer"] == renderer])]
+                 for row in pareto(group.points(renderer))]
         self.on_front = {id(row): id(row) in front for row in group.rows}
         self.plots = [(renderer, Markup(error_against_time(group, renderer))) for renderer in group.renderers]
         self._read(folder)
@@ -224,7 +225,7 @@ def page(folder: pathlib.Path, results: dict) -> str:
         findings=[{**f, "answer": [Markup(a) for a in f["answer"]]}
                   for f in findings(groups, wrongs, added, devices, model, results["rows"])],
         effects=effects, reasons=replacement_reasons(effects), interval=ratio_interval,
-        paths=results.get("paths") or [], ratio_with_interval=ratio_with_interval, without_recursion=without_recursion,
+        choice_table=choice_table, paths=results.get("paths") or [], ratio_with_interval=ratio_with_interval, without_recursion=without_recursion,
         scaling_plots=[Markup(plot) for plot in scaling_plots(scaling)] if scaling else [],
         scaling_device=device_line(scaling) if scaling else "",
         gpu=gpu_sections(model, results["rows"]), number=number, wheel=wheel(),

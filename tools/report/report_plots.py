@@ -10,6 +10,7 @@ import matplotlib
 matplotlib.use("svg")
 from matplotlib import pyplot, ticker  # noqa: E402
 
+from report_choices import is_choice, point_name  # noqa: E402
 from report_data import number, pareto, timed  # noqa: E402
 
 kInk = "#010203"  # replaced by currentColor
@@ -94,9 +95,9 @@ def _error_axis(axes, errors: list) -> None:
 
 
 def error_against_time(group, renderer: str) -> str:
-    """Plots relative RMS error against median time for one renderer, with quartiles and the Pareto front."""
-    rows = [r for r in group.rows if r["renderer"] == renderer and timed(r)
-            and number(r, "error", "relRms") is not None]
+    """Plots relative RMS error against median time for one renderer, with quartiles and the Pareto front: methods as
+    circles, choices of --max-error as diamonds."""
+    rows = [r for r in group.points(renderer) if timed(r) and number(r, "error", "relRms") is not None]
     if not rows:
         return ""
     front = pareto(rows)
@@ -113,8 +114,8 @@ def error_against_time(group, renderer: str) -> str:
         colour = kFront if row in front else kOther
         low, high = row.get("quartilesMs") or [row["medianMs"]] * 2
         median = row["medianMs"]
-        axes.errorbar(median, height(row), xerr=[[max(0, median - low)], [max(0, high - median)]], fmt="o",
-                      markersize=5, color=colour, elinewidth=1, capsize=2.5,
+        axes.errorbar(median, height(row), xerr=[[max(0, median - low)], [max(0, high - median)]],
+                      fmt="D" if is_choice(row) else "o", markersize=5, color=colour, elinewidth=1, capsize=2.5,
                       markerfacecolor=colour if row in front else "none", zorder=3)
     axes.margins(x=0.08, y=0.08)
     axes.set_xlabel("median time per image [ms], bars: quartiles")
@@ -126,7 +127,7 @@ def error_against_time(group, renderer: str) -> str:
         axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
     axes.yaxis.set_minor_formatter(ticker.NullFormatter())
     figure.subplots_adjust(left=0.17, right=0.7, top=0.97, bottom=0.13)
-    _labels(figure, axes, [(r["medianMs"], height(r), r["method"], kInk, r in front) for r in rows])
+    _labels(figure, axes, [(r["medianMs"], height(r), point_name(r), kInk, r in front) for r in rows])
     return _svg(figure, f"Error against time: {group.scene}, {group.width} x {group.height}, depth {group.depth}, "
                         f"{renderer}")
 

@@ -10,7 +10,7 @@ kTerms = {
     "quartiles": "A quarter of the rounds is below the first number, and a quarter above the second.",
     "no significant difference": "A paired sign test over the rounds does not reject equality at 5 %. It needs at least six "
                                  "rounds.",
-    "Pareto front": "The methods for which no other method is both as fast and as accurate.",
+    "Pareto front": "The methods and choices for which no other one is both as fast and as accurate.",
     "error of the method": "Difference from the exact method, stokes, on the same renderer, which traces the same rays.",
     "error of the precision": "Difference of the exact method in single precision from the double-precision reference.",
     "rel. RMS": "Root of the summed squared differences over the summed squared reference, over pixels and colours.",

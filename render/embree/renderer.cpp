@@ -146,7 +146,8 @@ struct PreparedImage {
     const std::size_t count = result.channels * result.width * result.height;
     reserveMapped(result.pixels, count, threads);
     result.pixels.resize(count);
-    tile = {&bvh, &scene, &camera, 0, 0, 0, 0, result.pixels.data(), stokes};
+    tile = {
+        &bvh, &scene, &camera, 0, 0, 0, 0, result.pixels.data(), stokes, render::compiledEffects(source, parameters)};
   }
   PreparedImage(const PreparedImage&) = delete;
   PreparedImage& operator=(const PreparedImage&) = delete;
@@ -159,7 +160,7 @@ struct PreparedImage {
 
 render::RenderResult Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
   PreparedImage image(*impl_->source, *impl_->bvh, impl_->scene, name, parameters, impl_->threads);
-  const std::uint32_t effects = render::compiledEffects(*impl_->source, parameters);
+  const std::uint32_t effects = image.tile.effects;
   const bool scalar = tracesSingleRays(parameters);
   image.result.device = device();
   image.result.embreePath = scalar ? render::EmbreePath::scalar : render::EmbreePath::packet;

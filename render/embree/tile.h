@@ -18,6 +18,7 @@ struct TileInput {
   std::uint32_t beginX, beginY, endX, endY;  // pixels within the region
   float* pixels;                             // of the whole region, top row first
   bool stokes;                               // iterative methods: render Stokes vectors by four analysers
+  std::uint32_t effects;                     // bits of shaders::Effect that the image needs
   RayLog* log = nullptr;                     // takes the rays; of renderTileChecked only
 };
 

@@ -43,10 +43,12 @@ FN Ray facetRay(IN(Hit) h, IN(Facet) f, word index) {
 #if MALUS_PATH_WORD
   ray.path = facetPath(h.path, index);
 #if MALUS_EFFECT_MESH_TEXTURES
-  // The mirror directions fill a cone of about twice alpha around their mean, of which each of 16 facets has a share.
-  RayCone cone = reflectedCone(coneOfBits(h.path), h.curvature, h.c);
-  cone.spread = cone.spread + R(0.5) * roughnessAt(h);
-  ray.path = pathWithCone(ray.path, cone);
+  if (kEffectMeshTextures) {
+    // The mirror directions fill a cone of about twice alpha around their mean, of which each of 16 facets has a share.
+    RayCone cone = reflectedCone(coneOfBits(h.path), h.curvature, h.c);
+    cone.spread = cone.spread + R(0.5) * roughnessAt(h);
+    ray.path = pathWithCone(ray.path, cone);
+  }
 #endif
 #endif
   return ray;

@@ -109,16 +109,20 @@ FN Hit makeHit(IN(Ray) ray, real3 p0, real3 p1, real3 p2, real b1, real b2, real
   h.material = material;
   h.travelled = R(0.0);
 #if MALUS_EFFECT_ABSORPTION
-  // Close to a large triangle the distance is that of its plane, which the rounding of a point along the plane does not
-  // change.
-  real3 traced = local - localFrom;
-  real slope = dot3(d, h.face);
-  mask byPlane = andM(large, lessR(kGrazing, absR(slope)));
-  real distance = selectR(byPlane, dot3(traced, h.face) / selectR(byPlane, slope, R(1.0)), sqrtR(dot3(traced, traced)));
-  h.travelled = distance + ray.originDistance;
-  PRECISE real3 rounded = h.position - origin;
-  PRECISE real3 rest = local - rounded;
-  h.rounding = dot3(rest, h.face);
+  h.rounding = R(0.0);
+  if (kEffectAbsorption) {
+    // Close to a large triangle the distance is that of its plane, which the rounding of a point along the plane does
+    // not change.
+    real3 traced = local - localFrom;
+    real slope = dot3(d, h.face);
+    mask byPlane = andM(large, lessR(kGrazing, absR(slope)));
+    real distance =
+        selectR(byPlane, dot3(traced, h.face) / selectR(byPlane, slope, R(1.0)), sqrtR(dot3(traced, traced)));
+    h.travelled = distance + ray.originDistance;
+    PRECISE real3 rounded = h.position - origin;
+    PRECISE real3 rest = local - rounded;
+    h.rounding = dot3(rest, h.face);
+  }
 #endif
 #if MALUS_PATH_WORD
   h.path = ray.path;
@@ -177,7 +181,8 @@ FN real3 originBelow(IN(Hit) h) { return rayOrigin(h.start, h.error, h.face * R(
 FN Ray rayFrom(IN(Hit) h, real3 origin, real3 d, real depth) {
   real distance = R(0.0);
 #if MALUS_EFFECT_ABSORPTION
-  distance = absR(dot3(origin - h.position, h.face) - h.rounding) / maxR(absR(dot3(d, h.face)), kGrazing);
+  if (kEffectAbsorption)
+    distance = absR(dot3(origin - h.position, h.face) - h.rounding) / maxR(absR(dot3(d, h.face)), kGrazing);
 #endif
   return makeRay(origin, d, depth, distance);
 }
@@ -186,7 +191,7 @@ FN Ray rayAbove(IN(Hit) h, real3 d, real depth) {
 #if MALUS_PATH_WORD
   ray.path = reflectedPath(h.path);
 #if MALUS_EFFECT_MESH_TEXTURES
-  ray.path = pathWithCone(ray.path, reflectedCone(coneOfBits(h.path), h.curvature, h.c));
+  if (kEffectMeshTextures) ray.path = pathWithCone(ray.path, reflectedCone(coneOfBits(h.path), h.curvature, h.c));
 #endif
 #endif
   return ray;

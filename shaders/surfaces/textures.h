@@ -17,6 +17,7 @@ FN mask isMapped(word index) { return notM(orM(equalW(index, kNoTexture), equalW
 
 FN Material projectedMaterial(IN(Hit) h) {
   Material m = materials[h.material];
+  if (!kEffectTextures) return m;
   MaterialExtra e = materialExtra(h.material);
   mask albedo = isMapped(e.albedoMap);
   mask eta = isMapped(e.etaMap);

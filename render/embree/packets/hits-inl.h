@@ -6,9 +6,9 @@ real3 rayDirection(const Rays& batch, word ray) {
   return {gatherR(batch.direction[0], ray), gatherR(batch.direction[1], ray), gatherR(batch.direction[2], ray)};
 }
 
-static constexpr bool kReadsExtras = kEffectPolarizingElement || kEffectThinGlass || kEffectTextures ||
-                                     kEffectMeshTextures || kEffectAbsorption || kEffectCoatings || kEffectRoughness ||
-                                     kEffectPolarizedEmitters;
+EFFECT_CONST bool kReadsExtras = kEffectPolarizingElement || kEffectThinGlass || kEffectTextures ||
+                                 kEffectMeshTextures || kEffectAbsorption || kEffectCoatings || kEffectRoughness ||
+                                 kEffectPolarizedEmitters;
 
 // Makes materialExtra return that of a packet's materials.
 void loadExtra(word material) {

@@ -27,7 +27,7 @@ struct Level {
   Intersections found;
   Paths reflected;  // also those of one facet each
   Paths transmitted;
-  RoughPacket rough[kEffectRoughness ? kBatch / kLanes + gpu::kSurfaceKinds : 1];
+  RoughPacket rough[MALUS_EFFECT_ROUGHNESS ? kBatch / kLanes + gpu::kSurfaceKinds : 1];
   std::size_t roughCount;
 };
 Level* levels[embree::kMostLevels] = {};

@@ -28,7 +28,22 @@ struct Method {
 
 #include "render/embree/packets/access-inl.h"
 
-struct Tracer : Method, PacketAccess {
+#ifdef MALUS_BUILD_every
+// An effect that is compiled in costs a branch where the image does not need it.
+#define EFFECT_CONST const
+#define EFFECT_IS_ON(id, compiled) ((imageEffects & shaders::effectBit(shaders::Effect::k##id)) != 0)
+#else
+#define EFFECT_CONST static constexpr
+#define EFFECT_IS_ON(id, compiled) (compiled != 0)
+#endif
+
+// Bits of the effects that the image needs.
+struct ActiveEffects {
+  std::uint32_t imageEffects;
+};
+
+struct Tracer : Method, ActiveEffects, PacketAccess {
+  explicit Tracer(std::uint32_t effects) : ActiveEffects{effects} {}
 #undef FN
 #define FN                                       // members
   static constexpr bool kCheckNumerics = false;  // the scalar tracers check (render/embree/method_tracer.h)
@@ -54,7 +69,7 @@ struct Tracer : Method, PacketAccess {
 embree::TileOutput renderTile(const embree::TileInput& tile, const embree::ShadingOrder& order,
                               embree::PacketMemory& memory) {
   if (!memory.tracer)
-    memory.tracer = {new Tracer, [](void* t) HWY_ATTR {
+    memory.tracer = {new Tracer(tile.effects), [](void* t) HWY_ATTR {
                        static_cast<Tracer*>(t)->freeLevels();
                        delete static_cast<Tracer*>(t);
                      }};
@@ -68,5 +83,7 @@ embree::TileOutput renderTile(const embree::TileInput& tile, const embree::Shadi
 }  // namespace malus::packets::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
+#undef EFFECT_CONST
+#undef EFFECT_IS_ON
 #pragma GCC diagnostic pop
 #include "shaders/optics/language_end.h"

@@ -6,6 +6,7 @@
 #include "shaders/optics/fresnel.h"
 #include "shaders/optics/film.h"
 #include "shaders/optics/thin_glass.h"
+#include "shaders/optics/clear_coat.h"
 #include "shaders/optics/schlick.h"
 #include "shaders/optics/directions.h"
 #include "shaders/optics/frames.h"

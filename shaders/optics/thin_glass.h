@@ -36,15 +36,20 @@ FN void sumInternalReflections(real r, real t, real a, real loss, OUT(real) tran
   reflected = minR(r * (R(1.0) + a * a * t * ratio), R(1.0));
 }
 
+// Optical depth of the inside along the refracted ray. Beer-Lambert: the path is longer than the thickness by 1 / cos
+// of the refracted angle, which is eta / f.t. internal: as of thinGlassFromTerms.
+FN real paneDepth(RefractionTerms f, real internal) {
+  real x = opticalDepth(maxR(internal, R(1e-30))) * f.eta / maxR(f.t, R(1e-30));
+  return minR(maxR(x, R(0.0)), R(80.0));
+}
+
 // c: cosine of incidence, 0 to 1; f: refractionTerms of c, the index n1 of the medium on both sides and the index n2 of
 // the glass; internal: transmittance of the inside at normal incidence, without the interfaces, 0 to 1 (the internal
 // transmittance of glass catalogues).
 FN ThinGlass thinGlassFromTerms(real c, RefractionTerms f, real internal) {
   Reflectance r = reflectanceFromTerms(c, f);
   Transmittance t = transmittanceFromTerms(c, f);
-  // Beer-Lambert: the path inside is longer than the thickness by 1 / cos of the refracted angle, which is eta / f.t.
-  real x = opticalDepth(maxR(internal, R(1e-30))) * f.eta / maxR(f.t, R(1e-30));
-  x = minR(maxR(x, R(0.0)), R(80.0));
+  real x = paneDepth(f, internal);
   real a = attenuation(x);
   real loss = absorbedFraction(R(2.0) * x);
   ThinGlass pane;
@@ -61,4 +66,20 @@ FN ThinGlass thinGlassFromTerms(real c, RefractionTerms f, real internal) {
 }
 FN ThinGlass thinGlass(real c, real n1, real n2, real internal) {
   return thinGlassFromTerms(c, refractionTerms(c, n1, n2), internal);
+}
+
+// The same where the interfaces cover a share of the pane, 0 to 1, and the rest of it only absorbs. Total reflection is
+// not reduced: there is no refracted ray.
+FN ThinGlass partialThinGlass(real c, RefractionTerms f, real internal, real share) {
+  ThinGlass pane = thinGlassFromTerms(c, f, internal);
+  real covered = selectR(f.total, R(1.0), share);
+  real open = (R(1.0) - covered) * attenuation(paneDepth(f, internal));
+  pane.reflected.rs = pane.reflected.rs * covered;
+  pane.reflected.rp = pane.reflected.rp * covered;
+  pane.reflected.xRe = pane.reflected.xRe * covered;
+  pane.reflected.xIm = pane.reflected.xIm * covered;
+  pane.transmitted.rs = pane.transmitted.rs * covered + open;
+  pane.transmitted.rp = pane.transmitted.rp * covered + open;
+  pane.transmitted.xRe = pane.transmitted.xRe * covered + open;
+  return pane;
 }

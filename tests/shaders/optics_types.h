@@ -44,6 +44,9 @@ namespace malus::test {
   X(space, complexSqrtLower)             \
   X(space, thinFilm)                     \
   X(space, thinGlass)                    \
+  X(space, partialThinGlass)             \
+  X(space, coatOnDielectric)             \
+  X(space, coatOnConductor)              \
   X(space, rayleighDegree)               \
   X(space, rayleighPhase)                \
   X(space, facetNormal)                  \
@@ -92,6 +95,7 @@ namespace malus::test {
   using Film = malus::space::Film;                         \
   using FilmLayers = malus::space::FilmLayers;             \
   using ThinGlass = malus::space::ThinGlass;               \
+  using ClearCoat = malus::space::ClearCoat;               \
   using Complex = malus::space::Complex;                   \
   using ImportanceVector = malus::space::ImportanceVector; \
   static constexpr const char* kName = label;

@@ -140,5 +140,24 @@ TYPED_TEST(ThinGlassTest, ConservesEnergyAndNeverOverpolarizes) {
   }
 }
 
+// Interfaces on a share of the pane: the rest only absorbs, along the refracted ray.
+TYPED_TEST(ThinGlassTest, AShareOfThePane) {
+  MALUS_TYPES;
+  for (const real c : {R(0.9), R(0.3)}) {
+    const real n = R(1.5), internal = R(0.7);
+    const auto terms = O::refractionTerms(c, R(1.0), n);
+    const auto whole = O::thinGlass(c, R(1.0), n, internal);
+    EXPECT_EQ(O::partialThinGlass(c, terms, internal, R(1.0)).transmitted.rs, whole.transmitted.rs);
+    const auto half = O::partialThinGlass(c, terms, internal, R(0.5));
+    const Real cosine = std::sqrt(1 - (1 - Real(c) * c) / (Real(n) * n)), open = std::pow(Real(internal), 1 / cosine);
+    EXPECT_CLOSE(half.reflected.rs, whole.reflected.rs / 2, 2 * kEps);
+    EXPECT_CLOSE(half.transmitted.rp, (whole.transmitted.rp + open) / 2, 16 * kEps);
+    EXPECT_CLOSE(half.transmitted.xRe, (whole.transmitted.xRe + open) / 2, 16 * kEps);
+  }
+  const auto total = O::partialThinGlass(R(0.1), O::refractionTerms(R(0.1), R(1.5), R(1.0)), R(1.0), R(0.5));
+  EXPECT_EQ(total.reflected.rs, R(1.0));
+  EXPECT_EQ(total.transmitted.rs, R(0.0));
+}
+
 }  // namespace
 }  // namespace malus::test

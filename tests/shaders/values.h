@@ -55,6 +55,8 @@ struct Values {
   ImportanceVector metRow;
   Film film;
   ThinGlass pane;
+  ClearCoat glassCoat;
+  ClearCoat metalCoat;
   real3 facet;
   real facetShare;
   real skyDegree;
@@ -121,6 +123,8 @@ FN Values computeValues(Given g) {
   // Denser than the first medium: GLSL has no exponential function in double for evanescent waves.
   r.film = thinFilm(g.c, R(1.0), R(1.0) + absR(g.cos2), R(1.25), R(1.0) + absR(g.sin2), g.k2);
   r.pane = thinGlass(g.c, R(1.0), R(1.0) + absR(g.sin2), R(1.0));
+  r.glassCoat = coatOnDielectric(g.c, R(1.0), R(1.5), R(1.0) + absR(g.sin2), R(1.0), absR(g.cos2));
+  r.metalCoat = coatOnConductor(g.c, R(1.0), R(1.5), R(1.0) + absR(g.sin2), g.k2, R(1.0));
   r.facet = facetNormal(g.d, g.n, R(0.25), R(0.5) * g.cos2, R(0.5) * g.sin2);
   r.facetShare = facetWeight(g.d, g.interpolated, g.n, R(0.25));
   r.skyDegree = rayleighDegree(g.c, R(0.75));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bake/effects/query.h"
 #include "shaders/optics/optics.h"
 
 namespace malus::bake {
@@ -72,8 +73,8 @@ Diattenuation diattenuation(const Material& m, int colour) {
   if (pack::isPolarizingElement(m.kind))
     return {RangeMaximum(constant(ratio(m.transmittanceParallel[colour], m.transmittanceCrossed[colour]))),
             RangeMaximum(constant(0))};
-  // Thin films, panes and maps: their maximum is not bounded by samples.
-  if (m.kind == pack::MaterialKind::thinGlass || m.coating.thicknessNm > 0 || m.maps.eta >= 0 ||
+  // Films, coats, panes and maps: their maximum is not bounded by samples.
+  if (m.kind == pack::MaterialKind::thinGlass || isCoated(m) || hasClearCoat(m) || m.maps.eta >= 0 ||
       m.meshMaps.eta.isUsed() || m.meshMaps.reflectance.isUsed())
     return {RangeMaximum(constant(1)), RangeMaximum(constant(leaves ? 1 : 0))};
   Cells cells;

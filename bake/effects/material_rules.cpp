@@ -74,6 +74,18 @@ std::vector<EffectRule> materialRules() {
   EffectRule textures = materialRule(
       Effect::kTextures, [](const Material& m) { return m.maps.any(); }, [](Material& m) { m.maps = {}; });
   textures.remove = withoutUnusedTextures(textures.remove);
+  EffectRule tintedGlass = materialRule(
+      Effect::kTintedGlass,
+      [](const Material& m) {
+        return pack::hasInside(m.kind) &&
+               (m.transmittanceParallel != glm::dvec3(1.0) || m.meshMaps.transmittance.isUsed());
+      },
+      [](Material& m) {
+        if (!pack::hasInside(m.kind)) return;
+        m.transmittanceParallel = glm::dvec3(1.0);
+        m.meshMaps.transmittance = {};
+      });
+  tintedGlass.remove = withoutUnusedTextures(tintedGlass.remove);
   return {
       textures,
       meshTextures,
@@ -88,6 +100,11 @@ std::vector<EffectRule> materialRules() {
           [](const Material& m) { return isPositive(m.absorption) || isPositive(m.outsideAbsorption); },
           [](Material& m) { m.absorption = m.outsideAbsorption = glm::dvec3(0.0); }),
       materialRule(Effect::kCoatings, isCoated, [](Material& m) { m.coating = {}; }),
+      materialRule(
+          Effect::kSpecularFactors, [](const Material& m) { return m.specularFactor < 1; },
+          [](Material& m) { m.specularFactor = 1; }),
+      tintedGlass,
+      materialRule(Effect::kClearCoats, hasClearCoat, [](Material& m) { m.clearCoat = {}; }),
       ifReflecting(materialRule(
           Effect::kRoughness, [](const Material& m) { return m.roughness > 0 || m.meshMaps.roughness.isUsed(); },
           [](Material& m) {

@@ -67,6 +67,7 @@ bool isPolarizedEmitter(const Material& m) {
 }
 
 bool isCoated(const Material& m) { return m.coating.thicknessNm > 0; }
+bool hasClearCoat(const Material& m) { return m.clearCoat.factor > 0; }
 
 bool hasDenserSide(const pack::Scene& scene, const Material& m) {
   if (pack::hasInside(m.kind)) return m.eta.y != m.outsideEta;

@@ -53,6 +53,7 @@ class EffectQuery {
 // Properties of a material that several rules read.
 bool isPolarizedEmitter(const pack::Material& material);
 bool isCoated(const pack::Material& material);
+bool hasClearCoat(const pack::Material& material);
 bool isAreaLight(const pack::Material& material);
 // Light passes through it as one surface: a polarizer, a wave plate or thin glass.
 bool isThinAndTransmits(const pack::Material& material);

@@ -13,6 +13,10 @@ void removeInterface(Material& m) {
   m.eta = glm::dvec3(1.0);
   m.k = glm::dvec3(0.0);
   m.highlightStrength = 0;
+  m.specularFactor = 1;
+  m.clearCoat = {};
+  m.transmittanceParallel = glm::dvec3(1.0);
+  m.meshMaps.transmittance = {};
   m.meshMaps.eta = m.meshMaps.k = m.meshMaps.reflectance = m.meshMaps.metallic = m.meshMaps.roughness = {};
 }
 
@@ -20,6 +24,8 @@ void removeSurface(Effect surface, Material& m) {
   if (surfaceEffect(m.kind) != surface) return;
   if (surface == Effect::kGlass) {
     m.kind = MaterialKind::mirrorGlass;
+    m.transmittanceParallel = glm::dvec3(1.0);
+    m.meshMaps.transmittance = {};
   } else if (pack::isClear(m.kind)) {  // not a body: invisible if its index is that of the medium
     m.eta = glm::dvec3(m.outsideEta);
     m.transmittanceParallel = m.transmittanceCrossed = glm::dvec3(1.0);

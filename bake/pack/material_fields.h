@@ -148,7 +148,7 @@ void visitPolarizationFields(Visitor& visit, Materials&... m) {
         m.polarization...);
   visit(Field{.name = "transmittanceParallel",
               .high = 1,
-              .text = "transmittance of power for a field parallel to the axis; of thin glass: transmittance",
+              .text = "transmittance of power for a field parallel to the axis; of thin glass and glass: transmittance",
               .section = kSurfaces,
               .isFeature = true,
               .kinds = only(MaterialKind::polarizer),
@@ -156,13 +156,15 @@ void visitPolarizationFields(Visitor& visit, Materials&... m) {
               .shape = Shape::numberOrVector,
               .alias = "along"},
         m.transmittanceParallel...);
-  visit(Field{.name = "transmittance",
-              .high = 1,
-              .text = "internal transmittance of a pane at normal incidence, without its interfaces",
-              .kinds = only(MaterialKind::thinGlass),
-              .key = Key::optional,
-              .shape = Shape::numberOrVector},
-        m.transmittanceParallel...);
+  visit(
+      Field{.name = "transmittance",
+            .high = 1,
+            .text = "of `thin-glass`: internal transmittance of a pane at normal incidence, without its interfaces; of "
+                    "`glass`: of each passage through its surface, beside that of the interface",
+            .kinds = only(MaterialKind::thinGlass) | only(MaterialKind::glass),
+            .key = Key::optional,
+            .shape = Shape::numberOrVector},
+      m.transmittanceParallel...);
   visit(Field{.name = "transmittanceCrossed",
               .high = 1,
               .text = "transmittance of power for a field crossed with the axis",
@@ -254,6 +256,41 @@ void visitEmitterFields(Visitor& visit, Materials&... m) {
         m.illuminates...);
 }
 
+// The fields of SRFX from version 4 on.
+template <class Visitor, class... Materials>
+void visitLayerFields(Visitor& visit, Materials&... m) {
+  constexpr KindSet kCoated = kindsWhere(canBeCoated);
+  visit(Field{.name = "specularFactor",
+              .high = 1,
+              .text = "factor of the reflection of the interface at every angle; light that is not reflected passes it",
+              .section = kSurfaces,
+              .since = 4,
+              .isFeature = true,
+              .kinds = kindsWhere(hasIndex),
+              .key = Key::optional},
+        m.specularFactor...);
+  visit(Field{.name = "clearCoat.eta",
+              .low = kMinEta,
+              .high = kMaxEta,
+              .text = "index of the clear coat",
+              .section = kSurfaces,
+              .since = 4,
+              .kinds = kCoated,
+              .key = Key::optional},
+        m.clearCoat.eta...);
+  visit(Field{.name = "clearCoat.factor",
+              .high = 1,
+              .text = "share of the surface that has the clear coat; 0: none",
+              .section = kSurfaces,
+              .since = 4,
+              .isFeature = true,
+              .kinds = kCoated,
+              .isZeroForOthers = true,
+              .key = Key::optional,
+              .fallback = 1},
+        m.clearCoat.factor...);
+}
+
 // Calls visit(field, value of each material...) for every field, in the order of the bytes.
 template <class Visitor, class... Materials>
 void visitMaterial(Visitor&& visit, Materials&... m) {
@@ -262,6 +299,7 @@ void visitMaterial(Visitor&& visit, Materials&... m) {
   visitPolarizationFields(visit, m...);
   visitTextureFields(visit, m...);
   visitEmitterFields(visit, m...);
+  visitLayerFields(visit, m...);
 }
 
 // Version of SRFX that the materials need: 0 where the section is not needed.

@@ -75,6 +75,8 @@ void readSurfaces(ByteReader r, std::uint32_t version, const std::vector<Texture
     read.ofMaterial(m.kind, static_cast<std::uint32_t>(textures.size()));
     visitMaterial(read, m);
     if (isPolarizingElement(m.kind) || m.polarization > 0) r.requireUnit(m.axis, "axis");
+    if (m.clearCoat.factor > 0 && m.coating.thicknessNm > 0)
+      r.fail(fmt::format("clearCoat of material '{}'", m.name), "a clear coat or a coating", "both");
     checkMaps(r, m, ranges);
   }
   r.end();

@@ -31,7 +31,8 @@ void visitMeshMaps(Visitor&& visit, Maps&... m) {
   visit(MapRule{.name = "roughness", .kinds = kindsWhere(canBeRough)}, m.roughness...);
   visit(MapRule{.name = "radiance", .high = kMaxLight, .kinds = kindsWhere(isEmitter) | kindsWhere(canBeDiffuse)},
         m.radiance...);
-  visit(MapRule{.name = "transmittance", .kinds = only(MaterialKind::thinGlass)}, m.transmittance...);
+  visit(MapRule{.name = "transmittance", .kinds = only(MaterialKind::thinGlass) | only(MaterialKind::glass)},
+        m.transmittance...);
   visit(MapRule{.name = "normal"}, m.normal...);
   visit(MapRule{.name = "coverage"}, m.coverage...);
 }

@@ -31,6 +31,12 @@ struct Coating {
   double thicknessNm = 0;  // 0: none
 };
 
+// A plane layer of real index without interference, on a share of a surface: 1 of all of it, 0 of none.
+struct ClearCoat {
+  double eta = 1.5;
+  double factor = 0;
+};
+
 // Textures of a material: indices into Scene::textures, or -1. They are applied by parallel projection: the texture
 // coordinates of a point p are dot(p - origin, u) and dot(p - origin, v), in repeats of the image.
 struct Maps {
@@ -67,7 +73,7 @@ struct MeshMaps {
   MeshMap metallic;        // red: edge tint of reflectance; none: 1
   MeshMap roughness;       // red
   MeshMap radiance;        // of an emitter or the diffuse layer
-  MeshMap transmittance;   // of thin glass
+  MeshMap transmittance;   // of thin glass and glass bodies
   MeshMap normal;          // (n + 1) / 2, along the tangent, the bitangent and the normal
   MeshMap coverage;        // red: there is no surface where it is below the cutoff, at level 0 of the texture
   double normalScale = 1;  // factor of the first two components of the normal
@@ -91,12 +97,15 @@ struct Material {
   glm::dvec3 absorption{0.0};         // inside a glass body, in 1/m: power falls to e^-(absorption length)
   glm::dvec3 outsideAbsorption{0.0};  // of the medium on the side that the normals point to
   Coating coating;                    // on glass, mirror-glass, paint, metal
+  ClearCoat clearCoat;                // on the same, in place of a coating
+  double specularFactor = 1;          // share of the surface that has the interface, below a clear coat
   double roughness = 0;               // GGX alpha of metal, paint, mirror-glass; 0 to 1
   glm::dvec3 axis{0.0};  // unit: field of a polarized emitter, transmitted field of a polarizer, fast axis of a plate
   double polarization = 0;                // degree of an emitter's linear polarization
   bool twoSided = false;                  // an emitter that also radiates from its back
   bool illuminates = false;               // an emitter whose light on diffuse surfaces is computed
-  glm::dvec3 transmittanceParallel{1.0};  // of power, of polarizers and wave plates, for a field parallel to the axis
+  glm::dvec3 transmittanceParallel{1.0};  // of power, of polarizers and wave plates, for a field parallel to the axis;
+                                          // of thin glass inside, of glass bodies at each passage through the surface
   glm::dvec3 transmittanceCrossed{1.0};   // and crossed with it
   glm::dvec3 retardanceDegrees{0.0};      // of wave plates
   Maps maps;

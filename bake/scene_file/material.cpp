@@ -121,8 +121,10 @@ void readAlbedo(StrictObject& object, pack::Material& m) {
                                                  : object.numberOrVector("albedo", 0, 1);
 }
 
-// Keys that set more than one field, or a field of another name.
+// Keys that set more than one field, or a field of another name, or exclude each other.
 void readSpecialKeys(StrictObject& object, pack::Material& m) {
+  if (m.clearCoat.factor > 0 && m.coating.thicknessNm > 0)
+    object.fail("clearCoat", "and coating exclude each other", "one of the two");
   if (pack::isEmitter(m.kind) && object.has("polarization")) {
     StrictObject polarization = object.object("polarization");
     m.axis = readDirection(polarization, "axis");

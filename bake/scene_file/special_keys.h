@@ -72,6 +72,8 @@ inline constexpr SpecialKey kMaterialSpecialKeys[] = {
     {"highlight", "object", "none", "normalized Phong lobe for point lights", pack::kindsWhere(pack::hasIndex)},
     {"coating", "object", "none", "thin film with interference at `wavelengthsNm`",
      pack::kindsWhere(pack::canBeCoated)},
+    {"clearCoat", "object", "none", "thick clear layer without interference, in place of `coating`",
+     pack::kindsWhere(pack::canBeCoated)},
     {"polarization", "`{\"axis\": [x, y, z], \"degree\": 1}`", "unpolarized",
      "as of a display: the field of the light that leaves along the normal is parallel to `axis`, a direction in the "
      "scene "

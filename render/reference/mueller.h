@@ -38,6 +38,12 @@ struct InterfaceMatrix {
 inline InterfaceMatrix interfaceMatrix(double s, double p, double xRe, double xIm) {
   return {(s + p) / 2, (s - p) / 2, xRe, xIm};
 }
+// share of a, and the rest of b
+inline InterfaceMatrix mix(const InterfaceMatrix& a, const InterfaceMatrix& b, double share) {
+  const double rest = 1 - share;
+  return {share * a.a + rest * b.a, share * a.b + rest * b.b, share * a.xRe + rest * b.xRe,
+          share * a.xIm + rest * b.xIm};
+}
 inline dmat4 matrix(const InterfaceMatrix& m) {
   return rows({m.a, m.b, 0, 0, m.b, m.a, 0, 0, 0, 0, m.xRe, -m.xIm, 0, 0, m.xIm, m.xRe});
 }

@@ -81,9 +81,11 @@ f64::Film evaluateFilm(const Surface& surface, double c, double n1, double n2, i
                        metal ? surface.k[colour] : 0);
 }
 
-}  // namespace
+// Light that the interface of a share of the surface, or a clear coat on another share, changes.
+bool isLayered(const pack::Material& m) { return m.specularFactor < 1 || m.clearCoat.factor > 0; }
 
-Interface evaluateInterface(const Surface& surface, double c, double n1, double n2) {
+// Without the layers.
+Interface evaluateBase(const Surface& surface, double c, double n1, double n2) {
   const pack::Material& m = *surface.material;
   Interface result;
   const bool hasFilm = m.coating.thicknessNm > 0, isMetal = pack::isConductor(m.kind),
@@ -114,8 +116,59 @@ Interface evaluateInterface(const Surface& surface, double c, double n1, double 
   return result;
 }
 
+// Leaves the interface on a share of the surface.
+void applySpecularFactor(const Surface& surface, double c, double n1, double n2, Interface& result) {
+  const pack::Material& m = *surface.material;
+  const f64::RefractionTerms terms = f64::refractionTerms(c, n1, n2);
+  if (pack::isClear(m.kind) && terms.total) return;  // there is no refracted ray
+  for (std::size_t i = 0; i < 3; ++i) {
+    // The rest of a pane absorbs, and the rest of a metal lets unpolarized light of its diffuse layer pass.
+    double open = 1;
+    if (m.kind == pack::MaterialKind::thinGlass)
+      open = f64::attenuation(f64::paneDepth(terms, surface.transmittance[static_cast<int>(i)]));
+    result.reflection[i] = mix(result.reflection[i], {}, m.specularFactor);
+    result.transmission[i] = mix(result.transmission[i], interfaceMatrix(open, open, open, 0), m.specularFactor);
+  }
+}
+
+f64::ClearCoat evaluateClearCoat(const Surface& surface, double c, double n1, double n2, int colour) {
+  const pack::Material& m = *surface.material;
+  const double coat = m.clearCoat.eta, base = m.specularFactor;
+  if (pack::isConductor(m.kind)) return f64::coatOnConductor(c, n1, coat, surface.eta[colour], surface.k[colour], base);
+  const bool isEntering = n1 == m.outsideEta;
+  return f64::coatOnDielectric(c, n1, coat, n2, isEntering ? 1 : base, isEntering ? base : 1);
+}
+
+void applyClearCoat(const Surface& surface, double c, double n1, double n2, Interface& result) {
+  const pack::Material& m = *surface.material;
+  for (std::size_t i = 0; i < 3; ++i) {
+    f64::ClearCoat coat = evaluateClearCoat(surface, c, n1, n2, static_cast<int>(i));
+    // Diffuse light of a layer below leaves with 1 - R.
+    if (!pack::isClear(m.kind)) coat.transmitted = {1 - coat.reflected.rs, 1 - coat.reflected.rp, 0, 0};
+    result.reflection[i] = mix(asMatrix(coat.reflected), result.reflection[i], m.clearCoat.factor);
+    result.transmission[i] = mix(asMatrix(coat.transmitted), result.transmission[i], m.clearCoat.factor);
+  }
+}
+
+}  // namespace
+
+Interface evaluateInterface(const Surface& surface, double c, double n1, double n2) {
+  const pack::Material& m = *surface.material;
+  Interface result = evaluateBase(surface, c, n1, n2);
+  if (m.specularFactor < 1) applySpecularFactor(surface, c, n1, n2, result);
+  if (m.clearCoat.factor > 0) applyClearCoat(surface, c, n1, n2, result);
+  if (pack::hasInside(m.kind) && surface.transmittance != dvec3(1))
+    for (std::size_t i = 0; i < 3; ++i)
+      result.transmission[i] = mix(result.transmission[i], {}, surface.transmittance[static_cast<int>(i)]);
+  return result;
+}
+
 dvec3 meanTransmittance(const Surface& surface, double c, double n1, double n2) {
   const pack::Material& m = *surface.material;
+  if (isLayered(m)) {
+    const Mueller t = evaluateInterface(surface, c, n1, n2).transmission;
+    return {t[0].a, t[1].a, t[2].a};
+  }
   const auto mean = [](const f64::Reflectance& r) { return 1 - (r.rs + r.rp) / 2; };
   if (m.coating.thicknessNm > 0) {
     const auto ofColour = [&](int colour) { return mean(evaluateFilm(surface, c, n1, n2, colour).reflected); };

@@ -13,7 +13,7 @@ namespace malus::reference {
 struct Surface {
   const pack::Material* material;
   dvec3 eta, k, albedo;
-  dvec3 radiance, transmittance;  // emitted; of thin glass
+  dvec3 radiance, transmittance;  // emitted; of thin glass, and of the surface of a glass body
   double roughness;
   dvec3 filmPhase;  // of the coating: twice its thickness over the wavelength, per colour
 };
@@ -25,7 +25,8 @@ struct Interface {
   Mueller reflection;
   Mueller transmission;  // T_s, T_p = 1 - R; of a metal only the weight of its diffuse light
 };
-// From index n1 to n2 at cosine of incidence c, with the thin film; a metal has its own index in place of n2.
+// From index n1 to n2 at cosine of incidence c, with the film, the specular factor, the clear coat and the tint; a
+// metal has its own index in place of n2.
 Interface evaluateInterface(const Surface& surface, double c, double n1, double n2);
 // Transmittance of unpolarized light, of the same interface.
 dvec3 meanTransmittance(const Surface& surface, double c, double n1, double n2);

@@ -13,13 +13,15 @@ using shaders::Effect;
 
 namespace {
 
-// Effects of data that a scene has or lacks: sampled lights, filters before lights, maps and instances. Without the
+// Effects of data that a scene has or lacks: sampled lights, filters before lights, maps, instances
+// and layers of materials. Without the
 // data their code cannot run, but it is most of the code of a variant, which a CPU takes minutes to compile.
-constexpr std::uint32_t kOfData = shaders::effectBit(Effect::kAreaLights) |
-                                  shaders::effectBit(Effect::kEnvironmentLight) |
-                                  shaders::effectBit(Effect::kFilteredShadows) |
-                                  shaders::effectBit(Effect::kMeshTextures) | shaders::effectBit(Effect::kNormalMaps) |
-                                  shaders::effectBit(Effect::kCutOuts) | shaders::effectBit(Effect::kInstances);
+constexpr std::uint32_t kOfData =
+    shaders::effectBit(Effect::kAreaLights) | shaders::effectBit(Effect::kEnvironmentLight) |
+    shaders::effectBit(Effect::kFilteredShadows) | shaders::effectBit(Effect::kMeshTextures) |
+    shaders::effectBit(Effect::kNormalMaps) | shaders::effectBit(Effect::kCutOuts) |
+    shaders::effectBit(Effect::kInstances) | shaders::effectBit(Effect::kSpecularFactors) |
+    shaders::effectBit(Effect::kTintedGlass) | shaders::effectBit(Effect::kClearCoats);
 
 std::uint32_t neededEffects(const pack::Scene& scene, const RenderParameters& parameters) {
   return bake::findCompiledEffects(scene, {parameters.depth, parameters.analyser, false, false});

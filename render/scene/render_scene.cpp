@@ -34,11 +34,22 @@ glm::dvec3 roundTripPhase(const pack::Coating& coating, const glm::dvec3& wavele
 
 namespace {
 
-f64::Reflectance reflectance(const pack::Material& m, double c, int colour, double phase) {
+// Reflectance of unpolarized light.
+double meanReflectance(const pack::Material& m, double c, int colour, double phase) {
+  const auto mean = [](const f64::Reflectance& r) { return 0.5 * (r.rs + r.rp); };
   const bool metal = pack::isConductor(m.kind);
   const double n3 = metal ? m.eta[colour] : m.eta.y, k3 = metal ? m.k[colour] : 0;
-  if (m.coating.thicknessNm > 0) return f64::thinFilm(c, m.outsideEta, m.coating.eta[colour], phase, n3, k3).reflected;
-  return metal ? f64::conductorReflectance(c, m.outsideEta, n3, k3) : f64::dielectricReflectance(c, m.outsideEta, n3);
+  double base = 0;
+  if (m.coating.thicknessNm > 0)
+    base = mean(f64::thinFilm(c, m.outsideEta, m.coating.eta[colour], phase, n3, k3).reflected);
+  else
+    base = mean(metal ? f64::conductorReflectance(c, m.outsideEta, n3, k3)
+                      : f64::dielectricReflectance(c, m.outsideEta, n3));
+  base *= m.specularFactor;
+  if (m.clearCoat.factor == 0) return base;
+  const f64::ClearCoat coat = metal ? f64::coatOnConductor(c, m.outsideEta, m.clearCoat.eta, n3, k3, m.specularFactor)
+                                    : f64::coatOnDielectric(c, m.outsideEta, m.clearCoat.eta, n3, 1, m.specularFactor);
+  return base + m.clearCoat.factor * (mean(coat.reflected) - base);
 }
 
 // Rounding error of a value that is stored in float.
@@ -76,6 +87,9 @@ gpu::MaterialExtra makeExtra(const pack::Material& m, const glm::dvec3& waveleng
   e.mapOrigin = glm::vec3(m.maps.origin);
   e.mapU = glm::vec3(m.maps.u);
   e.mapV = glm::vec3(m.maps.v);
+  e.specularFactor = static_cast<float>(m.specularFactor);
+  e.coatShare = static_cast<float>(m.clearCoat.factor);
+  e.coatEta = static_cast<float>(m.clearCoat.eta);
   return e;
 }
 
@@ -93,9 +107,9 @@ std::vector<std::uint32_t> sortByOrigin(const std::vector<pack::Mesh>& meshes) {
 
 // Whether rays pass a surface unchanged, because it separates equal media.
 bool isInvisible(const pack::Material& m) {
-  if (m.eta.y != m.outsideEta || m.coating.thicknessNm > 0) return false;
-  if (m.kind == pack::MaterialKind::glass) return m.absorption == m.outsideAbsorption;
-  return m.kind == pack::MaterialKind::thinGlass && m.transmittanceParallel == glm::dvec3(1.0);
+  if (m.eta.y != m.outsideEta || m.coating.thicknessNm > 0 || m.clearCoat.factor > 0) return false;
+  if (!pack::isClear(m.kind) || m.transmittanceParallel != glm::dvec3(1.0)) return false;
+  return !pack::hasInside(m.kind) || m.absorption == m.outsideAbsorption;
 }
 
 }  // namespace
@@ -131,8 +145,7 @@ glm::dvec3 hemisphereTransmittance(const pack::Material& m, const glm::dvec3& wa
   for (int i = 0; i < kSteps; ++i) {
     const double c = (i + 0.5) / kSteps;
     for (int colour = 0; colour < 3; ++colour) {
-      const f64::Reflectance r = reflectance(m, c, colour, phase[colour]);
-      sum[colour] += 2 * c * (1 - 0.5 * (r.rs + r.rp)) / kSteps;
+      sum[colour] += 2 * c * (1 - meanReflectance(m, c, colour, phase[colour])) / kSteps;
     }
   }
   return sum;

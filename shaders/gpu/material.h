@@ -7,7 +7,7 @@ struct Material {
   real3 contrast;  // eta - outsideEta, from double precision
   real3 albedo;    // diffuse reflectance; 0: none. Of an emitter: the radiance of its back
   real3 radiance;  // emitted, by an emitter or the diffuse layer, divided by the square of the index that
-                   // it is emitted into. Of thin glass with a map: its transmittance
+                   // it is emitted into. Of glass with a map: its transmittance
   real3 hemisphereTransmittance;  // mean transmittance of the interface for light from all directions
   real outsideEta;                // index on the side that the normals point to
   real basicScale;                // 1 / outsideEta^2: radiance to basic radiance
@@ -23,9 +23,10 @@ struct MaterialExtra {
   real3 axis;               // unit vector, in the scene: of an emitter's field, a polarizer's transmission axis or a
                             // wave plate's fast axis
   real degree;              // degree of linear polarization of an emitter
-  real3 transmittanceParallel;  // power transmittance of a polarizing element for light polarized along its axis
-  real3 transmittanceCrossed;   // and across it
-  real3 retardanceCos;          // of a wave plate
+  real3 transmittanceParallel;  // power transmittance of a polarizing element for light polarized along its axis, of
+                                // the inside of thin glass, of the surface of a glass body
+  real3 transmittanceCrossed;  // and across it
+  real3 retardanceCos;         // of a wave plate
   real3 retardanceSin;
   real3 filmEta;          // index of a thin film; 0: none
   real3 filmOverOutside;  // filmEta - outsideEta and filmEta - eta, from double precision; dielectrics have eta.y
@@ -40,6 +41,9 @@ struct MaterialExtra {
   real3 mapOrigin;  // texture coordinates: dot(p - mapOrigin, mapU or mapV)
   real3 mapU;
   real3 mapV;
+  real specularFactor;  // share of the surface that has the interface, 0 to 1
+  real coatShare;       // share of the surface that has a clear coat; 0: none
+  real coatEta;         // index of the clear coat
 };
 
 // A texture by the texture coordinates of meshes: read at (dot(u, p), dot(v, p)) of p = (s, t, 1), where (s, t) are
@@ -64,7 +68,7 @@ struct MeshMaps {
   word metallic;       // x: edge tint of the reflectance; none: 1
   word roughness;      // x
   word radiance;       // in W/(m^2 sr)
-  word transmittance;  // of thin glass
+  word transmittance;  // of thin glass, and of the surface of a glass body
   word normal;         // (n + 1) / 2 of the normal n in the frame of tangent, bitangent and normal
   word coverage;       // x: no surface where it is below the cutoff
   real normalScale;    // of the normal's x and y

@@ -37,7 +37,7 @@ enum SurfaceKind : uint {
 
 #include "shaders/gpu/material.h"
 MALUS_SIZE(Material, 92);
-MALUS_SIZE(MaterialExtra, 204);
+MALUS_SIZE(MaterialExtra, 216);
 MALUS_SIZE(TextureMap, 44);
 MALUS_SIZE(MeshMaps, 48);
 MALUS_SIZE(PointLight, 24);

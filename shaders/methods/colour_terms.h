@@ -9,6 +9,16 @@ FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
   f.r = select3(m, a.r, b.r);
   return f;
 }
+FN FresnelTerms addTerms(FresnelTerms a, FresnelTerms b) {
+  FresnelTerms f;
+  f.r = a.r + b.r;
+  return f;
+}
+FN FresnelTerms scaleTerms(FresnelTerms a, real3 scale) {
+  FresnelTerms f;
+  f.r = a.r * scale;
+  return f;
+}
 FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
   FresnelTerms f;
   f.r = splat3(R(1.0)) - reflection.r;

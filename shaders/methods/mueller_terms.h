@@ -16,6 +16,22 @@ FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
   f.xIm = select3(m, a.xIm, b.xIm);
   return f;
 }
+FN FresnelTerms addTerms(FresnelTerms a, FresnelTerms b) {
+  FresnelTerms f;
+  f.rs = a.rs + b.rs;
+  f.rp = a.rp + b.rp;
+  f.xRe = a.xRe + b.xRe;
+  f.xIm = a.xIm + b.xIm;
+  return f;
+}
+FN FresnelTerms scaleTerms(FresnelTerms a, real3 scale) {
+  FresnelTerms f;
+  f.rs = a.rs * scale;
+  f.rp = a.rp * scale;
+  f.xRe = a.xRe * scale;
+  f.xIm = a.xIm * scale;
+  return f;
+}
 // Transmission of a dielectric without a film, whose terms are the same for all colours, in the form of a reflection:
 // T_s = 1 - R_s, T_p = 1 - R_p, X = sqrt(T_s T_p).
 FN FresnelTerms transmissionTerms(FresnelTerms reflection) {

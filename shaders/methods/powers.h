@@ -13,6 +13,18 @@ FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
   f.rp = select3(m, a.rp, b.rp);
   return f;
 }
+FN FresnelTerms addTerms(FresnelTerms a, FresnelTerms b) {
+  FresnelTerms f;
+  f.rs = a.rs + b.rs;
+  f.rp = a.rp + b.rp;
+  return f;
+}
+FN FresnelTerms scaleTerms(FresnelTerms a, real3 scale) {
+  FresnelTerms f;
+  f.rs = a.rs * scale;
+  f.rp = a.rp * scale;
+  return f;
+}
 // Transmission T_s = 1 - R_s, T_p = 1 - R_p.
 FN FresnelTerms transmissionTerms(FresnelTerms reflection) {
   FresnelTerms f;

@@ -1,5 +1,5 @@
-// Fresnel terms of an interface, its thin film included, for light at an angle of incidence with cosine c in [0, 1].
-// material: index of the surface's material, for materialExtra.
+// Fresnel terms of an interface, its thin film included but not its clear coat (clear_coat.h), for light at an angle of
+// incidence with cosine c in [0, 1]. material: index of the surface's material, for materialExtra.
 
 FN mask hasFilm(word material) { return lessR(R(0.0), materialExtra(material).filmEta.x); }
 
@@ -76,7 +76,7 @@ FN FresnelTerms bareDielectricTerms(real c, IN(Material) m, mask entering) {
 }
 
 // Reflection at a dielectric. entering: the light is in the outer medium, else in the material.
-FN FresnelTerms coatedDielectricTerms(real c, IN(Material) m, word material, mask entering) {
+FN FresnelTerms filmedDielectricTerms(real c, IN(Material) m, word material, mask entering) {
   if (!kEffectCoatings) return bareDielectricTerms(c, m, entering);
   mask film = hasFilm(material);
   if (!anyM(film)) return bareDielectricTerms(c, m, entering);
@@ -86,21 +86,11 @@ FN FresnelTerms coatedDielectricTerms(real c, IN(Material) m, word material, mas
 }
 
 // Reflection at a conductor.
-FN FresnelTerms coatedConductorTerms(real c, IN(Material) m, word material) {
+FN FresnelTerms filmedConductorTerms(real c, IN(Material) m, word material) {
   if (!kEffectCoatings) return conductorTerms(c, m.outsideEta, m.eta, m.k, m.contrast);
   mask film = hasFilm(material);
   if (!anyM(film)) return conductorTerms(c, m.outsideEta, m.eta, m.k, m.contrast);
   FresnelTerms f = filmOnConductor(c, m, material);
   if (anyM(notM(film))) f = selectTerms(film, f, conductorTerms(c, m.outsideEta, m.eta, m.k, m.contrast));
-  return f;
-}
-
-// Reflection at paint, mirror glass or metal.
-FN FresnelTerms opaqueTerms(real c, IN(Material) m, word material) {
-  if (!kEffectMetal) return coatedDielectricTerms(c, m, material, true);
-  mask metal = equalW(m.kind, kMetal);
-  if (!anyM(metal)) return coatedDielectricTerms(c, m, material, true);
-  FresnelTerms f = coatedConductorTerms(c, m, material);
-  if (anyM(notM(metal))) f = selectTerms(metal, f, coatedDielectricTerms(c, m, material, true));
   return f;
 }

@@ -127,9 +127,9 @@ FN FilterTerms paneFilter(IN(Hit) h, IN(Material) m) {
   RefractionTerms t = refractionTermsWith(h.c, m.outsideEta, m.eta.y, m.contrast.y);
   FilterTerms f;
   f.s = sDirection(h.d, h.normal);
-  f.red = thinGlassFromTerms(h.c, t, internal.x).transmitted;
-  f.green = thinGlassFromTerms(h.c, t, internal.y).transmitted;
-  f.blue = thinGlassFromTerms(h.c, t, internal.z).transmitted;
+  f.red = paneTerms(h, t, internal.x).transmitted;
+  f.green = paneTerms(h, t, internal.y).transmitted;
+  f.blue = paneTerms(h, t, internal.z).transmitted;
   return f;
 }
 

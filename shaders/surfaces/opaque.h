@@ -6,7 +6,7 @@ CONST int kShapePaint = kOpaqueShape;
 FN Scattering scatterPaint(IN(Hit) h, IN(Material) m) {
   Scattering s;
   s.frameNormal = h.normal;
-  s.reflection = coatedDielectricTerms(h.c, m, h.material, true);
+  s.reflection = coatedDielectricTerms(h.c, m, h.material);
   s.reflected = mirrorDirection(h.d, h.normal, h.c);
   s.reflects = true;
   s.transmits = false;

@@ -9,6 +9,7 @@
 #include "shaders/surfaces/hooks.h"
 #include "shaders/surfaces/medium.h"
 #include "shaders/surfaces/interface_terms.h"
+#include "shaders/surfaces/clear_coat.h"
 #include "shaders/surfaces/scattering.h"
 #include "shaders/surfaces/opaque.h"
 #include "shaders/surfaces/glass.h"

@@ -1,5 +1,14 @@
 // A thin pane of glass as one surface (shaders/optics/thin_glass.h). Both sides are in the medium of outsideEta.
 
+// Terms of one colour. f: refractionTerms of the hit.
+FN ThinGlass paneTerms(IN(Hit) h, RefractionTerms f, real internal) {
+  if (kEffectSpecularFactors) {
+    real share = specularFactor(h.material);
+    if (anyM(lessR(share, R(1.0)))) return partialThinGlass(h.c, f, internal, share);
+  }
+  return thinGlassFromTerms(h.c, f, internal);
+}
+
 CONST int kShapeThinGlass = kTransparentShape;
 
 FN Scattering scatterThinGlass(INOUT(Hit) h, IN(Material) m) {
@@ -8,9 +17,9 @@ FN Scattering scatterThinGlass(INOUT(Hit) h, IN(Material) m) {
   internal = select3(equalW(meshMaps(h.material).transmittance, 0u), internal, m.radiance);
 #endif
   RefractionTerms f = refractionTermsWith(h.c, m.outsideEta, m.eta.y, m.contrast.y);
-  ThinGlass red = thinGlassFromTerms(h.c, f, internal.x);
-  ThinGlass green = thinGlassFromTerms(h.c, f, internal.y);
-  ThinGlass blue = thinGlassFromTerms(h.c, f, internal.z);
+  ThinGlass red = paneTerms(h, f, internal.x);
+  ThinGlass green = paneTerms(h, f, internal.y);
+  ThinGlass blue = paneTerms(h, f, internal.z);
   Scattering s;
   s.frameNormal = h.normal;
   s.reflection = termsFromReflectance(red.reflected, green.reflected, blue.reflected);

@@ -73,6 +73,9 @@ emulated::MaterialExtra drawExtra(Draw& draw, const emulated::Material& m) {
   e.etaMap = draw.below(2) == 0 ? gpu::kNoTexture : 0u;
   e.roundTripPhase = numbers(draw, 0, 2);
   e.roughness = number(draw, 0.01, 1);
+  e.specularFactor = draw.below(2) == 0 ? real(1) : number(draw, 0, 1);
+  e.coatShare = draw.below(2) == 0 ? real(0) : number(draw, 0, 1);
+  e.coatEta = draw.below(2) == 0 ? real(1.5) : number(draw, 1, 2);
   return e;
 }
 

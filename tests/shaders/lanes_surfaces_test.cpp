@@ -80,7 +80,8 @@ void expectSameNumbers(const LaneStruct& l, const Struct& a, const Struct& b, co
 #define MALUS_EXTRA(X)                                                                                        \
   X(absorption) X(outsideAbsorption) X(axis) X(degree) X(transmittanceParallel) X(transmittanceCrossed)       \
   X(retardanceCos) X(retardanceSin) X(filmEta) X(filmOverOutside) X(filmOverBase) X(roundTripPhase)           \
-  X(outsideResidue) X(filmResidue) X(roughness) X(albedoMap) X(etaMap) X(kMap) X(mapOrigin) X(mapU) X(mapV)
+  X(outsideResidue) X(filmResidue) X(roughness) X(albedoMap) X(etaMap) X(kMap) X(mapOrigin) X(mapU) X(mapV)   \
+  X(specularFactor) X(coatShare) X(coatEta)
 // clang-format on
 
 // Both lanes' scalar inputs, and the two of them packed.
@@ -133,6 +134,9 @@ gpu::MaterialExtra drawExtra(Draw& draw) {
   e.etaMap = draw.below(2) == 0 ? gpu::kNoTexture : 0;
   e.roundTripPhase = numbers(draw, 0, 2);
   e.roughness = draw.below(2) == 0 ? 0 : number(draw, 0.01, 1);
+  e.specularFactor = draw.below(2) == 0 ? 1 : number(draw, 0, 1);
+  e.coatShare = draw.below(2) == 0 ? 0 : number(draw, 0, 1);
+  e.coatEta = draw.below(4) == 0 ? 1.5f : number(draw, 1, 2);
   return e;
 }
 

@@ -170,9 +170,10 @@ TEST(VariantsTest, DisabledEffectsCostNothing) {
       EXPECT_EQ(std::count(c.bindings.begin(), c.bindings.end(), binding) > 0, there) << method << ' ' << binding;
     };
     for (const std::uint32_t binding : {12u, 13u, 14u, 21u, 22u, 23u}) expectBinding(without, binding, false);
-    for (const Effect effect : {Effect::kPolarizingElement, Effect::kThinGlass, Effect::kTextures, Effect::kAbsorption,
-                                Effect::kCoatings, Effect::kRoughness, Effect::kSky, Effect::kPolarizedEmitters,
-                                Effect::kAreaLights, Effect::kEnvironmentLight}) {
+    for (const Effect effect :
+         {Effect::kPolarizingElement, Effect::kThinGlass, Effect::kTextures, Effect::kAbsorption, Effect::kCoatings,
+          Effect::kRoughness, Effect::kSky, Effect::kPolarizedEmitters, Effect::kAreaLights, Effect::kEnvironmentLight,
+          Effect::kSpecularFactors, Effect::kTintedGlass, Effect::kClearCoats}) {
       SCOPED_TRACE(std::string(method) + " " + shaders::kCompiledEffects[static_cast<std::size_t>(effect)].macro);
       Variant on = off;
       on.effects |= shaders::effectBit(effect);

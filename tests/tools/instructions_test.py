@@ -30,7 +30,7 @@ def plain_material(m: dict) -> dict:
     if "albedoMap" in m:
         m.setdefault("albedo", 1)
     optional = ("absorption", "outsideAbsorption", "coating", "roughness", "polarization", "albedoMap", "etaMap", "kMap",
-                "projection")
+                "projection", "specularFactor", "clearCoat")
     return {key: value for key, value in m.items() if key not in optional}
 
 

@@ -201,6 +201,12 @@ def omissions(scene: Unpacked) -> list[str]:
                 omitted.append(f"Material '{m['name']}': {what} left out.")
         for name in sorted(set(m.get("meshMaps", {})) - EXPORTED_MAPS):
             omitted.append(f"Material '{m['name']}': the map '{name}' is left out.")
+        if m.get("specularFactor", 1) != 1:
+            omitted.append(f"Material '{m['name']}': the specular factor is left out.")
+        if m.get("clearCoat", {}).get("factor", 0) > 0:
+            omitted.append(f"Material '{m['name']}': the clear coat is left out.")
+        if m["type"] == "glass" and np.any(np.array(m.get("transmittanceParallel", 1)) != 1):
+            omitted.append(f"Material '{m['name']}': the tint of its surface is left out.")
         if m["highlight"]:
             omitted.append(f"Material '{m['name']}': the highlight is left out.")
     if "sky" in scene.json["environment"]:

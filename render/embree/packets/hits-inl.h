@@ -8,7 +8,8 @@ real3 rayDirection(const Rays& batch, word ray) {
 
 EFFECT_CONST bool kReadsExtras = kEffectPolarizingElement || kEffectThinGlass || kEffectTextures ||
                                  kEffectMeshTextures || kEffectAbsorption || kEffectCoatings || kEffectRoughness ||
-                                 kEffectPolarizedEmitters;
+                                 kEffectPolarizedEmitters || kEffectSpecularFactors || kEffectTintedGlass ||
+                                 kEffectClearCoats;
 
 // Makes materialExtra return that of a packet's materials.
 void loadExtra(word material) {

@@ -45,6 +45,9 @@ TEST(Effects, AllOfThemInOrder) {
                                              "mesh-textures",
                                              "normal-maps",
                                              "cut-outs",
+                                             "specular-factors",
+                                             "tinted-glass",
+                                             "clear-coats",
                                              "diffuse",
                                              "dielectric",
                                              "tir",
@@ -129,6 +132,18 @@ TEST(Effects, OptionalMaterialProperties) {
   EXPECT_TRUE(bits(coated).at("coatings"));
   EXPECT_TRUE(bits(coated).at("circular-polarization"));  // films shift phases
   EXPECT_FALSE(bits(material(MaterialKind::mirrorGlass)).at("circular-polarization"));
+  Material partial = material(MaterialKind::paint);
+  partial.specularFactor = 0.5;
+  EXPECT_TRUE(bits(partial).at("specular-factors"));
+  Material varnished = material(MaterialKind::metal);
+  varnished.clearCoat.factor = 0.5;
+  EXPECT_TRUE(bits(varnished).at("clear-coats"));
+  EXPECT_FALSE(bits(varnished).at("specular-factors"));
+  Material tinted = material(MaterialKind::glass);
+  tinted.transmittanceParallel = {1, 0.5, 1};
+  EXPECT_TRUE(bits(tinted).at("tinted-glass"));
+  tinted.kind = MaterialKind::thinGlass;  // within the pane
+  EXPECT_FALSE(bits(tinted).at("tinted-glass"));
   Material rough = material(MaterialKind::metal);
   rough.roughness = 0.1;
   EXPECT_TRUE(bits(rough).at("roughness"));
@@ -140,8 +155,8 @@ TEST(Effects, OptionalMaterialProperties) {
     EXPECT_TRUE(bits(material(kind)).at("polarizing-elements"));
   for (const auto& [name, on] :
        effectStates(makeScene({material(MaterialKind::glass), material(MaterialKind::metal)}, 4)))
-    for (const char* few :
-         {"absorption", "coatings", "roughness", "textures", "polarizing-elements", "polarized-emitters", "sky"})
+    for (const char* few : {"absorption", "coatings", "roughness", "textures", "polarizing-elements",
+                            "polarized-emitters", "sky", "specular-factors", "tinted-glass", "clear-coats"})
       EXPECT_FALSE(name == few && on) << name;
 }
 

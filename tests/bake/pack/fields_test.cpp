@@ -74,7 +74,7 @@ TEST(Fields, MaterialsHaveUniqueNamesAndTheBytesOfTheDocument) {
   visitMaterial(surfaces, any);
   EXPECT_EQ(materials.bytes(), 124u);
   EXPECT_EQ(surfaces.bytes(), 276u);
-  EXPECT_EQ(newestSurfaceVersion(), 3u);  // illuminates
+  EXPECT_EQ(newestSurfaceVersion(), 4u);  // layers
 }
 
 // Each field stored in SRFX requires SRFX by itself; no other field does.

@@ -65,6 +65,15 @@ TEST(SceneMaterial, OptionalMaterialProperties) {
   EXPECT_EQ(m.transmittanceParallel, glm::dvec3(0.9));
   EXPECT_EQ(m.transmittanceCrossed, glm::dvec3(0.9));
   EXPECT_TRUE(parseMaterial(R"({"type": "lambert", "albedo": 1})").isPlain());
+  m = parseMaterial(R"({"type": "metal", "preset": "gold", "clearCoat": {}, "specularFactor": 0.5})");
+  EXPECT_EQ(m.clearCoat.eta, 1.5);
+  EXPECT_EQ(m.clearCoat.factor, 1);
+  EXPECT_EQ(m.specularFactor, 0.5);
+  m = parseMaterial(
+      R"({"type": "glass", "eta": 1.8, "clearCoat": {"eta": 1.6, "factor": 0.25}, "transmittance": 0.5})");
+  EXPECT_EQ(m.clearCoat.eta, 1.6);
+  EXPECT_EQ(m.clearCoat.factor, 0.25);
+  EXPECT_EQ(m.transmittanceParallel, glm::dvec3(0.5));
 
   for (const char* bad :
        {R"({"type": "glass", "eta": 1.5, "absorption": -1})", R"({"type": "metal", "preset": "gold", "absorption": 1})",
@@ -72,6 +81,10 @@ TEST(SceneMaterial, OptionalMaterialProperties) {
         R"({"type": "lambert", "albedo": 1, "coating": {"eta": 1.4, "thicknessNm": 1}})",
         R"({"type": "glass", "eta": 1.5, "coating": {"eta": 1.4}})",
         R"({"type": "glass", "eta": 1.5, "coating": {"eta": 0, "thicknessNm": 1}})",
+        R"({"type": "glass", "eta": 1.5, "clearCoat": {}, "coating": {"eta": 1.4, "thicknessNm": 1}})",
+        R"({"type": "glass", "eta": 1.5, "clearCoat": {"factor": 2}})",
+        R"({"type": "thin-glass", "eta": 1.5, "clearCoat": {}})",
+        R"({"type": "lambert", "albedo": 1, "specularFactor": 0.5})",
         R"({"type": "emitter", "radiance": [1, 1, 1], "polarization": {"axis": [0, 0, 0]}})",
         R"({"type": "emitter", "radiance": [1, 1, 1], "polarization": {"axis": [0, 0, 1], "degree": 2}})",
         R"({"type": "polarizer"})", R"({"type": "polarizer", "axis": [0, 1, 0], "transmittanceParallel": 1.5})",

@@ -176,18 +176,18 @@ void MaterialMaps::addRoughness(const prep::SourceMaterial& factors, pack::Mater
           });
 }
 
-// The base colour as albedo, or as transmittance of thin glass.
+// The base colour as albedo, or as transmittance of thin glass or of the surface of a body.
 void MaterialMaps::addColour(const prep::SourceMaterial& factors, pack::Material& material) {
   pack::MeshMaps& maps = material.meshMaps;
-  const bool isPane = material.kind == MaterialKind::thinGlass;
-  const bool isBlended = factors.alphaMode == prep::AlphaMode::blend;
-  if (decode(factors.baseColourImage) != nullptr && (pack::canBeDiffuse(material.kind) || isPane)) {
-    const std::string recipe = fmt::format("{}: {} {}", isPane ? "transmittance" : "albedo", key(factors.baseColour),
-                                           isPane && isBlended ? factors.alpha : -1);
-    (isPane ? maps.transmittance : maps.albedo) =
+  const bool isBlended = material.kind == MaterialKind::thinGlass && factors.alphaMode == prep::AlphaMode::blend;
+  const bool isClear = isBlended || (pack::isClear(material.kind) && factors.tintsTransmission);
+  if (decode(factors.baseColourImage) != nullptr && (pack::canBeDiffuse(material.kind) || isClear)) {
+    const std::string recipe = fmt::format("{}: {} {}", isClear ? "transmittance" : "albedo", key(factors.baseColour),
+                                           isBlended ? factors.alpha : -1);
+    (isClear ? maps.transmittance : maps.albedo) =
         add(*factors.baseColourImage, factors.baseColourPlacement, recipe, [&](const Decoded& image, std::size_t i) {
           const glm::dvec3 colour = baseColour(factors, image, i);
-          return glm::vec3(isPane && isBlended ? 1.0 - factors.alpha * image.coverage(i) * (1.0 - colour) : colour);
+          return glm::vec3(isBlended ? 1.0 - factors.alpha * image.coverage(i) * (1.0 - colour) : colour);
         });
   }
 }
@@ -269,11 +269,20 @@ pack::Material MaterialMaps::convert(prep::SourceMaterial factors, prep::SourceM
                                       factors.name, kBlendCutoff));
   if (isCutOut) means.alphaMode = prep::AlphaMode::opaque;
 
-  pack::Material material = convertMaterial(means, notes_);
+  std::vector<std::string> notes;
+  pack::Material material = convertMaterial(means, notes);
   const bool isMetal = material.kind == MaterialKind::metal && means.metallic >= kMetallic;
   const bool isDielectric = material.kind == MaterialKind::lambert || material.kind == MaterialKind::paint;
   const bool isMixedMetal = (isMetal || isDielectric) && isMixed(factors);
-  if (isMixedMetal) material.kind = MaterialKind::metal;
+  if (isMixedMetal && !isMetal) {  // with the layers of a metal
+    prep::SourceMaterial metal = means;
+    metal.metallic = 1;
+    notes.clear();
+    material = convertMaterial(metal, notes);
+  }
+  if (isMixedMetal && means.specular < 1)
+    notes.push_back(fmt::format("the specular factor of material '{}', which is a metal in part", means.name));
+  for (std::string& note : notes) prep::addNote(notes_, std::move(note));
   if (!pack::isEmitter(material.kind)) addRoughness(factors, material);
   if (isMixedMetal)
     addMixed(factors, means, material);

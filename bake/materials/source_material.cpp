@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -78,36 +80,63 @@ void setOpaqueDielectric(const prep::SourceMaterial& source, double alpha, pack:
   }
 }
 
-// Adds the clear coat and the thin film of a material, or a note.
-void addLayers(const prep::SourceMaterial& source, pack::Material& result, std::vector<std::string>& notes) {
+using Note = std::function<void(std::string_view what)>;
+
+// Adds the clear coat. Where the base has the coat's index, or is a bare diffuse layer, only one interface reflects:
+// that of the coat on its share, and that of the base on the rest.
+void addClearCoat(const prep::SourceMaterial& source, pack::Material& result, const Note& note) {
   using Kind = pack::MaterialKind;
-  const auto note = [&](std::string_view what) {
+  if (source.clearcoat == 0) return;
+  const double share = source.clearcoat, alpha = facetAlpha(source.clearcoatRoughness);
+  const bool isMatched = pack::isDielectric(result.kind) && result.eta == glm::dvec3(kCoatIor);
+  if (result.kind == Kind::lambert || isMatched) {
+    const double base = isMatched ? result.specularFactor : 0;
+    result.specularFactor = share + (1 - share) * base;
+  } else if (pack::canBeCoated(result.kind)) {
+    result.clearCoat = {kCoatIor, share};
+  } else {
+    note("the clear coat on thin glass");
+    return;
+  }
+  if (result.kind == Kind::lambert) {
+    result.kind = Kind::paint;
+    result.eta = glm::dvec3(kCoatIor);
+    result.roughness = alpha;
+  } else if (!pack::canBeRough(result.kind)) {
+    if (alpha > 0) note("the roughness of the clear coat");
+  } else if (alpha != result.roughness) {
+    // One roughness is drawn: that of the interface that reflects most.
+    const bool isOfCoat = pack::isDielectric(result.kind) && share >= 0.5;
+    if (isOfCoat) result.roughness = alpha;
+    if (!isMatched || share < 1)
+      note(isOfCoat ? "the roughness below the clear coat" : "the roughness of the clear coat");
+  }
+}
+
+void addFilm(const prep::SourceMaterial& source, pack::Material& result, const Note& note) {
+  if (source.film == 0 || source.filmThicknessNm == 0) return;
+  if (source.film < 0.5) {
+    note("the thin film of less than half");
+  } else if (!pack::canBeCoated(result.kind)) {
+    note("the thin film on a surface without one");
+  } else if (result.clearCoat.factor > 0) {
+    note("the thin film below the clear coat");
+  } else {
+    result.coating = {glm::dvec3(std::clamp(source.filmIor, 1.0, pack::kMaxEta)),
+                      std::min(source.filmThicknessNm, pack::kMaxThicknessNm)};
+    if (source.film < 1) note("the part without a thin film");
+  }
+}
+
+// Adds the layers of a material, or a note.
+void addLayers(const prep::SourceMaterial& source, pack::Material& result, std::vector<std::string>& notes) {
+  const Note note = [&](std::string_view what) {
     prep::addNote(notes, fmt::format("{} of material '{}'", what, source.name));
   };
-  if (source.clearcoat > 0) {
-    if (source.clearcoat < 0.5)
-      note("the clear coat of less than half");
-    else if (result.kind != Kind::lambert && result.kind != Kind::paint)
-      note("the clear coat on metal or glass");
-    else {
-      // The base has the coat's index, so that only the coat reflects.
-      result.kind = Kind::paint;
-      result.eta = glm::dvec3(kCoatIor);
-      result.roughness = facetAlpha(source.clearcoatRoughness);
-      if (source.clearcoat < 1) note("the uncoated part");
-    }
-  }
-  if (source.film > 0 && source.filmThicknessNm > 0) {
-    if (source.film < 0.5)
-      note("the thin film of less than half");
-    else if (!pack::canBeCoated(result.kind))
-      note("the thin film on a surface without one");
-    else {
-      result.coating = {glm::dvec3(std::clamp(source.filmIor, 1.0, pack::kMaxEta)),
-                        std::min(source.filmThicknessNm, pack::kMaxThicknessNm)};
-      if (source.film < 1) note("the part without a thin film");
-    }
-  }
+  const bool isDielectric = source.metallic < 0.5;
+  if (isDielectric && pack::hasIndex(result.kind)) result.specularFactor = source.specular;
+  addClearCoat(source, result, note);
+  addFilm(source, result, note);
 }
 
 }  // namespace
@@ -165,7 +194,7 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
   } else if (transmission > prep::kTransmissive) {
     result.kind = source.isThinWalled ? Kind::thinGlass : Kind::glass;
     result.eta = dielectricIndex(source);
-    if (source.isThinWalled) result.transmittanceParallel = colour;  // of thin glass: internal transmittance
+    if (source.tintsTransmission) result.transmittanceParallel = colour;
     if (source.hasVolume) result.absorption = volumeAbsorption(source);
     if (alpha > 0) prep::addNote(notes, fmt::format("the roughness of glass '{}'", source.name));
     if (transmission < 1) prep::addNote(notes, fmt::format("the opaque part of glass '{}'", source.name));
@@ -182,8 +211,6 @@ pack::Material convertMaterial(const prep::SourceMaterial& source, std::vector<s
     else
       prep::addNote(notes, fmt::format("the faint emission of material '{}'", source.name));
   }
-  if (source.specular > 0 && source.specular < 1 && result.kind != Kind::lambert && source.metallic < 0.5)
-    prep::addNote(notes, fmt::format("the specular factor of material '{}'", source.name));
   addLayers(source, result, notes);
   return result;
 }

@@ -8,9 +8,10 @@
 //   0.5, no transmission    for panes of exporters without transmission
 //   transmission over 0.5   transmission x (1 - metallic), as metals are opaque. Thin-walled (glTF without a volume, or
 //                           with one of thickness 0): thin-glass, eta = ior, internal transmittance at normal incidence
-//                           = base colour. Otherwise glass: eta = ior; with a volume, absorption = -ln(attenuation
-//                           colour) / attenuation distance per metre, a colour under 1e-6 counting as 1e-6, at most
-//                           1e9. Roughness and an opaque part are left out, with a note
+//                           = base colour. Otherwise glass: eta = ior, transmittance of each passage through the
+//                           surface = base colour (of glTF); with a volume, absorption = -ln(attenuation colour) /
+//                           attenuation distance per metre, a colour under 1e-6 counting as 1e-6, at most 1e9.
+//                           Roughness and an opaque part are left out, with a note
 //   metallic 0.5 or more    metal whose reflectance at normal incidence is the base colour r (0.001 to 0.999):
 //                           n = (1 - r) / (1 + r), k^2 = (r (n + 1)^2 - (n - 1)^2) / (1 - r), the index with the
 //                           least n (edge tint 1) of O. Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4),
@@ -21,16 +22,23 @@
 //                               roughness alpha: no clear solid has an index over 3
 //     alpha 0.3 or more, a      lambert: albedo = base colour
 //     specular of 0, or f 0
-//     otherwise                 paint: albedo = base colour, eta = (1 + sqrt f) / (1 - sqrt f), roughness alpha. A
-//                               specular between 0 and 1 is left out, with a note
+//     otherwise                 paint: albedo = base colour, eta = (1 + sqrt f) / (1 - sqrt f), roughness alpha
 //
-// A clear coat of half or more makes paint of eta 1.5 and its roughness from lambert and paint: the base has the index
-// of the coat, so that it does not reflect. A film of half or more becomes the coating of paint, metal and glass. Other
-// clear coats and films are left out, with a note.
+// Layers, of dielectrics also the specular factor as specularFactor:
 //
-// KHR_materials_transmission multiplies the transmitted light by the base colour at each surface: a wall has one, on
-// which the Fresnel reflection of its two interfaces is not tinted. A body has two, and its colour is that of the
-// volume; the readers note a base colour other than white.
+//   clear coat on lambert   paint of eta 1.5, the share of the coat as specularFactor, the roughness of the coat
+//   on eta 1.5              the base does not reflect below the coat, whose index it has: specularFactor = share + (1 -
+//                           share) x specular factor; this is exact for thin glass too
+//   on paint, metal, glass  clearCoat of index 1.5 and the share
+//   on other thin glass     left out, with a note
+//   film of half or more    coating of paint, metal and glass without clearCoat; others are left out, with a note
+//
+// One roughness is drawn: that of the coat on paint, if its share is half or more, that of the base on metal. Another
+// one is noted.
+//
+// KHR_materials_transmission multiplies the transmitted light by the base colour (specular_btdf x baseColor) at each
+// surface: a thin wall has one, on which the Fresnel reflection of its two interfaces is not tinted; a body is entered
+// and left. The base colour of MTL is that of diffuse reflection and tints nothing.
 //
 // alpha = roughness^2, as glTF has it; below 0.01 it is 0. Indices are clamped to 1 to 1000, the bounds of a pack.
 #pragma once

@@ -176,6 +176,7 @@ void readDielectric(const gltf::Material& material, const BoundsCheck& checked, 
                                                 std::numeric_limits<double>::min(), kInfinity, kInfinity);
   // Without a volume, or with one of thickness 0, KHR_materials_volume makes the material thin-walled.
   result.isThinWalled = result.transmission > 0 && !result.hasVolume;
+  result.tintsTransmission = result.transmission > 0;
   result.clearcoat = checked("clearcoatFactor", material.clearcoatFactor, 0, 1);
   result.clearcoatRoughness = checked("clearcoatRoughnessFactor", material.clearcoatRoughnessFactor, 0, 1);
   result.film = checked("iridescenceFactor", material.iridescenceFactor, 0, 1);
@@ -197,8 +198,6 @@ SourceMaterial gltfMaterial(const gltf::Document& document, const gltf::Material
   readTextures(document, material, notes, result);
   result.isDoubleSided = material.doubleSided;
   readAlpha(material, checked, result);
-  if (result.transmission > 0 && result.hasVolume && result.baseColour != glm::dvec3(1.0))
-    addNote(notes, "base colours of transmissive materials with a volume");
   return result;
 }
 

@@ -57,15 +57,17 @@ struct SourceMaterial {
   std::string name;  // empty if the file has none
   glm::dvec3 baseColour{1.0};
   AlphaMode alphaMode = AlphaMode::opaque;
-  double alpha = 1;                // 0 to 1, of the base colour; not used if opaque
-  double alphaCutoff = 0.5;        // of a mask: smaller alpha is not drawn
-  double metallic = 1;             // 0 to 1
-  double roughness = 1;            // 0 to 1; the square root of GGX's alpha
-  glm::dvec3 emissive{0.0};        // radiance, W / (m^2 sr) or relative, including the strength
-  bool isDoubleSided = false;      // emission on both sides
-  double transmission = 0;         // 0 to 1
-  bool isThinWalled = false;       // transmits without refraction, tinted by the base colour
-  double ior = 1.5;                // 1 or more; 0: the reflectance of the dielectric at normal incidence is 1
+  double alpha = 1;            // 0 to 1, of the base colour; not used if opaque
+  double alphaCutoff = 0.5;    // of a mask: smaller alpha is not drawn
+  double metallic = 1;         // 0 to 1
+  double roughness = 1;        // 0 to 1; the square root of GGX's alpha
+  glm::dvec3 emissive{0.0};    // radiance, W / (m^2 sr) or relative, including the strength
+  bool isDoubleSided = false;  // emission on both sides
+  double transmission = 0;     // 0 to 1
+  bool isThinWalled = false;   // transmits without refraction
+  bool tintsTransmission =
+      false;         // the base colour tints transmitted light, of a body at each passage through its surface
+  double ior = 1.5;  // 1 or more; 0: the reflectance of the dielectric at normal incidence is 1
   glm::dvec3 specularColour{1.0};  // 0 or more: factor of that reflectance
   double specular = 1;             // 0 to 1: factor of the reflectance at every angle
   double clearcoat = 0;            // 0 to 1: share of the surface under a layer of index 1.5

@@ -114,6 +114,37 @@ TEST_F(MaterialMapsTest, MetalBesideADielectric) {
   EXPECT_NEAR(index(1).k, convertMaterial(metal, notes_).k.x, 1e-5);
 }
 
+TEST_F(MaterialMapsTest, MixedMetalHasTheLayersOfAMetal) {
+  prep::SourceMaterial source;
+  source.clearcoat = 0.25;
+  source.specular = 0.5;
+  source.metallicRoughnessImage = add(4, {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1});
+  const pack::Material made = convert(source);
+  EXPECT_EQ(made.kind, MaterialKind::metal);
+  EXPECT_EQ(made.clearCoat.factor, 0.25);
+  EXPECT_EQ(made.specularFactor, 1);
+  ASSERT_EQ(notes_.size(), 2u);
+  EXPECT_CONTAINS(notes_[0], "roughness of the clear coat");
+  EXPECT_CONTAINS(notes_[1], "specular factor");
+}
+
+TEST_F(MaterialMapsTest, TheBaseColourTintsTheSurfaceOfBodies) {
+  prep::SourceMaterial source;
+  source.metallic = source.roughness = 0;
+  source.transmission = 1;
+  source.hasVolume = true;
+  source.baseColour = {1, 0.5, 1};
+  source.baseColourImage = add(2, {encoded(0.25), encoded(0.5), 1, 1, 1, 1});
+  EXPECT_FALSE(convert(source).meshMaps.transmittance.isUsed());  // MTL: the colour of a diffuse reflection
+  source.tintsTransmission = true;
+  const pack::Material made = convert(source);
+  EXPECT_EQ(made.kind, MaterialKind::glass);
+  EXPECT_NEAR(texel(made.meshMaps.transmittance, 0).x, 0.25, 1e-6);
+  EXPECT_NEAR(texel(made.meshMaps.transmittance, 0).y, 0.25, 1e-6);
+  EXPECT_NEAR(texel(made.meshMaps.transmittance, 1).y, 0.5, 1e-6);
+  EXPECT_NEAR(made.transmittanceParallel.x, 0.625, 1e-6);
+}
+
 TEST_F(MaterialMapsTest, AlphaCutsOutOrBecomesAPane) {
   prep::SourceMaterial source;
   source.metallic = 0;

@@ -94,9 +94,22 @@ TEST(SourceMaterial, TheSpecularFactorScalesTheReflection) {
   EXPECT_EQ(made(source).albedo, source.baseColour);
   source.specular = 0.5;
   std::vector<std::string> notes;
-  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::paint);
-  ASSERT_EQ(notes.size(), 1u);
-  EXPECT_CONTAINS(notes[0], "specular factor", "'plastic'");
+  const pack::Material paint = convertMaterial(source, notes);
+  EXPECT_EQ(paint.kind, Kind::paint);
+  EXPECT_EQ(paint.specularFactor, 0.5);
+  EXPECT_EQ(paint.eta, glm::dvec3(1.5));  // the specular colour alone changes the index
+  source.metallic = 1;
+  EXPECT_EQ(convertMaterial(source, notes).specularFactor, 1);  // of the dielectric alone
+  source.metallic = 0;
+  source.transmission = 1;
+  for (const bool isThin : {false, true}) {
+    source.isThinWalled = isThin;
+    source.specular = 0;
+    EXPECT_EQ(convertMaterial(source, notes).specularFactor, 0);  // refracts still
+    source.specular = 0.5;
+    EXPECT_EQ(convertMaterial(source, notes).specularFactor, 0.5);
+  }
+  EXPECT_TRUE(notes.empty());
 }
 
 TEST(SourceMaterial, AClearCoatIsTheInterface) {
@@ -104,24 +117,71 @@ TEST(SourceMaterial, AClearCoatIsTheInterface) {
   EXPECT_EQ(made(source).kind, Kind::lambert);
   source.clearcoat = 1;
   source.clearcoatRoughness = 0.5;
+  std::vector<std::string> notes;
   for (const double roughness : {0.9, 0.3}) {
     source.roughness = roughness;
-    const pack::Material coated = made(source);
+    const pack::Material coated = convertMaterial(source, notes);
     EXPECT_EQ(coated.kind, Kind::paint);
     EXPECT_EQ(coated.eta, glm::dvec3(1.5));
     EXPECT_EQ(coated.roughness, 0.25);
     EXPECT_EQ(coated.albedo, source.baseColour);
+    EXPECT_EQ(coated.specularFactor, 1);
+    EXPECT_EQ(coated.clearCoat.factor, 0);
   }
+  // A share of a matt surface, and of one whose interface of the same index has another share.
+  source.roughness = 0.9;
+  for (const double share : {0.25, 0.75}) {
+    source.clearcoat = share;
+    EXPECT_EQ(convertMaterial(source, notes).specularFactor, share);
+  }
+  source.roughness = source.clearcoatRoughness = 0.3;
+  source.specular = 0.5;
+  EXPECT_EQ(convertMaterial(source, notes).specularFactor, 0.75 + 0.25 * 0.5);
+  EXPECT_TRUE(notes.empty());
+}
+
+TEST(SourceMaterial, AClearCoatIsALayerOnOtherInterfaces) {
+  prep::SourceMaterial source = dielectric(0);
+  source.clearcoat = 0.5;
   std::vector<std::string> notes;
+  const auto expectCoat = [&](Kind kind, double share) {
+    const pack::Material coated = convertMaterial(source, notes);
+    EXPECT_EQ(coated.kind, kind);
+    EXPECT_EQ(coated.clearCoat.factor, share);
+    EXPECT_EQ(coated.clearCoat.eta, 1.5);
+    EXPECT_EQ(coated.specularFactor, 1);
+  };
+  source.ior = 1.8;
+  expectCoat(Kind::paint, 0.5);
+  source.transmission = 1;
+  expectCoat(Kind::glass, 0.5);
+  source.ior = 1.5;  // the coat's: it changes nothing
+  expectCoat(Kind::glass, 0);
+  source.isThinWalled = true;
+  expectCoat(Kind::thinGlass, 0);
+  source.transmission = 0;
   source.metallic = 1;
-  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::metal);
-  source.metallic = 0;
-  source.clearcoat = 0.25;
+  expectCoat(Kind::metal, 0.5);
+  EXPECT_TRUE(notes.empty());
+
+  // Left out: a coat on thin glass, a film below a coat, a second roughness.
+  source.roughness = 0.5;
+  source.film = 1;
+  source.filmThicknessNm = 300;
+  const pack::Material metal = convertMaterial(source, notes);
+  EXPECT_EQ(metal.roughness, 0.25);
+  EXPECT_EQ(metal.coating.thicknessNm, 0);
+  source = dielectric(0);
+  source.ior = 1.8;
+  source.transmission = 1;
+  source.isThinWalled = true;
+  source.clearcoat = 1;
   convertMaterial(source, notes);
-  source.clearcoat = 0.75;
-  EXPECT_EQ(convertMaterial(source, notes).kind, Kind::paint);
   ASSERT_EQ(notes.size(), 3u);
-  for (const std::string& note : notes) EXPECT_CONTAINS(note, "'plastic'", "coat");
+  EXPECT_CONTAINS(notes[0], "roughness of the clear coat");
+  EXPECT_CONTAINS(notes[1], "film below the clear coat");
+  EXPECT_CONTAINS(notes[2], "clear coat on thin glass");
+  for (const std::string& note : notes) EXPECT_CONTAINS(note, "'plastic'");
 }
 
 TEST(SourceMaterial, IridescenceIsAThinFilm) {
@@ -222,8 +282,10 @@ TEST(SourceMaterial, GlassAbsorbsByItsVolume) {
   source.attenuationDistance = 1e-300;
   EXPECT_EQ(made(source).absorption.y, pack::kMaxAbsorption);
 
-  source.baseColour = {0.5, 0.5, 0.5};  // the colour of a body is that of its volume
-  EXPECT_EQ(made(source).transmittanceParallel, pack::Material().transmittanceParallel);
+  source.baseColour = {0.5, 0.25, 1};  // of MTL: the diffuse reflection; of glTF: tints each passage
+  EXPECT_EQ(made(source).transmittanceParallel, glm::dvec3(1));
+  source.tintsTransmission = true;
+  EXPECT_EQ(made(source).transmittanceParallel, source.baseColour);
 
   source.roughness = 0.5;
   source.name = "frosted";
@@ -239,7 +301,7 @@ TEST(SourceMaterial, ThinWallsAreTintedPanes) {
   source.metallic = 0;
   source.roughness = 0;
   source.transmission = 1;
-  source.isThinWalled = true;
+  source.isThinWalled = source.tintsTransmission = true;
   source.ior = 1.52;
   source.baseColour = {1, 0.25, 0};
   source.attenuationColour = glm::dvec3(0.5);  // of a volume, which a wall does not have

@@ -9,9 +9,10 @@ FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
   f.r = select3(m, a.r, b.r);
   return f;
 }
+// Of two shares of a surface: at most 1.
 FN FresnelTerms addTerms(FresnelTerms a, FresnelTerms b) {
   FresnelTerms f;
-  f.r = a.r + b.r;
+  f.r = min3(a.r + b.r, R(1.0));
   return f;
 }
 FN FresnelTerms scaleTerms(FresnelTerms a, real3 scale) {

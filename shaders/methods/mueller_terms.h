@@ -16,10 +16,11 @@ FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
   f.xIm = select3(m, a.xIm, b.xIm);
   return f;
 }
+// Of two shares of a surface: at most 1.
 FN FresnelTerms addTerms(FresnelTerms a, FresnelTerms b) {
   FresnelTerms f;
-  f.rs = a.rs + b.rs;
-  f.rp = a.rp + b.rp;
+  f.rs = min3(a.rs + b.rs, R(1.0));
+  f.rp = min3(a.rp + b.rp, R(1.0));
   f.xRe = a.xRe + b.xRe;
   f.xIm = a.xIm + b.xIm;
   return f;

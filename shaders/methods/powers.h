@@ -13,10 +13,11 @@ FN FresnelTerms selectTerms(mask m, FresnelTerms a, FresnelTerms b) {
   f.rp = select3(m, a.rp, b.rp);
   return f;
 }
+// Of two shares of a surface: at most 1.
 FN FresnelTerms addTerms(FresnelTerms a, FresnelTerms b) {
   FresnelTerms f;
-  f.rs = a.rs + b.rs;
-  f.rp = a.rp + b.rp;
+  f.rs = min3(a.rs + b.rs, R(1.0));
+  f.rp = min3(a.rp + b.rp, R(1.0));
   return f;
 }
 FN FresnelTerms scaleTerms(FresnelTerms a, real3 scale) {

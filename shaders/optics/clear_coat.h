@@ -35,8 +35,8 @@ FN CoatInterface dielectricInterface(real c, RefractionTerms f, real share) {
   i.r.rp = i.r.rp * covered;
   i.r.xRe = i.r.xRe * covered;
   i.r.xIm = i.r.xIm * covered;
-  i.t.ts = i.t.ts * covered + open;
-  i.t.tp = i.t.tp * covered + open;
+  i.t.ts = minR(i.t.ts * covered + open, R(1.0));
+  i.t.tp = minR(i.t.tp * covered + open, R(1.0));
   i.t.x = i.t.x * covered + open;
   return i;
 }

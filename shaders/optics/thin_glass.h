@@ -78,8 +78,8 @@ FN ThinGlass partialThinGlass(real c, RefractionTerms f, real internal, real sha
   pane.reflected.rp = pane.reflected.rp * covered;
   pane.reflected.xRe = pane.reflected.xRe * covered;
   pane.reflected.xIm = pane.reflected.xIm * covered;
-  pane.transmitted.rs = pane.transmitted.rs * covered + open;
-  pane.transmitted.rp = pane.transmitted.rp * covered + open;
+  pane.transmitted.rs = minR(pane.transmitted.rs * covered + open, R(1.0));
+  pane.transmitted.rp = minR(pane.transmitted.rp * covered + open, R(1.0));
   pane.transmitted.xRe = pane.transmitted.xRe * covered + open;
   return pane;
 }

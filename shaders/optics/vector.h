@@ -7,6 +7,7 @@ FN real3 select3(mask m, real3 a, real3 b) {
 }
 
 FN real3 max3(real3 a, real b) { return make3(maxR(a.x, b), maxR(a.y, b), maxR(a.z, b)); }
+FN real3 min3(real3 a, real b) { return make3(minR(a.x, b), minR(a.y, b), minR(a.z, b)); }
 
 // Unit vector along v; v must not be 0.
 FN real3 normalize3(real3 v) { return v * (R(1.0) / sqrtR(dot3(v, v))); }

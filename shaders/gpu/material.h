@@ -25,8 +25,8 @@ struct MaterialExtra {
   real degree;              // degree of linear polarization of an emitter
   real3 transmittanceParallel;  // power transmittance of a polarizing element for light polarized along its axis, of
                                 // the inside of thin glass, of the surface of a glass body
-  real3 transmittanceCrossed;  // and across it
-  real3 retardanceCos;         // of a wave plate
+  real3 transmittanceCrossed;   // and across it
+  real3 retardanceCos;          // of a wave plate
   real3 retardanceSin;
   real3 filmEta;          // index of a thin film; 0: none
   real3 filmOverOutside;  // filmEta - outsideEta and filmEta - eta, from double precision; dielectrics have eta.y

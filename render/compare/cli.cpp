@@ -33,6 +33,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double kCompileMinutes = 5;
+
 struct Arguments {
   std::vector<std::string> inputs, shown;
   std::vector<std::string> packs;  // of the inputs
@@ -211,6 +213,7 @@ void runCompare(Arguments& a) {
     throw Error((folder / "images").string(), "cannot create the folder", "a writable place", failed.message());
 
   a.settings.minutes = a.minutes.value_or(a.settings.minutes);
+  if (!a.minutes) a.settings.compileMinutes = kCompileMinutes;
   const InterruptScope scope;
   if (a.effects) {
     const AblationSettings settings = ablationSettings(a);
@@ -274,7 +277,7 @@ void addCompareCommand(CLI::App& app) {
       ->add_option(
           "--minutes", a->minutes,
           "Time limit: leaves out methods and rounds that exceed it, the first methods are preferred; 0 for none "
-          "(default: 0, or 10 with --effects)")
+          "(default: 0, or 10 with --effects; where Vulkan runs on a processor, it starts no method after 5)")
       ->transform(nonNegativeNumber());
   addDevice(*command, settings.device, settings.threads);
   addPaths(*command, settings.vulkanPath, settings.embreePath);

@@ -32,9 +32,12 @@ struct ComparisonSettings {
   double scale = 1;
   std::vector<std::uint32_t> depths;  // empty: the scene's
   std::uint32_t rounds = 7;
-  double minutes = 0;    // time limit: images and rounds that it leaves no time for are left out; 0: none
-  unsigned threads = 0;  // 0: all
-  std::string device;    // as RendererOptions::device
+  double minutes = 0;  // time limit: images and rounds that it leaves no time for are left out; 0: none
+  // Minutes for the first pass of a view on a Vulkan device that is a processor, which may compile a method for
+  // minutes; methods that it leaves no time for are left out, with a warning. 0: no limit.
+  double compileMinutes = 0;
+  unsigned threads = 0;                           // 0: all
+  std::string device;                             // as RendererOptions::device
   VulkanPath vulkanPath = VulkanPath::automatic;  // automatic: iterative methods by each path that the device has
   EmbreePath embreePath = EmbreePath::automatic;  // automatic: schlick and complete methods by each path
   std::optional<double> polarizerDegrees;         // filter in front of the camera

@@ -36,8 +36,18 @@ struct Output {
 struct Share {
   const TimeLimit& limit;
   std::size_t view, views;
-  bool isOver() const { return limit.isFirstPassOver(view, views); }
+  std::optional<TimeLimit> compiling{};  // of one renderer
+  bool isOver() const { return limit.isFirstPassOver(view, views) || (compiling && compiling->isOver()); }
 };
+
+bool isProcessor(Backend backend, const std::string& device) {
+  if (backend != Backend::vulkan) return false;
+  try {
+    return vulkan::chosenDevice(device).type == "CPU";
+  } catch (const Error&) {  // its rows report it
+    return false;
+  }
+}
 
 std::string fileName(const RowGroup& group, const std::string& what) {
   const RenderParameters& p = group.parameters;
@@ -194,9 +204,20 @@ void renderChoices(Comparison& comparison, RowGroup& group, Backend backend, con
   }
 }
 
+// That the time for compiling is over.
+void warnLeftOut(const RowGroup& group, Backend backend, std::size_t rows, const Share& share) {
+  if (!share.compiling || !share.compiling->isOver()) return;
+  console::warn(
+      fmt::format("{}: {} left out {} of the rows, because this device is a processor and compiles them for minutes; "
+                  "--minutes 0 renders all, --backends embree none of them",
+                  groupTitle(group), backendInfo(backend).name, rows));
+}
+
 // Renders every method on one backend.
 void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const ComparisonSettings& settings,
-                const RenderResult& reference, const Share& share, const Output& output) {
+                const RenderResult& reference, Share share, const Output& output) {
+  if (settings.compileMinutes > 0 && isProcessor(backend, settings.device))
+    share.compiling.emplace(settings.compileMinutes);
   const RenderParameters& p = group.parameters;
   const EffectsChoice cheapest =
       chooseEffects({"auto"}, completeRecursiveMethod().name, group.pack->scene, {p.depth, p.analyser, false, false});
@@ -207,9 +228,14 @@ void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const 
   const std::vector<MethodVariant> variants =
       methodVariants(settings.methods, cheapest, backend, path, secondPath(group, backend, path));
   // Within a time limit only as many at once as there are threads to compile them: the limit may leave out the rest.
-  const std::size_t atOnce = settings.minutes > 0 ? std::max(1u, std::thread::hardware_concurrency()) : variants.size();
+  const bool isLimited = settings.minutes > 0 || share.compiling;
+  const std::size_t atOnce = isLimited ? std::max(1u, std::thread::hardware_concurrency()) : variants.size();
   for (std::size_t i = 0; i < variants.size(); ++i) {
-    if (interrupted() || (share.isOver() && !group.rows.empty())) break;
+    if (interrupted()) break;
+    if (share.isOver() && i > 0) {
+      warnLeftOut(group, backend, variants.size() - i, share);
+      break;
+    }
     if (i % atOnce == 0)
       prepareRows(group, backend, std::span(variants).subspan(i, std::min(atOnce, variants.size() - i)), output);
     ComparisonRow row = makeRow(group, backend, variants[i]);

@@ -190,7 +190,7 @@ TEST_F(Compare, PrintsItsStepInAPipe) {
 TEST_F(Compare, InterruptingKeepsTheFinishedRounds) {
   Start start;
   // Progress is printed on a terminal; -v prints it to a pipe as well.
-  start.sendSignalWhen = [](std::string_view err) { return contains(err, "round 3"); };
+  start.sendSignalWhen = [](std::string_view err) { return contains(err, "round 3 of 100000"); };
   start.sendSignal = SIGINT;
   const Finished finished = malus({"-v", "compare", pack(), "-o", report(), "--backends", "embree", "--width", "200",
                                    "--rounds", "100000", "--no-report"},

@@ -1,4 +1,4 @@
-// --max-error chooses between sampled light of the environment and its stand-in, the irradiance by spherical harmonics.
+// --max-error chooses between sampled light of the environment and the irradiance by spherical harmonics.
 #include <unistd.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_F(EnvironmentChoice, TakesTheHarmonicsWhereTheErrorAllowsThem) {
   ASSERT_NE(rough.image.scene, nullptr);
   EXPECT_FALSE(rough.image.scene->environment.illuminates);
   EXPECT_LE(rough.checked.relRms, 0.3);
-  // The stand-in lights the floor: without any light the error would be 1 on all but the sky.
+  // The harmonics light the floor: without any light the error would be 1 on all but the sky.
   const RenderResult image = pool[rough.image.scene].render(rough.image.method, rough.image.parameters);
   const std::size_t centre = (std::size_t{image.height} - 4) * image.width + image.width / 2;
   EXPECT_NEAR(image.pixels[centre * image.channels], 0.5 * 0.25, 1e-3) << "albedo times the radiance of the sky";

@@ -5,7 +5,7 @@
 // and p, on (S2, S3) they multiply S2 + i S3 by X = r_p conj(r_s). With interface 1 met first, 2 met second, and the
 // transmittances T = 1 - R and Y = sqrt(T_s T_p), the geometric series is
 //   R = R1 + T1^2 R2 / (1 - R1 R2)            T = T1 T2 / (1 - R1 R2)      for s and p
-//   X = X1 + T1s T1p X2 / (1 - X1 X2)         Y = Y1 Y2 / (1 - X1 X2)
+//   X = X1 + Y1^2 X2 / (1 - X1 X2)            Y = Y1 Y2 / (1 - X1 X2)
 // Interface 1 has the same R and X from inside the coat, because Stokes's relation r' = -r holds for s and p; where it
 // reflects totally, T1 is 0. Source: Born and Wolf, Principles of Optics, 7th edition, 1.6.3 and 7.6.1, with powers in
 // place of amplitudes.
@@ -65,7 +65,7 @@ FN ClearCoat sumCoat(CoatInterface first, CoatInterface second) {
   Complex x2 = makeComplex(second.r.xRe, second.r.xIm);
   Complex series =
       complexDiv(makeComplex(R(1.0), R(0.0)), makeComplex(R(1.0) - first.r.xRe * x2.re, R(0.0) - first.r.xRe * x2.im));
-  real twice = first.t.ts * first.t.tp;
+  real twice = first.t.x * first.t.x;
   Complex x = complexMul(x2, series);
   s.reflected.xRe = first.r.xRe + twice * x.re;
   s.reflected.xIm = first.r.xIm + twice * x.im;

@@ -133,6 +133,30 @@ TYPED_TEST(ClearCoatTest, SharesOfInterfaces) {
   }
 }
 
+// A share of the first interface: the series of Mueller matrices, whose block of S2 and S3 is a complex number.
+TYPED_TEST(ClearCoatTest, AShareOfTheFirstInterfaceIsASumOfMatrices) {
+  MALUS_TYPES;
+  Draw draw(85);
+  Worst worst("worst", double(kEps));
+  for (int i = 0; i < 400; ++i) {
+    const real c = R(draw.between(0.3, 1)), share = R(draw.between(0.05, 0.95)), glass = R(draw.between(1.6, 2.2));
+    if (isCritical(c, glass, 1) || isCritical(c, glass, R(1.5))) continue;
+    const real inside = std::sqrt(1 - (glass / R(1.5)) * (glass / R(1.5)) * (1 - c * c));
+    if (!(inside > 0)) continue;  // total at the first interface
+    const auto first = O::dielectricReflectance(c, glass, R(1.5));
+    const auto second = O::dielectricReflectance(inside, R(1.5), 1);
+    const Real open = 1 - Real(share),
+               through = Real(share) * std::sqrt((1 - Real(first.rs)) * (1 - Real(first.rp))) + open;
+    const Cx x1 = Real(share) * Cx(first.xRe, first.xIm), x2(second.xRe, second.xIm);
+    Cx sum = x1, term = through * through * x2;
+    for (int k = 0; k < 2000; ++k, term *= x1 * x2) sum += term;
+    const auto got = O::coatOnDielectric(c, glass, R(1.5), 1, share, 1);
+    worst.add(Real(got.reflected.xRe) - sum.real());
+    worst.add(Real(got.reflected.xIm) - sum.imag());
+  }
+  EXPECT_LT(worst.value(), 100);
+}
+
 TYPED_TEST(ClearCoatTest, ConservesEnergyDownToGrazingIncidence) {
   MALUS_TYPES;
   Draw draw(84);

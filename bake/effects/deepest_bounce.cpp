@@ -64,7 +64,7 @@ bool isFlatMirror(const Material& m, const pack::Mesh& mesh) {
   // From the denser side light can be totally reflected.
   const bool denser = pack::isDielectric(m.kind) && m.outsideEta > m.eta.y;
   return pack::isOpaqueInterface(m.kind) && !denser && mesh.normals.empty() && m.coating.thicknessNm == 0 &&
-         m.clearCoat.factor == 0 && m.roughness == 0 && m.maps.eta < 0;
+         m.clearCoat.factor == 0 && m.roughness == 0 && m.maps.eta < 0 && !m.meshMaps.any();
 }
 
 }  // namespace

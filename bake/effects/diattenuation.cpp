@@ -19,6 +19,8 @@ double ratio(double a, double b) { return a + b > 0 ? std::abs(a - b) / (a + b) 
 
 std::vector<double> constant(double value) { return std::vector<double>(kCells, value); }
 
+std::size_t findCell(double cosine) { return std::min(kCells - 1, static_cast<std::size_t>(cosine * kCells)); }
+
 // Over both sides of an interface between n1 and n2: of reflection, and of transmission if it transmits or light
 // leaves.
 struct Cells {
@@ -39,9 +41,12 @@ struct Cells {
       transmitted = nextTransmitted;
     }
     if (k2 > 0 || n1 == n2) return;
+    // At grazing incidence or the critical angle the transmittances tend to 0 in the ratio n1^2 : n2^2.
+    const double square = (n1 - n2) * (n1 + n2);
+    double& last = transmission[n1 > n2 ? findCell(std::sqrt(square) / n1) : 0];
+    last = std::max(last, std::abs(square) / (n1 * n1 + n2 * n2));
     // At Brewster's angle, within a cell, the reflection is fully polarized.
-    const double brewster = n1 / std::hypot(n1, n2);
-    reflection[std::min(kCells - 1, static_cast<std::size_t>(brewster * kCells))] = 1;
+    reflection[findCell(n1 / std::hypot(n1, n2))] = 1;
   }
 };
 

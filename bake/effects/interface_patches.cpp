@@ -17,7 +17,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // Whether rays meet a surface with other normals than those of its faces and vertices.
-bool hasOtherNormals(const Material& m) { return m.roughness > 0 || m.meshMaps.normal.isUsed(); }
+bool hasOtherNormals(const Material& m) {
+  return m.roughness > 0 || m.meshMaps.roughness.isUsed() || m.meshMaps.normal.isUsed();
+}
 
 InterfacePatch anywhere(std::uint32_t material) { return {material, {}, {0, 0, 1}, kPi, false}; }
 

@@ -70,6 +70,7 @@ bool isCoated(const Material& m) { return m.coating.thicknessNm > 0; }
 bool hasClearCoat(const Material& m) { return m.clearCoat.factor > 0; }
 
 bool hasDenserSide(const pack::Scene& scene, const Material& m) {
+  if (hasClearCoat(m) && m.clearCoat.eta < m.outsideEta) return true;
   if (pack::hasInside(m.kind)) return m.eta.y != m.outsideEta;
   if (!pack::isDielectric(m.kind)) return false;
   double least = std::min({m.eta.x, m.eta.y, m.eta.z});

@@ -201,6 +201,20 @@ TEST(Effects, PolarizingElementsCountByTheirParameters) {
   EXPECT_DOUBLE_EQ(polarizationErrorBound(makeScene({plate}, 2), {2, {1, 0, 0, 0}, false, false}).x, 1);
 }
 
+// A coat of a lower index than the medium reflects totally, which shifts phases.
+TEST(Effects, TotalReflectionInAClearCoat) {
+  Material coated = material(MaterialKind::mirrorGlass);
+  coated.outsideEta = 1.33;
+  coated.clearCoat.eta = 1.1;
+  coated.clearCoat.factor = 0.5;
+  const auto states = [&] { return effectStates(makeScene({coated}, 4)); };
+  EXPECT_TRUE(states().at("tir"));
+  EXPECT_TRUE(states().at("circular-polarization"));
+  coated.clearCoat.eta = 1.4;
+  EXPECT_FALSE(states().at("tir"));
+  EXPECT_FALSE(states().at("circular-polarization"));
+}
+
 // The distance of two facing mirrors does not depend on their distance to the origin.
 TEST(Effects, MirrorsFarFromTheOriginSeeEachOther) {
   pack::Scene scene = makeScene({material(MaterialKind::mirrorGlass)}, 4);

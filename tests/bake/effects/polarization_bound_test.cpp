@@ -179,6 +179,46 @@ TEST(PolarizationBound, HoldsForRandomChains) {
   EXPECT_GT(largest, 0.2 * bound);
 }
 
+// Diattenuation of a transmission between two dielectrics by Fresnel's equations.
+double transmittedD(double n1, double n2, double c) {
+  const double sine = n1 / n2 * std::sqrt(1 - c * c);
+  if (sine >= 1) return 0;
+  const double t = std::sqrt(1 - sine * sine), rs = (n1 * c - n2 * t) / (n1 * c + n2 * t),
+               rp = (n2 * c - n1 * t) / (n2 * c + n1 * t);
+  return std::abs(rs * rs - rp * rp) / (2 - rs * rs - rp * rp);
+}
+
+// At every angle, those next to Brewster's and the critical one included.
+TEST(PolarizationBound, CellsAreMaximaOfGlassFromBothSides) {
+  std::mt19937 random(5);
+  for (const auto& [outside, inside] : {std::pair(1.0, 1.5), {1.5, 1.33}, {1.0, 2.4}}) {
+    Material m = material(MaterialKind::glass);
+    m.outsideEta = outside;
+    m.eta = glm::dvec3(inside);
+    const Diattenuation d = diattenuation(m, 0);
+    m.kind = MaterialKind::paint;
+    m.albedo = glm::dvec3(0.5);
+    const RangeMaximum leaving = diattenuation(m, 0).leaving;
+    for (int i = 0; i < 20000; ++i) {
+      double c = std::uniform_real_distribution<double>()(random);
+      const double most = std::max(outside, inside), least = std::min(outside, inside);
+      if (i % 2 == 0) c = std::sqrt(1 - least * least / (most * most)) * (1 + 1e-6 * c);
+      const CosineRange here{c, c};
+      ASSERT_LE(transmittedD(outside, inside, c), d.interaction.over(here) + 1e-9) << c;
+      ASSERT_LE(transmittedD(inside, outside, c), d.interaction.over(here) + 1e-9) << c;
+      ASSERT_LE(transmittedD(outside, inside, c), leaving.over(here) + 1e-9) << c;
+    }
+  }
+}
+
+// Facets of a rough texel have other normals than the face.
+TEST(PolarizationBound, ARoughnessMapMeetsEveryAngle) {
+  pack::Scene scene = facingSquares(gold(), 0.1, 2);
+  scene.materials[0].meshMaps.roughness.texture = 0;
+  EXPECT_NEAR(polarizationErrorBound(scene, imageOfDepth(2)).z,
+              polarizationErrorBound(makeScene({gold()}, 2), imageOfDepth(2)).z, 1e-12);
+}
+
 TEST(PolarizationBound, IsUsefulUpToTheIntensityItself) {
   EXPECT_TRUE(isUseful({0.5, 1, 0}));
   EXPECT_FALSE(isUseful({0.5, 1.1, 0}));

@@ -177,9 +177,11 @@ void MaterialMaps::addRoughness(const prep::SourceMaterial& factors, pack::Mater
 }
 
 // The base colour as albedo, or as transmittance of thin glass or of the surface of a body.
-void MaterialMaps::addColour(const prep::SourceMaterial& factors, pack::Material& material) {
+void MaterialMaps::addColour(const prep::SourceMaterial& factors, const prep::SourceMaterial& means,
+                             pack::Material& material) {
   pack::MeshMaps& maps = material.meshMaps;
-  const bool isBlended = material.kind == MaterialKind::thinGlass && factors.alphaMode == prep::AlphaMode::blend;
+  const bool isBlended = material.kind == MaterialKind::thinGlass && factors.alphaMode == prep::AlphaMode::blend &&
+                         means.transmission * (1 - means.metallic) <= prep::kTransmissive;
   const bool isClear = isBlended || (pack::isClear(material.kind) && factors.tintsTransmission);
   if (decode(factors.baseColourImage) != nullptr && (pack::canBeDiffuse(material.kind) || isClear)) {
     const std::string recipe = fmt::format("{}: {} {}", isClear ? "transmittance" : "albedo", key(factors.baseColour),
@@ -200,6 +202,13 @@ void MaterialMaps::addMetal(const prep::SourceMaterial& factors, pack::Material&
           [&](const Decoded& image, std::size_t i) { return glm::vec3(baseColour(factors, image, i)); });
 }
 
+std::size_t MaterialMaps::nearestPixel(const Decoded& from, std::size_t i, const Decoded& to) {
+  const auto width = static_cast<std::size_t>(from.image.width), height = static_cast<std::size_t>(from.image.height);
+  const std::size_t x = (2 * (i % width) + 1) * static_cast<std::size_t>(to.image.width) / (2 * width),
+                    y = (2 * (i / width) + 1) * static_cast<std::size_t>(to.image.height) / (2 * height);
+  return y * static_cast<std::size_t>(to.image.width) + x;
+}
+
 // A material whose metallic varies. The texels are those of the metallic-roughness image; the base colour is that of
 // the nearest texel of its image, which must be placed alike.
 void MaterialMaps::addMixed(const prep::SourceMaterial& factors, const prep::SourceMaterial& means,
@@ -217,18 +226,12 @@ void MaterialMaps::addMixed(const prep::SourceMaterial& factors, const prep::Sou
   const Decoded& numbers = *decode(factors.metallicRoughnessImage);
   const bool byColours = colours != nullptr && colours->pixels() > numbers.pixels();
   const std::size_t image = byColours ? *factors.baseColourImage : *factors.metallicRoughnessImage;
-  const auto nearest = [](const Decoded& from, std::size_t i, const Decoded& to) {
-    const auto width = static_cast<std::size_t>(from.image.width), height = static_cast<std::size_t>(from.image.height);
-    const std::size_t x = (2 * (i % width) + 1) * static_cast<std::size_t>(to.image.width) / (2 * width),
-                      y = (2 * (i / width) + 1) * static_cast<std::size_t>(to.image.height) / (2 * height);
-    return y * static_cast<std::size_t>(to.image.width) + x;
-  };
   const auto colourAt = [&](const Decoded& from, std::size_t i) {
     return colours == nullptr ? glm::clamp(means.baseColour, 0.0, 1.0)
-                              : baseColour(factors, *colours, nearest(from, i, *colours));
+                              : baseColour(factors, *colours, nearestPixel(from, i, *colours));
   };
   const auto metallicAt = [&](const Decoded& from, std::size_t i) {
-    return unit(factors.metallic * unit(numbers.number(nearest(from, i, numbers), 2)));
+    return unit(factors.metallic * unit(numbers.number(nearestPixel(from, i, numbers), 2)));
   };
   const std::string others =
       fmt::format("{} {} {} {} {}", factors.metallic, key(colours == nullptr ? means.baseColour : factors.baseColour),
@@ -289,7 +292,7 @@ pack::Material MaterialMaps::convert(prep::SourceMaterial factors, prep::SourceM
   else if (isMetal)
     addMetal(factors, material);
   else
-    addColour(factors, material);
+    addColour(factors, means, material);
   addSpecular(factors, means, material);
   if (isCutOut) addCoverage(factors, material);
   addRadiance(factors, material);

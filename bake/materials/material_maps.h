@@ -66,12 +66,14 @@ class MaterialMaps {
   };
 
   const Decoded* decode(const std::optional<std::size_t>& image);
+  // The pixel of an image that is nearest to pixel i of another one, which covers the same.
+  static std::size_t nearestPixel(const Decoded& from, std::size_t i, const Decoded& to);
   bool isMixed(const prep::SourceMaterial& factors);
   bool hasSharpAlpha(const prep::SourceMaterial& factors);
   using Texel = std::function<glm::vec3(const Decoded&, std::size_t pixel)>;
   pack::MeshMap add(std::size_t image, const prep::SourcePlacement& place, const std::string& recipe,
                     const Texel& texel);
-  void addColour(const prep::SourceMaterial& factors, pack::Material& material);
+  void addColour(const prep::SourceMaterial& factors, const prep::SourceMaterial& means, pack::Material& material);
   void addRoughness(const prep::SourceMaterial& factors, pack::Material& material);
   void addMetal(const prep::SourceMaterial& factors, pack::Material& material);
   void addSpecular(const prep::SourceMaterial& factors, const prep::SourceMaterial& means, pack::Material& material);

@@ -28,7 +28,7 @@
 //
 //   clear coat on lambert   paint of eta 1.5, the share of the coat as specularFactor, the roughness of the coat
 //   on eta 1.5              the base does not reflect below the coat, whose index it has: specularFactor = share + (1 -
-//                           share) x specular factor; this is exact for thin glass too
+//                           share) x specular factor; exact, of thin glass if the specular factor is 1
 //   on paint, metal, glass  clearCoat of index 1.5 and the share
 //   on other thin glass     left out, with a note
 //   film of half or more    coating of paint, metal and glass without clearCoat; others are left out, with a note

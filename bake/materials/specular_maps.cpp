@@ -76,6 +76,9 @@ void MaterialMaps::addSpecular(const prep::SourceMaterial& factors, const prep::
     maps.eta = add(index, where, "specular eta: " + recipe,
                    [&](const Decoded& source, std::size_t i) { return glm::vec3(indexOf(reflectance(source, i))); });
   }
+  if (metallic == 0 && material.kind == MaterialKind::lambert)
+    prep::addNote(notes_, fmt::format("the specular-glossiness texture of material '{}', which is matt on the mean",
+                                      factors.name));
   if (pack::canBeRough(material.kind) && image->alpha)
     maps.roughness =
         add(index, where, fmt::format("glossiness: {}", factors.roughness), [&](const Decoded& source, std::size_t i) {

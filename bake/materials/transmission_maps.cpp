@@ -13,20 +13,30 @@ std::optional<MaterialMaps::Split> MaterialMaps::split(const prep::SourceMateria
   const Decoded* image = decode(factors.transmissionImage);
   if (image == nullptr) return {};
 
-  // Count the texels that transmit, and their mean.
-  const auto transmission = [&](const Decoded& source, std::size_t i) {
-    return factors.transmission * std::clamp(source.number(i, 0), 0.0, 1.0);
+  // Metallic texels do not transmit: the frame of a window. The larger image has the texels of the other that are
+  // nearest.
+  const bool isMixedMetal = isMixed(factors) && factors.metallicRoughnessPlacement == factors.transmissionPlacement;
+  const Decoded* numbers = isMixedMetal ? decode(factors.metallicRoughnessImage) : nullptr;
+  const bool byNumbers = isMixedMetal && numbers->pixels() > image->pixels();
+  const Decoded& larger = byNumbers ? *numbers : *image;
+  const auto transmission = [&](const Decoded& from, std::size_t i) {
+    return factors.transmission * std::clamp(image->number(nearestPixel(from, i, *image), 0), 0.0, 1.0);
   };
-  const double dielectric = 1 - std::clamp(means.metallic, 0.0, 1.0);
+  const auto dielectric = [&](const Decoded& from, std::size_t i) {
+    if (!isMixedMetal) return 1 - std::clamp(means.metallic, 0.0, 1.0);
+    return 1 - std::clamp(factors.metallic * numbers->number(nearestPixel(from, i, *numbers), 2), 0.0, 1.0);
+  };
+
+  // Count the texels that transmit, and their mean.
   std::size_t clear = 0;
   double sum = 0;
-  for (std::size_t i = 0; i < image->pixels(); ++i) {
-    const double t = transmission(*image, i);
-    if (t * dielectric <= prep::kTransmissive) continue;
+  for (std::size_t i = 0; i < larger.pixels(); ++i) {
+    const double t = transmission(larger, i);
+    if (t * dielectric(larger, i) <= prep::kTransmissive) continue;
     ++clear;
     sum += t;
   }
-  if (clear == 0 || clear == image->pixels()) return {};
+  if (clear == 0 || clear == larger.pixels()) return {};
 
   // A surface has one coverage, and the opaque part of a body would be seen from the inside too.
   const Decoded* colours = decode(factors.baseColourImage);
@@ -34,6 +44,7 @@ std::optional<MaterialMaps::Split> MaterialMaps::split(const prep::SourceMateria
                         (factors.coverageImage.has_value() || (colours != nullptr && colours->alpha));
   prep::SourceMaterial part = means;
   part.transmission = sum / static_cast<double>(clear);
+  if (isMixedMetal) part.metallic = 0;
   std::vector<std::string> unused;
   if (hasAlpha || convertMaterial(part, unused).kind != pack::MaterialKind::thinGlass) {
     prep::addNote(notes_, fmt::format("the variation of the transmission texture of material '{}', whose mean is used",
@@ -47,14 +58,19 @@ std::optional<MaterialMaps::Split> MaterialMaps::split(const prep::SourceMateria
   Split result;
   result.clear = convert(factors, part);
   part.transmission = 0;
+  part.metallic = means.metallic;
   result.opaque = convert(factors, part);
+  image = decode(factors.transmissionImage);  // convert() drops what was decoded
+  if (isMixedMetal) numbers = decode(factors.metallicRoughnessImage);
   const auto cover = [&](pack::Material& material, bool isClear) {
     material.meshMaps.cutoff = prep::kTransmissive;
     material.meshMaps.coverage =
-        add(*factors.transmissionImage, factors.transmissionPlacement,
-            fmt::format("{}: {} {}", isClear ? "transmission" : "opaque", factors.transmission, dielectric),
+        add(byNumbers ? *factors.metallicRoughnessImage : *factors.transmissionImage, factors.transmissionPlacement,
+            fmt::format("{}: {} {} {} {}", isClear ? "transmission" : "opaque", factors.transmission,
+                        *factors.transmissionImage, isMixedMetal ? factors.metallic : means.metallic,
+                        isMixedMetal ? static_cast<int>(*factors.metallicRoughnessImage) : -1),
             [&](const Decoded& source, std::size_t i) {
-              const auto t = static_cast<float>(transmission(source, i) * dielectric);
+              const auto t = static_cast<float>(transmission(source, i) * dielectric(source, i));
               return glm::vec3(isClear ? t : 1.0f - t);
             });
   };

@@ -154,6 +154,18 @@ TEST_F(TransmissionTexture, TheThresholdIsThatOfTheFactor) {
   expectFront(baked.scene, 0.25, true);
 }
 
+// The frame of a window: metallic texels do not transmit, whatever the mean of the texture is.
+TEST_F(TransmissionTexture, MetallicTexelsAreOpaque) {
+  const int metallic = addTexture(3, {1, 1, 0, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+  const bake::Baked baked = bakePane(
+      1, {1},
+      {{"pbrMetallicRoughness", {{"metallicFactor", 1.0}, {"metallicRoughnessTexture", {{"index", metallic}}}}}});
+  EXPECT_EQ(baked.scene.meshes.size(), 3u);
+  expectFront(baked.scene, -0.875, true);
+  // A mirror in front of a black environment.
+  expectEverywhere(baked.scene, {0.5, 0, 5}, {0.5, 0, 0}, {Stokes{0, 0, 0, 0}});
+}
+
 TEST_F(TransmissionTexture, TexelsOfOneKindMakeOneMaterial) {
   for (const auto& [factor, expected] : {std::pair(1.0, true), std::pair(0.5, false)}) {
     gltf_ = {};

@@ -11,6 +11,7 @@
 #include "bake/effects/polarization_bound.h"
 #include "bake/pack/instances.h"
 #include "bake/scene_json.h"
+#include "meshprep/base/error.h"
 #include "meshprep/base/text.h"
 
 namespace malus::bake {
@@ -29,7 +30,11 @@ glm::dvec3 errorBound(const pack::Scene& scene) {
 std::optional<PolarizationProbe> probe(const pack::Scene& scene, const glm::dvec3& bound,
                                        const MeasurePolarization& measure) {
   if (!measure || isUseful(bound)) return std::nullopt;
-  return measure(scene);
+  try {
+    return measure(scene);
+  } catch (const Error&) {  // a scene that cannot be rendered has contents all the same
+    return std::nullopt;
+  }
 }
 
 json toJson(const std::optional<PolarizationProbe>& probed) {
@@ -50,7 +55,7 @@ std::string polarizationText(const pack::Scene& scene, const MeasurePolarization
   std::string text = "  without polarization: no useful bound of the error";
   if (const std::optional<PolarizationProbe> probed = probe(scene, bound, measure))
     text +=
-        fmt::format("; measured at {} x {} pixels: relative RMS {:.2g}, {:.2g} % of the pixels off by more than 1 %",
+        fmt::format("; measured at {} x {} pixels: relative RMS {:.2g}, {:.3g} % of the pixels off by more than 1 %",
                     probed->width, probed->height, probed->relRms, 100 * probed->shareOver1Percent);
   return text + "\n";
 }

@@ -14,8 +14,9 @@ bake::PolarizationProbe probePolarization(const pack::Scene& scene) {
   JobSettings settings;
   (scene.width >= scene.height ? settings.width : settings.height) =
       std::min(kSide, std::max(scene.width, scene.height));
+  settings.tolerance = 1e-4;
   const RenderParameters parameters = renderParameters(settings, scene);
-  const MethodInfo& complete = completeRecursiveMethod();
+  const MethodInfo& complete = completeIterativeMethod();
   const std::unique_ptr<Renderer> renderer = makeRenderer(Backend::embree, scene, {});
   const ImageError error = imageError(renderer->render(complete.withoutLinear, parameters),
                                       renderer->render(complete.name, parameters), scene.exposureEv);

@@ -5,8 +5,9 @@
 
 namespace malus::render {
 
-// Renders 64 pixels along the longer side with Embree, by the complete recursive method and by that without
-// polarization. Throws as Renderer::render() does.
+// Renders 64 pixels along the longer side with Embree, by the complete iterative method and by that without
+// polarization. Paths of less than 1e-4 of a source's radiance are left out, so that many panes take no longer. Throws
+// as Renderer::render() does.
 bake::PolarizationProbe probePolarization(const pack::Scene& scene);
 
 }  // namespace malus::render

@@ -87,5 +87,9 @@ const MethodInfo& completeRecursiveMethod() {
   return *std::find_if(methods().begin(), methods().end(),
                        [](const MethodInfo& m) { return m.isComplete() && !m.isIterative; });
 }
+const MethodInfo& completeIterativeMethod() {
+  return *std::find_if(methods().begin(), methods().end(),
+                       [](const MethodInfo& m) { return m.isComplete() && m.isIterative; });
+}
 
 }  // namespace malus::render

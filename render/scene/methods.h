@@ -49,5 +49,6 @@ std::vector<std::string> methodAliases();
 
 const MethodInfo& baselineMethod();           // baseline of the times of `malus compare`: the first
 const MethodInfo& completeRecursiveMethod();  // the first recursive method that is complete: stokes
+const MethodInfo& completeIterativeMethod();  // the first iterative one: importance
 
 }  // namespace malus::render

@@ -138,12 +138,20 @@ TEST(Info, MeasuresPolarizationWhereTheBoundSaysNothing) {
   EXPECT_EQ(infoJson(pack, kInfoTolerance, measure)["withoutPolarization"]["relRms"], 0.0125);
   EXPECT_EQ(calls, 2);
   EXPECT_TRUE(infoJson(pack)["withoutPolarization"].is_null());
+  EXPECT_CONTAINS(infoText(pack, kInfoTolerance,
+                           [](const pack::Scene&) {
+                             return PolarizationProbe{64, 48, 0.2, 1};
+                           }),
+                  "100 % of the pixels");
+  EXPECT_CONTAINS(infoText(pack, kInfoTolerance,
+                           [](const pack::Scene&) -> PolarizationProbe { throw Error("test", "cannot be rendered"); }),
+                  "no useful bound of the error\n");
   scene.depth = 0;
   infoText(writeAndParse(scene), kInfoTolerance, measure);
   EXPECT_EQ(calls, 2) << "the bound suffices";
 }
 
-TEST(Info, TellsTheMeasuredDeepestBounce) {
+TEST(Info, HasTheMeasuredDeepestBounce) {
   pack::Scene scene = test::smallScene();
   scene.lightBeyond = {0.9, 0.2, 0.02, 5e-4, 1e-4, 2e-5};
   const pack::Pack pack = writeAndParse(scene);

@@ -277,7 +277,7 @@ void addCompareCommand(CLI::App& app) {
       ->add_option(
           "--minutes", a->minutes,
           "Time limit: leaves out methods and rounds that exceed it, the first methods are preferred; 0 for none "
-          "(default: 0, or 10 with --effects; where Vulkan runs on a processor, it starts no method after 5)")
+          "(default: 0, or 10 with --effects; where Vulkan runs on a CPU, it starts no method after 5)")
       ->transform(nonNegativeNumber());
   addDevice(*command, settings.device, settings.threads);
   addPaths(*command, settings.vulkanPath, settings.embreePath);

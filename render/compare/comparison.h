@@ -33,7 +33,7 @@ struct ComparisonSettings {
   std::vector<std::uint32_t> depths;  // empty: the scene's
   std::uint32_t rounds = 7;
   double minutes = 0;  // time limit: images and rounds that it leaves no time for are left out; 0: none
-  // Minutes for the first pass of a view on a Vulkan device that is a processor, which may compile a method for
+  // Minutes for the first pass of a view on a Vulkan device that is a CPU (lavapipe), which may compile a method for
   // minutes; methods that it leaves no time for are left out, with a warning. 0: no limit.
   double compileMinutes = 0;
   unsigned threads = 0;                           // 0: all

@@ -13,6 +13,8 @@ class TimeLimit {
   explicit TimeLimit(double minutes) : seconds_(minutes * 60) {}
 
   bool isOver() const { return seconds_ > 0 && elapsed() >= seconds_; }
+  // 0 without a limit, 1 when it is over.
+  double usedShare() const { return seconds_ > 0 ? elapsed() / seconds_ : 0; }
   // Whether the first pass of a view has used its share and what earlier views left.
   bool isFirstPassOver(std::size_t view, std::size_t views) const {
     return seconds_ > 0 && elapsed() >= 0.5 * seconds_ * static_cast<double>(view + 1) / static_cast<double>(views);

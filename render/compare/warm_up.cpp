@@ -40,7 +40,7 @@ struct Share {
   bool isOver() const { return limit.isFirstPassOver(view, views) || (compiling && compiling->isOver()); }
 };
 
-bool isProcessor(Backend backend, const std::string& device) {
+bool isOnCpu(Backend backend, const std::string& device) {
   if (backend != Backend::vulkan) return false;
   try {
     return vulkan::chosenDevice(device).type == "CPU";
@@ -184,14 +184,16 @@ PathChoice secondPath(RowGroup& group, Backend backend, const PathChoice& chosen
   return second;
 }
 
-// Renders what --max-error chooses, unless the time is over or only some methods are compared.
+// Renders what --max-error chooses, unless the time does not suffice or only some methods are compared.
 void renderChoices(Comparison& comparison, RowGroup& group, Backend backend, const ComparisonSettings& settings,
                    const Exact& exact, const Share& share, const Output& output) {
   const std::vector<std::string> names = methodNames();
   const bool comparesAll = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
     return std::find(settings.methods.begin(), settings.methods.end(), name) != settings.methods.end();
   });
-  if (!comparesAll || !exact.image || interrupted() || share.isOver()) return;
+  // The search compiles about as much as the methods did.
+  const bool isSlow = share.compiling && share.compiling->usedShare() > 0.2;
+  if (!comparesAll || !exact.image || interrupted() || share.isOver() || isSlow) return;
   try {
     for (ComparisonRow& row : choiceRows(group, backend, settings.threads, output.progress)) {
       renderRow(row, group, exact, output);
@@ -204,19 +206,19 @@ void renderChoices(Comparison& comparison, RowGroup& group, Backend backend, con
   }
 }
 
-// That the time for compiling is over.
+// Warns of the rows that are left out because the time for compiling is over.
 void warnLeftOut(const RowGroup& group, Backend backend, std::size_t rows, const Share& share) {
   if (!share.compiling || !share.compiling->isOver()) return;
-  console::warn(
-      fmt::format("{}: {} left out {} of the rows, because this device is a processor and compiles them for minutes; "
-                  "--minutes 0 renders all, --backends embree none of them",
-                  groupTitle(group), backendInfo(backend).name, rows));
+  console::warn(fmt::format(
+      "{}: {} left out {} rows, because a CPU compiles each of them for minutes; use --minutes 0 to render all, "
+      "or --backends embree to leave out Vulkan",
+      groupTitle(group), backendInfo(backend).name, rows));
 }
 
 // Renders every method on one backend.
 void renderRows(Comparison& comparison, RowGroup& group, Backend backend, const ComparisonSettings& settings,
                 const RenderResult& reference, Share share, const Output& output) {
-  if (settings.compileMinutes > 0 && isProcessor(backend, settings.device))
+  if (settings.compileMinutes > 0 && isOnCpu(backend, settings.device))
     share.compiling.emplace(settings.compileMinutes);
   const RenderParameters& p = group.parameters;
   const EffectsChoice cheapest =

@@ -13,9 +13,9 @@ using shaders::Effect;
 
 namespace {
 
-// Effects of data that a scene has or lacks: sampled lights, filters before lights, maps, instances
-// and layers of materials. Without the
-// data their code cannot run, but it is most of the code of a variant, which a CPU takes minutes to compile.
+// Effects of data that a scene has or lacks: sampled lights, filters before lights, maps, instances and layers of
+// materials. Without the data their code cannot run, but it is most of the code of a variant, which a CPU takes minutes
+// to compile.
 constexpr std::uint32_t kOfData =
     shaders::effectBit(Effect::kAreaLights) | shaders::effectBit(Effect::kEnvironmentLight) |
     shaders::effectBit(Effect::kFilteredShadows) | shaders::effectBit(Effect::kMeshTextures) |

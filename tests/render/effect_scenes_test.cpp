@@ -89,23 +89,25 @@ TEST_P(EffectScenes, NeedsItsEffectAndNoOtherOfThese) {
   EXPECT_NE(choice.warnings[0].text.find(expected.effect), std::string::npos);
 }
 
-// On Vulkan, whose variants differ; Embree draws these scenes by the build that has everything anyway, and every other
-// scene by each build in tests/hard_cases. `sp` distinguishes light without a polarization direction from polarized
-// light of degree 0.
+// On Vulkan, whose variants differ, and on packets of Embree, which test the effects of the image where everything is
+// compiled in; tests/hard_cases draws every other scene by each build. `sp` distinguishes light without a polarization
+// direction from polarized light of degree 0.
 TEST_P(EffectScenes, AutoEqualsAll) {
   const pack::Scene& scene = sceneNamed(GetParam());
   vulkan::Renderer vulkan(scene, {});
+  embree::Renderer embree(scene, 0);
   RenderParameters parameters = render::defaultParameters(scene);
-  for (const char* method : {"stokes", "importance", "sp"}) {
-    parameters.everyEffect = false;
-    const RenderResult some = vulkan.render(method, parameters);
-    parameters.everyEffect = true;
-    const RenderResult all = vulkan.render(method, parameters);
-    double largest = 0;
-    for (std::size_t i = 0; i < all.pixels.size(); ++i)
-      largest = std::max(largest, static_cast<double>(std::abs(all.pixels[i] - some.pixels[i])));
-    EXPECT_LT(largest, 2e-5) << method;  // radiances of up to 4
-  }
+  for (render::Renderer* renderer : {static_cast<render::Renderer*>(&vulkan), static_cast<render::Renderer*>(&embree)})
+    for (const char* method : {"stokes", "importance", "sp"}) {
+      parameters.everyEffect = false;
+      const RenderResult some = renderer->render(method, parameters);
+      parameters.everyEffect = true;
+      const RenderResult all = renderer->render(method, parameters);
+      double largest = 0;
+      for (std::size_t i = 0; i < all.pixels.size(); ++i)
+        largest = std::max(largest, static_cast<double>(std::abs(all.pixels[i] - some.pixels[i])));
+      EXPECT_LT(largest, 2e-5) << method << " " << renderer->device();  // radiances of up to 4
+    }
 }
 
 // A path that loses no more than the tolerance changes a pixel by no more than that of the brightest source; at 0

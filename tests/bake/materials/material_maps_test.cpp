@@ -145,6 +145,25 @@ TEST_F(MaterialMapsTest, TheBaseColourTintsTheSurfaceOfBodies) {
   EXPECT_NEAR(made.transmittanceParallel.x, 0.625, 1e-6);
 }
 
+// A pane of KHR_materials_transmission has the colour of its texels, whatever its alpha is, as without a texture.
+TEST_F(MaterialMapsTest, BlendedPanesThatTransmitKeepTheirColour) {
+  prep::SourceMaterial source;
+  source.metallic = source.roughness = 0;
+  source.transmission = 1;
+  source.isThinWalled = source.tintsTransmission = true;
+  source.alphaMode = prep::AlphaMode::blend;
+  source.alpha = 0.2;
+  source.baseColour = {0.1, 0.5, 1};
+  const pack::Material factor = convert(source);
+  ASSERT_EQ(factor.kind, MaterialKind::thinGlass);
+  EXPECT_NEAR(factor.transmittanceParallel.x, 0.1, 1e-6);
+  source.baseColourImage = add(2, {1, 1, 1, 1, encoded(0.5), 1});
+  const pack::Material made = convert(source);
+  ASSERT_EQ(made.kind, MaterialKind::thinGlass);
+  EXPECT_NEAR(texel(made.meshMaps.transmittance, 0).x, 0.1, 1e-6);
+  EXPECT_NEAR(texel(made.meshMaps.transmittance, 1).y, 0.25, 1e-6);
+}
+
 TEST_F(MaterialMapsTest, AlphaCutsOutOrBecomesAPane) {
   prep::SourceMaterial source;
   source.metallic = 0;

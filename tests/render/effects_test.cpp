@@ -15,14 +15,8 @@ using pack::MaterialKind;
 using render::RenderParameters;
 using render::RenderResult;
 using test::renderEverywhere;
-
-// S0..S3 of one colour of a pixel.
-using Stokes = std::array<double, 4>;
-Stokes stokesAt(const RenderResult& p, std::size_t pixel, std::size_t colour) {
-  Stokes s{};
-  for (std::size_t k = 0; k < 4; ++k) s[k] = p.pixels[pixel * p.channels + 3 + 3 * k + colour];
-  return s;
-}
+using test::Stokes;
+using test::stokesAt;
 
 // The middle pixel's Stokes vector on all of them.
 void expectEverywhere(const pack::Scene& scene, std::size_t colour, const Stokes& truth, double tolerance) {

@@ -15,7 +15,7 @@ namespace malus {
 namespace {
 
 using nlohmann::json;
-using Stokes = std::array<double, 4>;
+using test::Stokes;
 
 constexpr auto kSilent = [](std::string_view) {};
 

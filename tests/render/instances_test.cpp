@@ -21,7 +21,7 @@ namespace {
 using pack::MaterialKind;
 using test::renderEverywhere;
 
-using Stokes = std::array<double, 4>;
+using test::Stokes;
 
 void expectMiddle(const pack::Scene& scene, const Stokes& truth, double tolerance, const char* what) {
   for (const auto& [name, result] : renderEverywhere(scene))

@@ -16,15 +16,10 @@ using pack::Material;
 using pack::MaterialKind;
 using render::RenderParameters;
 using render::RenderResult;
+using test::middlePixel;
 using test::renderEverywhere;
-
-using Stokes = std::array<double, 4>;
-Stokes stokesAt(const RenderResult& p, std::size_t colour) {
-  const std::size_t pixel = p.pixels.size() / p.channels / 2;
-  Stokes s{};
-  for (std::size_t k = 0; k < 4; ++k) s[k] = p.pixels[pixel * p.channels + 3 + 3 * k + colour];
-  return s;
-}
+using test::Stokes;
+using test::stokesAt;
 
 // The middle pixel: its Stokes vector where a method has one, by single rays and by packets, else its colour.
 void expectEverywhere(const pack::Scene& scene, std::size_t colour, const Stokes& truth, double tolerance) {
@@ -36,7 +31,7 @@ void expectEverywhere(const pack::Scene& scene, std::size_t colour, const Stokes
   for (const char* method : {"stokes", "importance"})
     results[std::string("packets ") + method] = embree.render(method, parameters);
   for (const auto& [name, result] : results) {
-    const Stokes s = stokesAt(result, colour);
+    const Stokes s = stokesAt(result, middlePixel(result), colour);
     for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(s[k], truth[k], tolerance) << name << ", S" << k;
   }
 }
@@ -65,7 +60,7 @@ pack::Scene floorAt(double degrees, const Material& material, std::uint32_t dept
 // S0 and |(S1, S2)| of white light after an interface; the camera's frame is turned, so that S1 and S2 mix.
 void expectReflection(const pack::Scene& scene, std::size_t colour, double rs, double rp, double tolerance = 2e-6) {
   for (const auto& [name, result] : renderEverywhere(scene)) {
-    const Stokes s = stokesAt(result, colour);
+    const Stokes s = stokesAt(result, middlePixel(result), colour);
     EXPECT_NEAR(s[0], (rs + rp) / 2, tolerance) << name;
     EXPECT_NEAR(std::hypot(s[1], s[2]), std::abs(rs - rp) / 2, tolerance) << name;
     EXPECT_NEAR(s[3], 0, tolerance) << name;
@@ -130,7 +125,7 @@ TEST(MaterialLayers, SpecularFactorOfClearSurfacesKeepsEnergy) {
   scene.meshes.resize(1);
   scene.environment.radiance = glm::dvec3(1);
   for (const auto& [name, result] : renderEverywhere(scene))
-    EXPECT_NEAR(stokesAt(result, 0)[0], 2.25, 5e-6) << name;  // radiance in the medium
+    EXPECT_NEAR(stokesAt(result, middlePixel(result), 0)[0], 2.25, 5e-6) << name;  // radiance in the medium
 }
 
 // Sum over the reflections inside a coat, of powers.
@@ -198,7 +193,7 @@ TEST(MaterialLayers, CoatedMetalShiftsThePhaseOfPolarizedLight) {
                   {std::sin(a), -std::cos(a), 0}, 1);
   const Sum coat = addPaths(std::cos(Real(a)), 1.5L, oracle::Complex(0.2L, -3.4L));
   for (const auto& [name, result] : renderEverywhere(scene)) {
-    const Stokes s = stokesAt(result, 0);
+    const Stokes s = stokesAt(result, middlePixel(result), 0);
     EXPECT_NEAR(s[0], (coat.rs + coat.rp) / 2, 2e-6) << name;
     EXPECT_NEAR(std::abs(s[3]), std::abs(coat.xIm), 2e-6) << name;
     EXPECT_NEAR(s[1] * s[1] + s[2] * s[2], std::pow((coat.rs - coat.rp) / 2, 2) + coat.xRe * coat.xRe, 5e-6) << name;

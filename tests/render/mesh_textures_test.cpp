@@ -17,7 +17,7 @@ using render::RenderResult;
 using test::renderEverywhere;
 
 // S0..S3 of one colour in the middle pixel, on all of them.
-using Stokes = std::array<double, 4>;
+using test::Stokes;
 void expectEverywhere(const pack::Scene& scene, std::size_t colour, const Stokes& truth, double tolerance) {
   for (const auto& [name, result] : renderEverywhere(scene)) {
     const std::size_t pixel = result.pixels.size() / result.channels / 2;

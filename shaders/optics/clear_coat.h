@@ -27,14 +27,10 @@ struct CoatInterface {
 // An interface that covers a share of its surface; the rest transmits everything. Total reflection is not reduced.
 FN CoatInterface dielectricInterface(real c, RefractionTerms f, real share) {
   CoatInterface i;
-  i.r = reflectanceFromTerms(c, f);
   i.t = transmittanceFromTerms(c, f);
   real covered = selectR(f.total, R(1.0), share);
   real open = R(1.0) - covered;
-  i.r.rs = i.r.rs * covered;
-  i.r.rp = i.r.rp * covered;
-  i.r.xRe = i.r.xRe * covered;
-  i.r.xIm = i.r.xIm * covered;
+  i.r = shareOfReflectance(reflectanceFromTerms(c, f), covered);
   i.t.ts = minR(i.t.ts * covered + open, R(1.0));
   i.t.tp = minR(i.t.tp * covered + open, R(1.0));
   i.t.x = i.t.x * covered + open;

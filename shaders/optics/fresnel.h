@@ -20,6 +20,15 @@ struct Reflectance {
   real xIm;  // Im X
 };
 
+// The reflection of a surface that has an interface on a share of it, 0 to 1.
+FN Reflectance shareOfReflectance(Reflectance r, real share) {
+  r.rs = r.rs * share;
+  r.rp = r.rp * share;
+  r.xRe = r.xRe * share;
+  r.xIm = r.xIm * share;
+  return r;
+}
+
 // Flux transmittances of a dielectric; x = sqrt(ts tp).
 struct Transmittance {
   real ts;

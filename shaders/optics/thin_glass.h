@@ -74,10 +74,7 @@ FN ThinGlass partialThinGlass(real c, RefractionTerms f, real internal, real sha
   ThinGlass pane = thinGlassFromTerms(c, f, internal);
   real covered = selectR(f.total, R(1.0), share);
   real open = (R(1.0) - covered) * attenuation(paneDepth(f, internal));
-  pane.reflected.rs = pane.reflected.rs * covered;
-  pane.reflected.rp = pane.reflected.rp * covered;
-  pane.reflected.xRe = pane.reflected.xRe * covered;
-  pane.reflected.xIm = pane.reflected.xIm * covered;
+  pane.reflected = shareOfReflectance(pane.reflected, covered);
   pane.transmitted.rs = minR(pane.transmitted.rs * covered + open, R(1.0));
   pane.transmitted.rp = minR(pane.transmitted.rp * covered + open, R(1.0));
   pane.transmitted.xRe = pane.transmitted.xRe * covered + open;

@@ -36,7 +36,7 @@ inline constexpr SpecialKey kCameraSpecialKeys[] = {
 };
 
 inline constexpr SpecialKey kImageSpecialKeys[] = {
-    {"image", "file", "required", "latitude-longitude image, in any format that OpenImageIO reads (below, Images)"},
+    {"image", "file", "required", "latitude-longitude image (below, Images)"},
 };
 
 inline constexpr SpecialKey kPresetSpecialKeys[] = {
@@ -84,7 +84,7 @@ inline constexpr SpecialKey kMaterialSpecialKeys[] = {
 };
 
 inline constexpr SpecialKey kMapSpecialKeys[] = {
-    {"image", "file", "required", "image, in any format that OpenImageIO reads"},
+    {"image", "file", "required", "image (below, Images)"},
 };
 
 inline constexpr SpecialKey kMeshSpecialKeys[] = {

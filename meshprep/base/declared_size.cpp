@@ -54,6 +54,23 @@ std::optional<ImageSize> sizeOfGif(std::istream& file) {
   return ImageSize{little(header, 6, 2), little(header, 8, 2), kChannels};
 }
 
+// Of the first chunk: lossy, lossless or extended.
+std::optional<ImageSize> sizeOfWebp(std::istream& file) {
+  constexpr std::int64_t kChannels = 4;
+  constexpr std::size_t kChunk = 12, kContent = 20;  // behind the header of RIFF; behind type and size of the chunk
+  const std::string header = bytesAt(file, 0, 30);
+  if (header.size() < 30) return std::nullopt;
+  const std::string_view type = std::string_view(header).substr(kChunk, 4);
+  if (type == "VP8 ")
+    return ImageSize{little(header, kContent + 6, 2) & 0x3fffu, little(header, kContent + 8, 2) & 0x3fffu, kChannels};
+  if (type == "VP8X")
+    return ImageSize{std::int64_t{little(header, kContent + 4, 3)} + 1,
+                     std::int64_t{little(header, kContent + 7, 3)} + 1, kChannels};
+  if (type != "VP8L") return std::nullopt;
+  const std::uint32_t sizes = little(header, kContent + 1, 4);
+  return ImageSize{std::int64_t{sizes & 0x3fffu} + 1, std::int64_t{sizes >> 14u & 0x3fffu} + 1, kChannels};
+}
+
 // Finds the frame header, as libjpeg does: it skips bytes between segments.
 std::optional<ImageSize> sizeOfJpeg(std::istream& file) {
   constexpr std::uint32_t kFirstFrame = 0xc0, kLastFrame = 0xcf;
@@ -152,6 +169,7 @@ std::optional<ImageSize> declaredSize(std::istream& file) {
   if (start.starts_with("\xff\xd8")) return sizeOfJpeg(file);
   if (start.starts_with("\xff\x4f\xff\x51")) return sizeOfCodestream(file, 0);
   if (start.size() < 12) return std::nullopt;
+  if (start.starts_with("RIFF") && start.substr(8, 4) == "WEBP") return sizeOfWebp(file);
   if (start.substr(4, 4) == "jP  ") return sizeOfJpeg2000(file);
   if (start.substr(4, 4) == "ftyp") return sizeOfHeif(file);
   return std::nullopt;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -94,6 +95,31 @@ void readAttributes(const ImageSpec& spec, Image& image) {
   }
 }
 
+// Formats that are read: those that OpenImageIO opens by a header of fixed size, and those of declaredSize(). It
+// decodes the others when it opens them (camera RAW, DICOM, movies, volumes, thumbnails of PSD), before their size is
+// known, or needs no file at all (null). TGA has no signature and comes last. EXR and PNG are read here only to test
+// the other module.
+constexpr const char* kFormats[] = {"jpeg", "tiff", "hdr", "bmp", "webp", "gif", "jpeg2000", "heif",
+                                    "dds",  "dpx",  "sgi", "pnm", "iff",  "png", "openexr",  "targa"};
+
+// Opens a file by its content, whatever its extension. Returns null and the reason if that fails.
+std::unique_ptr<ImageInput> openKnownFormat(const std::string& path, std::string& problem) {
+  ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // as stored, not multiplied by alpha
+  for (const char* format : kFormats) {
+    std::unique_ptr<ImageInput> input = ImageInput::create(format);
+    ImageSpec ignored;
+    if (!input) continue;  // built without it
+    if (input->open(path, ignored, config)) return input;
+    problem = messageOr(input->geterror(), "damaged file");
+    if (input->valid_file(path)) return nullptr;
+  }
+  problem =
+      "unknown format; expected PNG, EXR, JPEG, TIFF, HDR, BMP, TGA, WebP, GIF, JPEG 2000, HEIF, DDS, DPX, SGI, PNM or "
+      "IFF";
+  return nullptr;
+}
+
 // start: the first bytes of the file.
 std::string readByOpenImageIo(const std::string& path, std::string_view start, Image& image) {
   std::optional<RadianceHeader> header;
@@ -101,10 +127,9 @@ std::string readByOpenImageIo(const std::string& path, std::string_view start, I
   if (header && header->format == "32-bit_rle_xyze")
     return "FORMAT=32-bit_rle_xyze is not supported; expected 32-bit_rle_rgbe: convert it with 'ra_xyze -r IN OUT' of "
            "Radiance";
-  ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);  // as stored, not multiplied by alpha
-  const auto input = ImageInput::open(path, &config);
-  if (!input) return messageOr(OIIO::geterror(), "unknown format");
+  std::string unopened;
+  const auto input = openKnownFormat(path, unopened);
+  if (!input) return unopened;
   const ImageSpec spec = input->spec();
   if (spec.depth > 1) return fmt::format("unsupported volume of {} slices; expected an image", spec.depth);
   const std::uint64_t fileBytes = std::filesystem::file_size(path);

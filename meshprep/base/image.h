@@ -49,7 +49,7 @@ struct Image {
   int channel(std::string_view name) const;
 };
 
-// Reads an image of any format that OpenImageIO supports (EXR, HDR, PNG, ...); in the bundle EXR and PNG. Integers are
+// Reads an image of the formats of bake/SCENE.md (Images); in the bundle EXR and PNG. Integers are
 // scaled to [0, 1], and values stay encoded. The image is the display window of an EXR file: pixels that its data
 // window does not store are 0, those outside the display window are left out. HDR values are divided by EXPOSURE and
 // COLORCORR. The orientation that HDR, TIFF and JPEG files state is applied. Colours are not multiplied by alpha:

@@ -98,6 +98,8 @@ TEST_F(ImageSizes, LargeSizesAreRefusedByTheHeader) {
       {"wide.bmp", bmp(wide + wide)},
       {"down.bmp", bmp(wide + down)},
       {"core.bmp", "BM" + zeros(12) + little(12, 4) + little(kSide, 2) + little(kSide, 2) + zeros(60)},
+      {"a.webp", "RIFF" + little(22, 4) + "WEBPVP8X" + little(10, 4) + little(0, 4) + little(kSide - 1, 3) +
+                     little(kSide - 1, 3) + zeros(60)},
       {"a.gif", "GIF89a" + little(kSide, 2) + little(kSide, 2) + zeros(60)},
       {"baseline.jpg", jpeg("\xff\xc0")},
       {"progressive.jpg", jpeg("\xff\xc2")},
@@ -124,6 +126,20 @@ TEST_F(ImageSizes, LargeSizesAreRefusedByTheHeader) {
     EXPECT_TRUE(image.pixels.empty()) << name;
   }
   EXPECT_LT(peakMegabytes() - before, 256);
+}
+
+// OpenImageIO reads both: it decodes thumbnails when it opens a PSD file, and makes up an image for the name *.null.
+TEST_F(ImageSizes, FormatsWithoutACheckedHeaderAreRefused) {
+  const std::string psd =
+      "8BPS" + big(1, 2) + zeros(6) + big(3, 2) + big(1, 4) + big(1, 4) + big(8, 2) + big(3, 2) + zeros(14) + "\1\2\3";
+  for (const auto& [name, bytes] :
+       {std::pair<std::string, std::string>("a.psd", psd), {"a.png", psd}, {"a.null", ""}}) {
+    write(name, {bytes.begin(), bytes.end()});
+    Image image;
+    const std::string message = formats().read(file(name), image);
+    EXPECT_NE(message.find("unknown format; expected PNG"), std::string::npos) << name << ": " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << name;
+  }
 }
 
 TEST_F(ImageSizes, SidesAboveTheLimitAreErrors) {

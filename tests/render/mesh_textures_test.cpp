@@ -222,6 +222,7 @@ void expectTilted(const pack::Scene& mapped, const glm::dvec3& n) {
   pack::Scene tilted = mapped;
   tilted.materials[0].meshMaps = {};
   tilted.meshes.clear();
+  tilted.instances.clear();
   test::addSquare(tilted, 0, {0, 0, 0}, n, 2);
   render::RenderParameters parameters = render::defaultParameters(tilted);
   const RenderResult truth = reference::render(tilted, parameters, 0);
@@ -270,6 +271,27 @@ TEST(NormalMaps, InterpolatedNormalsCarryTheFrame) {
   addSky(scene);
   test::look(scene, {2, 0.7, 2}, {0, 0, 0});
   expectTilted(scene, glm::dvec3(1, 0, 0) * n.x + bitangent * n.y + normal * n.z);
+}
+
+TEST(NormalMaps, PlacedMeshesTurnAndMirrorTheFrame) {
+  const glm::dvec3 n = glm::normalize(glm::dvec3(0.3, 0.2, 1)), first(50, 0, 0);
+  pack::Scene scene = square({});
+  scene.materials[0] = mappedMirror(scene, n);
+  addSky(scene);
+  test::look(scene, {2, 0.7, 2}, {0, 0, 0});
+  pack::Mesh& mesh = scene.meshes[0];
+  for (glm::dvec3& p : mesh.positions) p += first;
+  mesh.origin = first;
+  const auto expectPlaced = [&](const glm::dmat3& linear, const glm::dvec3& placed) {
+    scene.instances = {{"place", 0, linear, -(linear * first)}};
+    expectTilted(scene, placed);
+  };
+  const glm::dmat3 mirrored(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1));
+  const glm::dmat3 turned(glm::dvec3(0, 2, 0), glm::dvec3(-2, 0, 0), glm::dvec3(0, 0, 2));  // by a quarter, enlarged
+  expectPlaced(mirrored, {-n.x, n.y, n.z});  // by the derivatives of the coordinates
+  mesh.tangents.assign(4, {1, 0, 0, 1});
+  expectPlaced(turned, {-n.y, n.x, n.z});
+  expectPlaced(turned * mirrored, {-n.y, -n.x, n.z});
 }
 
 TEST(NormalMaps, ANormalThatFacesAwayGivesWayToTheFace) {

@@ -111,17 +111,21 @@ FN real loadChosen(const float* from, Ranks ranks) { return hn::TableLookupLanes
 
 // A row of a table of structs whose members are floats and words of four bytes, per lane.
 template <class Struct>
-FN Struct gatherRow(const void* table, word row) {
-  Struct result;
+FN void gatherRow(const void* table, word row, Struct& result) {
   constexpr std::size_t kCount = kFields<Struct>;
   const float* values = static_cast<const float*>(table);
   if (sameInAll(row)) {
     values += std::size_t{firstLane(row)} * kCount;
     for (std::size_t i = 0; i < kCount; ++i) setField(result, i, real(values[i]));
-    return result;
+    return;
   }
   const word at = timesW(row, kCount);
   for (std::size_t i = 0; i < kCount; ++i) setField(result, i, gatherR(values + i, at));
+}
+template <class Struct>
+FN Struct gatherRow(const void* table, word row) {
+  Struct result;
+  gatherRow(table, row, result);
   return result;
 }
 
@@ -153,6 +157,7 @@ struct PacketAccess {
   MaterialTable materials;
   LightTable lights;
   MaterialExtra extra;  // of the packet that is shaded
+  word extraOf;         // its materials
   mask active;          // its lanes that have a ray
   std::uint64_t rays;
   std::span<std::uint32_t> bucketEnds;                       // of the batch that was traced last
@@ -170,6 +175,7 @@ struct PacketAccess {
     materials = {scene->materials.data()};
     lights = {scene->lights.data()};
     rays = 0;
+    extraOf = ~0u;
     bucketEnds = input.bucketEnds;
     embree::initializeRay(nearestQuery.ray);
     embree::setField(nearestQuery.hit.instID[0], embree::Intersection::kMiss);

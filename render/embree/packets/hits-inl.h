@@ -11,9 +11,12 @@ EFFECT_CONST bool kReadsExtras = kEffectPolarizingElement || kEffectThinGlass ||
                                  kEffectPolarizedEmitters || kEffectSpecularFactors || kEffectTintedGlass ||
                                  kEffectClearCoats;
 
-// Makes materialExtra return that of a packet's materials.
+// Makes materialExtra return that of a packet's materials. Packets are sorted by material, so that it is often that of
+// the packet before.
 void loadExtra(word material) {
-  if (kReadsExtras) extra = gatherRow<MaterialExtra>(scene->extras.data(), material);
+  if (!kReadsExtras || !anyM(notM(equalW(material, extraOf)))) return;
+  extraOf = material;
+  gatherRow(scene->extras.data(), material, extra);
 }
 
 // row(values): a packet of a row of the batch.

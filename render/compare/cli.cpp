@@ -33,7 +33,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kCompileMinutes = 5;
+// ComparisonSettings::compileMinutes by --minutes: a quarter of the whole time, because a method that has been started
+// may take as long again.
+double compileMinutes(const std::optional<double>& minutes) {
+  constexpr double kDefault = 5, kShare = 0.25;
+  return minutes ? std::min(kDefault, kShare * *minutes) : kDefault;
+}
 
 struct Arguments {
   std::vector<std::string> inputs, shown;
@@ -213,7 +218,7 @@ void runCompare(Arguments& a) {
     throw Error((folder / "images").string(), "cannot create the folder", "a writable place", failed.message());
 
   a.settings.minutes = a.minutes.value_or(a.settings.minutes);
-  if (!a.minutes) a.settings.compileMinutes = kCompileMinutes;
+  a.settings.compileMinutes = compileMinutes(a.minutes);
   const InterruptScope scope;
   if (a.effects) {
     const AblationSettings settings = ablationSettings(a);
@@ -277,7 +282,8 @@ void addCompareCommand(CLI::App& app) {
       ->add_option(
           "--minutes", a->minutes,
           "Time limit: leaves out methods and rounds that exceed it, the first methods are preferred; 0 for none "
-          "(default: 0, or 10 with --effects; where Vulkan runs on a CPU, it starts no method after 5)")
+          "(default: 0, or 10 with --effects; where Vulkan runs on a CPU, it starts no method after a quarter "
+          "of M or 5)")
       ->transform(nonNegativeNumber());
   addDevice(*command, settings.device, settings.threads);
   addPaths(*command, settings.vulkanPath, settings.embreePath);

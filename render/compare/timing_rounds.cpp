@@ -1,6 +1,7 @@
 #include "render/compare/timing_rounds.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include <fmt/format.h>
 
@@ -32,10 +33,11 @@ void summarizeRow(Comparison& comparison, const RowGroup& group, std::size_t i) 
 
 namespace {
 
-// One round of a group. False: interrupted, or the time is over.
+// One round of a group. False: interrupted, or the time is over. The first round is for every row, so that what the
+// first pass rendered has a time.
 bool timeRound(Comparison& comparison, RowGroup& group, std::uint32_t round, const TimeLimit& limit) {
   for (std::size_t k = 0; k < group.rows.size(); ++k) {
-    if (interrupted() || limit.isOver()) return false;
+    if (interrupted() || (round > 0 && limit.isOver())) return false;
     ComparisonRow& row = comparison.rows[group.rows[(k + round) % group.rows.size()]];
     if (!row.ok()) continue;
     try {
@@ -49,13 +51,23 @@ bool timeRound(Comparison& comparison, RowGroup& group, std::uint32_t round, con
   return true;
 }
 
+// ", about 3 min left", from the rounds that are finished; nothing before the first one.
+std::string timeLeft(std::chrono::steady_clock::time_point start, std::uint32_t finished, std::uint32_t rounds) {
+  if (finished == 0) return {};
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double left = seconds / finished * (rounds - finished);
+  return left < 90 ? fmt::format(", about {:.0f} s left", left) : fmt::format(", about {:.0f} min left", left / 60);
+}
+
 }  // namespace
 
 void timeRounds(Comparison& comparison, std::vector<RowGroup>& groups, std::uint32_t rounds, const TimeLimit& limit,
                 const Progress& progress, const std::function<void()>& afterRound) {
+  const auto start = std::chrono::steady_clock::now();
   for (std::uint32_t round = 0; round < rounds; ++round) {
+    const std::string left = timeLeft(start, round, rounds);
     for (RowGroup& group : groups) {
-      progress(fmt::format("round {} of {}: {}", round + 1, rounds, groupTitle(group)));
+      progress(fmt::format("round {} of {}{}: {}", round + 1, rounds, left, groupTitle(group)));
       if (!timeRound(comparison, group, round, limit)) return;
       group.rounds = round + 1;
     }

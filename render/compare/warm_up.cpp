@@ -206,6 +206,14 @@ void renderChoices(Comparison& comparison, RowGroup& group, Backend backend, con
   }
 }
 
+// The renderers in the order of the first pass: Vulkan on a CPU, which may use up the time, comes last.
+std::vector<Backend> inOrder(const ComparisonSettings& settings) {
+  std::vector<Backend> backends = settings.backends;
+  std::stable_partition(backends.begin(), backends.end(),
+                        [&](Backend backend) { return !isOnCpu(backend, settings.device); });
+  return backends;
+}
+
 // Warns of the rows that are left out because the time for compiling is over.
 void warnLeftOut(const RowGroup& group, Backend backend, std::size_t rows, const Share& share) {
   if (!share.compiling || !share.compiling->isOver()) return;
@@ -271,6 +279,7 @@ std::vector<RowGroup> warmUp(Comparison& comparison, const ComparisonSettings& s
                              const std::filesystem::path& folder, const Progress& progress,
                              const std::function<void(const std::vector<RowGroup>&)>& afterView) {
   const Output output{folder / "images", progress};
+  const std::vector<Backend> backends = inOrder(settings);
   std::vector<RowGroup> groups;
   std::size_t count = 0;
   for (const auto& [name, pack] : comparison.packs) count += views(pack.scene, settings).size();
@@ -278,11 +287,11 @@ std::vector<RowGroup> warmUp(Comparison& comparison, const ComparisonSettings& s
     const auto renderers =
         std::make_shared<RendererSet>(pack.scene, RendererOptions{settings.device, settings.threads});
     for (const RenderParameters& parameters : views(pack.scene, settings)) {
-      if (interrupted() || limit.isOver()) break;
+      if (interrupted() || (limit.isOver() && !groups.empty())) break;
       const Share share{limit, groups.size(), count};
       groups.push_back({&pack, parameters, renderers, {}});
       const RenderResult reference = renderReference(comparison, groups.back(), settings.threads, output);
-      for (const Backend backend : settings.backends)
+      for (const Backend backend : backends)
         renderRows(comparison, groups.back(), backend, settings, reference, share, output);
       afterView(groups);
     }

@@ -74,11 +74,11 @@ class Parts(unittest.TestCase):
         self.assertEqual(group.points("vulkan"), [])
         self.assertEqual(report_data.pareto(group.points("embree")), [choice, method])
         self.assertEqual([report_choices.point_name(row) for row in group.points("embree")],
-                         ["stokes", "error ≤ 1 % and 5 %"])
+                         ["stokes", "≤ 1 and 5 %"])
         (entry,) = report_choices.choice_table(group)
         self.assertEqual((entry["within"], entry["parts"], entry["error"]),
                          ("1 % and 5 %", "without highlights, depth 1", 0.003))
-        self.assertIn("error ≤ 1 % and 5 %", report_plots.error_against_time(group, "embree"))
+        self.assertIn("≤ 1 and 5 %", report_plots.error_against_time(group, "embree"))
 
     def test_pareto_front(self):
         make = lambda ms, rms: {"status": "ok", "medianMs": ms, "error": {"relRms": rms}}  # noqa: E731

@@ -12,8 +12,9 @@ def _errors(row: dict) -> str:
 
 
 def point_name(row: dict) -> str:
-    """The label of a point: a method, or the errors within which it was chosen."""
-    return f"error ≤ {_errors(row)}" if is_choice(row) else row["method"]
+    """The label of a point: a method, or the errors within which it was chosen. The margin of the plot has room for
+    about 17 letters."""
+    return f"≤ {listed([f'{100 * error:g}' for error in row['maxErrors']])} %" if is_choice(row) else row["method"]
 
 
 def choice_table(group) -> list:

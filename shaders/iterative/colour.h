@@ -8,6 +8,7 @@ struct Throughput {
 };
 
 CONST int kSharedFields = 3;
+CONST uint kUnpolarizedFields = 7u;
 
 FN mask isSplit(IN(Throughput) c) { return false; }
 

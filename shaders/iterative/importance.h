@@ -16,6 +16,8 @@ struct Throughput {
 
 // Fields before those that only a split throughput has.
 CONST int kSharedFields = 8;
+// Bit i: unpolarizedContribution reads field i. They are r.w, split, g.w and b.w.
+CONST uint kUnpolarizedFields = 0x1188u;
 
 // d: direction of the camera ray; behind: first row of the Mueller matrix in front of the camera.
 FN Throughput startThroughput(real3 d, real3 up, real behind0, real behind1, real behind2, real behind3) {

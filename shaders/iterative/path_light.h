@@ -1,5 +1,9 @@
 // Light where a path ends.
 
+// Whether environmentLight needs more of a throughput than unpolarizedContribution, and sourceLight of a kind.
+FN bool isEnvironmentPolarized() { return kEffectSky; }
+FN bool isSourcePolarized(uint kind) { return kEffectPolarizedEmitters && kind == kEmitter; }
+
 // d: direction of the ray that leaves the scene.
 FN PathLight environmentLight(IN(Throughput) c, real3 d) {
   if (kEffectSky) {

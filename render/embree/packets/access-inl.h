@@ -89,12 +89,25 @@ FN void gather3W(const std::uint32_t* from, word index, word& a, word& b, word& 
   a = floatBits(bits.x), b = floatBits(bits.y), c = floatBits(bits.z);
 }
 
-// The lanes of a that are chosen, next to each other from `to` on.
-FN void storeChosen(real a, mask chosen, float* to) { storeR(hn::Compress(a.v, chosen.m), to); }
+// A permutation of lanes.
+using Order = decltype(hn::IndicesFromVec(Floats(), hn::Zero(Ints())));
+
+// Stores the chosen lanes of values next to each other. The permutation is computed once for all values of a packet.
+class ChosenLanes {
+ public:
+  HWY_INLINE explicit ChosenLanes(mask chosen)
+      : order_(hn::IndicesFromVec(Floats(), hn::Compress(hn::Iota(Ints(), 0), hn::RebindMask(Ints(), chosen.m)))) {}
+  HWY_INLINE void store(real a, float* to) const { storeR(hn::TableLookupLanes(a.v, order_), to); }
+  HWY_INLINE void store(word a, std::uint32_t* to) const {
+    hn::StoreU(hn::BitCast(Words(), hn::TableLookupLanes(hn::BitCast(Floats(), a.v), order_)), Words(), to);
+  }
+
+ private:
+  Order order_;
+};
 
 // Number of chosen lanes before each lane.
-using Ranks = decltype(hn::IndicesFromVec(Floats(), hn::Zero(Ints())));
-FN Ranks rankChosen(mask chosen) {
+FN Order rankChosen(mask chosen) {
   HWY_ALIGN std::int32_t rank[kLanes];
   HWY_ALIGN std::int32_t isChosen[kLanes];
   hn::Store(hn::BitCast(Ints(), selectW(chosen, 1u, 0u).v), Ints(), isChosen);
@@ -106,8 +119,8 @@ FN Ranks rankChosen(mask chosen) {
   return hn::IndicesFromVec(Floats(), hn::Load(Ints(), rank));
 }
 
-// The inverse of storeChosen: the values from `from` on, in the lanes that were chosen.
-FN real loadChosen(const float* from, Ranks ranks) { return hn::TableLookupLanes(loadR(from).v, ranks); }
+// The inverse of ChosenLanes::store: the values from `from` on, in the lanes that were chosen.
+FN real loadChosen(const float* from, Order ranks) { return hn::TableLookupLanes(loadR(from).v, ranks); }
 
 // A row of a table of structs whose members are floats and words of four bytes, per lane.
 template <class Struct>

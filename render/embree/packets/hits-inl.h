@@ -242,18 +242,19 @@ void endShadowHits(const Hit& hit) { loadExtra(hit.material); }
 // Adds the chosen lanes to a batch and returns the index of the first; the others follow.
 std::uint32_t addRays(Rays& batch, mask chosen, const Ray& ray) {
   const std::uint32_t at = batch.count;
-  storeChosen(ray.origin.x, chosen, batch.origin[0] + at);
-  storeChosen(ray.origin.y, chosen, batch.origin[1] + at);
-  storeChosen(ray.origin.z, chosen, batch.origin[2] + at);
-  storeChosen(ray.d.x, chosen, batch.direction[0] + at);
-  storeChosen(ray.d.y, chosen, batch.direction[1] + at);
-  storeChosen(ray.d.z, chosen, batch.direction[2] + at);
-  storeChosen(ray.depth, chosen, batch.depth + at);
+  const ChosenLanes lanes(chosen);
+  lanes.store(ray.origin.x, batch.origin[0] + at);
+  lanes.store(ray.origin.y, batch.origin[1] + at);
+  lanes.store(ray.origin.z, batch.origin[2] + at);
+  lanes.store(ray.d.x, batch.direction[0] + at);
+  lanes.store(ray.d.y, batch.direction[1] + at);
+  lanes.store(ray.d.z, batch.direction[2] + at);
+  lanes.store(ray.depth, batch.depth + at);
 #if MALUS_EFFECT_ABSORPTION
-  storeChosen(ray.originDistance, chosen, batch.originDistance + at);
+  lanes.store(ray.originDistance, batch.originDistance + at);
 #endif
 #if MALUS_PATH_WORD
-  hn::StoreU(hn::Compress(ray.path.v, hn::RebindMask(Words(), chosen.m)), Words(), batch.path + at);
+  lanes.store(ray.path, batch.path + at);
 #endif
   batch.count = at + static_cast<std::uint32_t>(countM(chosen));
   return at;

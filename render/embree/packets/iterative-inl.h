@@ -34,11 +34,14 @@ Level* levels[embree::kMostLevels] = {};
 HWY_ALIGN_MAX float sums[3][kBatch + kLanes];  // radiance that the camera records, by pixel
 real threshold;                                // paths with a smaller throughput end
 
-// Fields of colours that share the first vector are not stored.
-Throughput loadThroughput(const Paths& paths, word path) {
+// Fields of colours that share the first vector are not stored. polarized: the light there is; without it only the
+// fields that it needs are read, and the others are 0.
+Throughput loadThroughput(const Paths& paths, word path, bool polarized) {
   Throughput c;
+  for (std::size_t i = 0; !polarized && i < kFields<Throughput>; ++i) setField(c, i, real(0.0f));
   const auto load = [&](std::size_t begin, std::size_t end, auto row) HWY_ATTR {
-    for (std::size_t i = begin; i < end; ++i) setField(c, i, row(paths.throughput[i]));
+    for (std::size_t i = begin; i < end; ++i)
+      if (polarized || (kUnpolarizedFields >> i & 1u) != 0) setField(c, i, row(paths.throughput[i]));
   };
   const auto loadAll = [&](auto row) HWY_ATTR {
     load(0, kSharedFields, row);
@@ -56,9 +59,10 @@ void addPaths(Paths& paths, mask chosen, const CameraPath& p, word pixel) {
   if (!anyM(chosen)) return;
   const std::uint32_t at = paths.rays.count;
   const bool split = kSharedFields < kFields<Throughput> && anyM(andM(chosen, isSplit(p.throughput)));
+  const ChosenLanes lanes(chosen);
   for (std::size_t i = 0; i < (split ? kFields<Throughput> : kSharedFields); ++i)
-    storeChosen(getField(p.throughput, i), chosen, paths.throughput[i] + at);
-  hn::StoreU(hn::Compress(pixel.v, hn::RebindMask(Words(), chosen.m)), Words(), paths.pixel + at);
+    lanes.store(getField(p.throughput, i), paths.throughput[i] + at);
+  lanes.store(pixel, paths.pixel + at);
   addRays(paths.rays, chosen, p.ray);
 }
 
@@ -144,11 +148,12 @@ void followPaths(std::size_t depth, const Paths& paths) {
       level.found,
       [&](word path) HWY_ATTR {
         const real3 d = rayDirection(paths.rays, path);
-        record(environmentLight(loadThroughput(paths, path), d).recorded, gatherW(paths.pixel, path));
+        const Throughput c = loadThroughput(paths, path, isEnvironmentPolarized());
+        record(environmentLight(c, d).recorded, gatherW(paths.pixel, path));
       },
       [&](std::uint32_t kind, word path) HWY_ATTR {
         CameraPath p;
-        p.throughput = loadThroughput(paths, path);
+        p.throughput = loadThroughput(paths, path, !isSource(kind) || isSourcePolarized(kind));
         Hit h = gatherHit(paths.rays, level.found, path);
         loadExtra(h.material);
         meetSurface(kind, h, p, gatherW(paths.pixel, path), level);

@@ -57,7 +57,7 @@ Payload loadPayload(const Payloads& from, std::uint32_t first, mask chosen) {
     for (std::size_t i = 0; i < kFields<Payload>; ++i) setField(payload, i, loadR(from.field[i] + first));
     return payload;
   }
-  const Ranks ranks = rankChosen(chosen);
+  const Order ranks = rankChosen(chosen);
   for (std::size_t i = 0; i < kFields<Payload>; ++i) setField(payload, i, loadChosen(from.field[i] + first, ranks));
   return payload;
 }

@@ -21,8 +21,9 @@ struct Preparation {
   bool countRays = false;  // by countRays() too
 };
 
-// A renderer refers to the pack::Scene that it was made from: the scene must outlive the renderer and must not change.
-// Calls must not overlap; a renderer uses several threads by itself.
+// A renderer refers to the pack::Scene that it was made from: the scene must outlive the renderer. Its camera may
+// change between two calls; materials, lights, environment and wavelengths may change before a call of updateScene();
+// nothing else may change. Calls must not overlap; a renderer uses several threads by itself.
 class Renderer {
  public:
   virtual ~Renderer() = default;
@@ -43,6 +44,11 @@ class Renderer {
   // Prepares images, so that their first render() is faster: Vulkan compiles their shaders in parallel. Optional; what
   // fails is reported by render().
   virtual void prepare(const std::vector<Preparation>& /*images*/) {}
+
+  // Takes over changed materials, lights, environment and wavelengths of the scene, and keeps the acceleration
+  // structure and the pipelines. Returns false if the change needs a new renderer; this one must then not be used any
+  // more. Throws Error: out of memory.
+  virtual bool updateScene() = 0;
 
   // report: called with the fraction of the image that is finished, at most once per second, by renderers that render
   // in parts.

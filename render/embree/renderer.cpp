@@ -83,9 +83,14 @@ void renderTiles(const TileInput& image, int threads, std::uint32_t tileWidth, s
 }  // namespace
 
 struct Renderer::Impl {
-  explicit Impl(const pack::Scene& packed) : source(&packed), scene(render::makeRenderScene(packed)), order(scene) {}
+  explicit Impl(const pack::Scene& packed)
+      : source(&packed),
+        needs(render::findGeometryNeeds(packed)),
+        scene(render::makeRenderScene(packed)),
+        order(scene) {}
 
   pack::Scene const* source;
+  render::GeometryNeeds needs;
   render::RenderScene scene;
   ShadingOrder order;
   int threads = 1;
@@ -112,6 +117,13 @@ std::vector<std::string> Renderer::methods() const { return render::methodNames(
 std::vector<render::EmbreePath> Renderer::embreePaths() const {
   if (!hasPacketInstructions()) return {render::EmbreePath::scalar};
   return {render::EmbreePath::packet, render::EmbreePath::scalar};
+}
+
+bool Renderer::updateScene() {
+  if (render::findGeometryNeeds(*impl_->source) != impl_->needs) return false;
+  render::updateSurfaces(*impl_->source, impl_->scene);
+  impl_->order = ShadingOrder(impl_->scene);
+  return true;
 }
 
 namespace {

@@ -26,6 +26,7 @@ class Renderer final : public render::Renderer {
   int threads() const;
   std::vector<std::string> methods() const override;
   std::vector<render::EmbreePath> embreePaths() const override;
+  bool updateScene() override;
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
 
   // The rays that render() traces with the same arguments, tile by tile. Memory: 24 bytes per ray, twice.

@@ -14,11 +14,10 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "render/embree/embree.h"
+#include "render/reference/camera_rays.h"
 #include "render/reference/depth_paths.h"
+#include "render/reference/scene_data.h"
 #include "render/reference/tracer.h"
-#include "render/scene/compiled_effects.h"
-#include "render/scene/environment_distribution.h"
-#include "render/scene/image_plane.h"
 #include "render/scene/render_scene.h"
 #include "shaders/optics/optics.h"
 
@@ -35,26 +34,6 @@ double sinceMs(Clock::time_point start) {
 // Pixels of a tile, whose rays are traced together.
 constexpr std::uint32_t kTileWidth = 16, kTileHeight = 16;
 static_assert(kTileWidth * kTileHeight == kBatch);
-
-// Rays of the camera. x, y: from 0 to 1 over the image.
-class CameraRays {
- public:
-  CameraRays(const pack::Camera& camera, double width, double height)
-      : camera_(camera), plane_(render::makeImagePlane(camera, width, height)) {}
-  dvec3 direction(double x, double y) const {
-    if (camera_.isOrthographic()) return camera_.forward;
-    return f64::cameraDirection(camera_.right, camera_.up, plane_.middle, plane_.halfWidth, plane_.halfHeight, x, y);
-  }
-  dvec3 origin(double x, double y) const {
-    if (!camera_.isOrthographic()) return camera_.position;
-    return camera_.position + plane_.middle + camera_.right * ((2 * x - 1) * plane_.halfWidth) +
-           camera_.up * ((1 - 2 * y) * plane_.halfHeight);
-  }
-
- private:
-  const pack::Camera& camera_;
-  render::ImagePlane plane_;
-};
 
 // Writes the channels of a pixel.
 void writePixel(const Light& sum, double scale, const render::Analyser& analyser, float* out) {
@@ -113,50 +92,11 @@ void renderTile(const pack::Camera& camera, const render::RenderParameters& para
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(const pack::Scene& source, unsigned threadCount) : Impl(source, render::makeRenderScene(source), threadCount) {}
+  Impl(const pack::Scene& scene, unsigned threadCount) : data(scene, threadCount), threads(threadCount) {}
 
-  Impl(const pack::Scene& source, render::RenderScene&& renderScene, unsigned threadCount)
-      : scene(source),
-        threads(threadCount),
-        bvh(renderScene, threadCount),
-        records{std::move(renderScene.sourceMeshes), std::move(renderScene.sourceInstances),
-                std::move(renderScene.meshTransforms)},
-        areaLights(render::findAreaLights(source)),
-        environmentDistributions(source.environment.illuminates ? render::environmentDistributions(source.environment)
-                                                                : std::vector<float>()) {
-    if (renderScene.hasMeshTextures) textures.emplace(renderScene);
-    for (const pack::Material& m : scene.materials)
-      hemisphereTransmittance.push_back(render::hemisphereTransmittance(m, scene.wavelengthsNm));
-    for (const pack::Mesh& mesh : scene.meshes) faces.push_back(computeFaces(mesh));
-    lightReach = render::lightReach(source);
-  }
-
-  const pack::Scene& scene;
+  SceneData data;
   unsigned threads;
-  embree::Bvh bvh;
-  MeshRecords records;
-  render::AreaLights areaLights;
-  std::vector<float> environmentDistributions;
-  std::vector<std::vector<Face>> faces;        // per triangle of each mesh
-  std::vector<dvec3> hemisphereTransmittance;  // per material
-  double lightReach = 0;
-  std::optional<MeshTextures> textures;
   double buildMs = 0;
-
-  SceneAccess access(const render::RenderParameters& parameters) const {
-    return {scene,
-            bvh,
-            records,
-            faces,
-            hemisphereTransmittance,
-            lightReach,
-            textures ? &*textures : nullptr,
-            render::cameraCone(scene.camera, parameters),
-            areaLights,
-            environmentDistributions,
-            parameters.lightSamples,
-            render::filtersShadows(scene, parameters)};
-  }
 };
 
 Renderer::Renderer(const pack::Scene& scene, unsigned threads) {
@@ -167,10 +107,12 @@ Renderer::Renderer(const pack::Scene& scene, unsigned threads) {
 
 Renderer::~Renderer() = default;
 
+bool Renderer::updateScene() { return impl_->data.update(); }
+
 std::string Renderer::device() const { return fmt::format("double precision on {}", embree::Bvh::version()); }
 
 render::RenderResult Renderer::render(std::string_view /*method*/, const render::RenderParameters& parameters) {
-  const pack::Scene& scene = impl_->scene;
+  const pack::Scene& scene = impl_->data.scene();
   const auto start = Clock::now();
   render::RenderResult result;
   result.width = parameters.region.width;
@@ -178,7 +120,7 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
   result.channels = render::kStokesChannels;
   result.pixels.resize(result.channels * result.width * result.height);
   result.device = device();
-  const SceneAccess access = impl_->access(parameters);
+  const SceneAccess access = impl_->data.access(parameters);
   const CameraRays cameraRays(scene.camera, parameters.width, parameters.height);
   const std::uint32_t columns = (result.width + kTileWidth - 1) / kTileWidth,
                       rows = (result.height + kTileHeight - 1) / kTileHeight;
@@ -206,12 +148,12 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
 bake::DepthProbe Renderer::probeDepth() {
   const auto start = Clock::now();
   constexpr std::uint32_t kSide = 32;
-  const pack::Scene& scene = impl_->scene;
+  const pack::Scene& scene = impl_->data.scene();
   const std::uint32_t height = std::clamp(kSide * scene.height / scene.width, 1u, kSide);
   render::RenderParameters parameters = render::defaultParameters(scene);
   parameters.width = kSide;
   parameters.height = height;
-  const SceneAccess access = impl_->access(parameters);
+  const SceneAccess access = impl_->data.access(parameters);
   const CameraRays cameraRays(scene.camera, scene.width, scene.height);
   struct Row {
     std::vector<double> energy;

@@ -22,6 +22,7 @@ class Renderer final : public render::Renderer {
   render::Backend backend() const override { return render::Backend::reference; }
   std::string device() const override;
   std::vector<std::string> methods() const override { return {}; }
+  bool updateScene() override;
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
 
   // Follows the paths of at most 32 x 32 pixels without a limit of the depth. Deterministic; at most 2^20 rays.

@@ -13,6 +13,7 @@
 
 #include "bake/effects/effects.h"
 #include "bake/pack/instances.h"
+#include "bake/pack/mesh_maps.h"
 #include "render/scene/area_lights.h"
 #include "render/scene/compiled_effects.h"
 #include "render/scene/environment_distribution.h"
@@ -153,7 +154,26 @@ glm::dvec3 hemisphereTransmittance(const pack::Material& m, const glm::dvec3& wa
 
 namespace {
 
+gpu::Material makeMaterial(const pack::Material& m, const glm::dvec3& wavelengthsNm) {
+  gpu::Material g{};
+  const double basic = 1 / (m.outsideEta * m.outsideEta);
+  g.eta = glm::vec3(m.eta);
+  g.k = glm::vec3(m.k);
+  g.contrast = glm::vec3(m.eta - m.outsideEta);
+  g.radiance = glm::vec3(m.radiance * basic);
+  g.albedo = !pack::isEmitter(m.kind) ? glm::vec3(m.albedo) : m.twoSided ? g.radiance : glm::vec3(0.0f);
+  g.hemisphereTransmittance = glm::vec3(hemisphereTransmittance(m, wavelengthsNm));
+  g.outsideEta = static_cast<float>(m.outsideEta);
+  g.basicScale = static_cast<float>(basic);
+  g.highlightStrength = static_cast<float>(m.highlightStrength);
+  g.highlightExponent = m.highlightExponent;
+  g.kind = surfaceKind(m.kind);
+  return g;
+}
+
 void addLights(const pack::Scene& scene, RenderScene& result) {
+  result.lights.clear();
+  result.lightShapes.clear();
   const bool hasFar = std::ranges::any_of(
       scene.lights, [](const pack::LightSource& light) { return light.kind == pack::LightKind::directional; });
   const auto reach = static_cast<float>(hasFar ? lightReach(scene) : 0);
@@ -216,6 +236,9 @@ void addMeshes(const pack::Scene& scene, RenderScene& result) {
 
 void addSampledLights(const pack::Scene& scene, RenderScene& result) {
   const AreaLights lights = findAreaLights(scene);
+  result.areaLights.clear();
+  result.lightNodes.clear();
+  result.environmentDistributions.clear();
   for (const AreaLight& l : lights.lights) result.areaLights.push_back(toFloat(l));
   for (const LightNode& n : lights.nodes) result.lightNodes.push_back(toFloat(n));
   if (lights.lights.empty()) {
@@ -231,30 +254,38 @@ void addSampledLights(const pack::Scene& scene, RenderScene& result) {
 RenderScene makeRenderScene(const pack::Scene& scene) {
   RenderScene result;
   addTextures(scene, result);
-  addMeshMaps(scene, result);
+  updateSurfaces(scene, result);
+  addMeshes(scene, result);
+  return result;
+}
+
+GeometryNeeds findGeometryNeeds(const pack::Scene& scene) {
+  GeometryNeeds needs;
   for (const pack::Material& m : scene.materials) {
-    gpu::Material g{};
-    const double basic = 1 / (m.outsideEta * m.outsideEta);
-    g.eta = glm::vec3(m.eta);
-    g.k = glm::vec3(m.k);
-    g.contrast = glm::vec3(m.eta - m.outsideEta);
-    g.radiance = glm::vec3(m.radiance * basic);
-    g.albedo = !pack::isEmitter(m.kind) ? glm::vec3(m.albedo) : m.twoSided ? g.radiance : glm::vec3(0.0f);
-    g.hemisphereTransmittance = glm::vec3(hemisphereTransmittance(m, scene.wavelengthsNm));
-    g.outsideEta = static_cast<float>(m.outsideEta);
-    g.basicScale = static_cast<float>(basic);
-    g.highlightStrength = static_cast<float>(m.highlightStrength);
-    g.highlightExponent = m.highlightExponent;
-    g.kind = surfaceKind(m.kind);
-    result.materials.push_back(g);
+    needs.isTraced.push_back(!isInvisible(m));
+    needs.hasCutOuts.push_back(m.meshMaps.coverage.isUsed());
+    needs.hasNormalMaps = needs.hasNormalMaps || m.meshMaps.normal.isUsed();
+    pack::visitMeshMaps(
+        [&](const pack::MapRule&, const pack::MeshMap& map) {
+          needs.hasMeshTextures = needs.hasMeshTextures || map.isUsed();
+        },
+        m.meshMaps);
+  }
+  return needs;
+}
+
+void updateSurfaces(const pack::Scene& scene, RenderScene& result) {
+  result.materials.clear();
+  result.extras.clear();
+  for (const pack::Material& m : scene.materials) {
+    result.materials.push_back(makeMaterial(m, scene.wavelengthsNm));
     result.extras.push_back(makeExtra(m, scene.wavelengthsNm, result.textureRows));
   }
+  addMeshMaps(scene, result);
   addLights(scene, result);
-  addMeshes(scene, result);
   result.environmentTexels = scene.environment.texels;
   if (result.environmentTexels.empty()) result.environmentTexels.emplace_back(0.0f);
   addSampledLights(scene, result);
-  return result;
 }
 
 double lightReach(const pack::Scene& scene) {

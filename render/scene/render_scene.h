@@ -61,6 +61,18 @@ inline bool hasCutOuts(const RenderScene& scene, std::size_t mesh) {
 
 RenderScene makeRenderScene(const pack::Scene& scene);
 
+// Parts of the materials that the geometry of a RenderScene and acceleration structures depend on.
+struct GeometryNeeds {
+  std::vector<bool> isTraced, hasCutOuts;  // per material
+  bool hasMeshTextures = false, hasNormalMaps = false;
+  friend bool operator==(const GeometryNeeds&, const GeometryNeeds&) = default;
+};
+GeometryNeeds findGeometryNeeds(const pack::Scene& scene);
+
+// Replaces everything but geometry and textures: materials, lights, environment. scene: with the meshes, instances,
+// textures and GeometryNeeds that `result` was made from.
+void updateSurfaces(const pack::Scene& scene, RenderScene& result);
+
 // Cone of the camera's rays (shaders/optics/ray_cone.h), one per sample of a pixel, whose width is the geometric mean
 // of the sample's sides: that in the middle of the image.
 struct CameraCone {

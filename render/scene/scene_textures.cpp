@@ -84,6 +84,8 @@ void addTextures(const pack::Scene& scene, RenderScene& result) {
 }
 
 void addMeshMaps(const pack::Scene& scene, RenderScene& result) {
+  result.materialMaps.clear();
+  result.textureMaps.clear();
   result.textureMaps.push_back({0, 1, 0, 0, 0, {1, 0, 0}, {0, 1, 0}});
   for (const pack::Material& m : scene.materials) {
     gpu::MeshMaps& rows = result.materialMaps.emplace_back(gpu::MeshMaps{});

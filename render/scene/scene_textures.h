@@ -17,7 +17,7 @@ pack::Texture halfSize(const pack::Texture& texture);
 // Adds the textures, those that a mesh map reads with all levels down to one texel.
 void addTextures(const pack::Scene& scene, RenderScene& result);
 
-// Adds the mesh maps of the materials; after the textures.
+// Replaces the mesh maps of the materials; after the textures.
 void addMeshMaps(const pack::Scene& scene, RenderScene& result);
 
 // Number of levels of a texture's pyramid.

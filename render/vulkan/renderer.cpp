@@ -42,6 +42,7 @@ struct Renderer::Impl {
       : instance(options.threads),
         device(instance, options.device),
         scene(packScene),
+        needs(render::findGeometryNeeds(packScene)),
         renderScene(render::makeRenderScene(packScene)),
         uploading(Clock::now()),
         buffers(device, renderScene),
@@ -68,6 +69,7 @@ struct Renderer::Impl {
   Instance instance;
   Device device;
   const pack::Scene& scene;
+  render::GeometryNeeds needs;
   render::RenderScene renderScene;
   Clock::time_point uploading;
   SceneBuffers buffers;
@@ -94,6 +96,25 @@ std::string Renderer::device() const {
 std::vector<std::string> Renderer::methods() const { return render::methodNames(); }
 
 std::vector<render::VulkanPath> Renderer::vulkanPaths() const { return availablePaths(impl_->device); }
+
+namespace {
+// The shader of each mesh's hits is chosen by the kind of its surface.
+std::vector<gpu::uint> surfaceKinds(const render::RenderScene& scene) {
+  std::vector<gpu::uint> kinds;
+  for (const gpu::Material& m : scene.materials) kinds.push_back(m.kind);
+  return kinds;
+}
+}  // namespace
+
+bool Renderer::updateScene() {
+  const std::vector<gpu::uint> kinds = surfaceKinds(impl_->renderScene);
+  if (render::findGeometryNeeds(impl_->scene) != impl_->needs) return false;
+  render::updateSurfaces(impl_->scene, impl_->renderScene);
+  if (surfaceKinds(impl_->renderScene) != kinds) return false;
+  impl_->buffers.updateSurfaces(impl_->device, impl_->renderScene);
+  impl_->buffers.bind(impl_->bindings);
+  return true;
+}
 
 // Traces the camera's region, copies it to the host and waits. Returns the time of the submission in milliseconds.
 double Renderer::Impl::dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels) {

@@ -30,6 +30,7 @@ class Renderer final : public render::Renderer {
   // Compiles a method at its first use, unless it was prepared. Cost::traceMs is measured by the device's clock where
   // it has one. Throws Error also if the validation layers report a message. After an Error the renderer can be used
   // again.
+  bool updateScene() override;
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
   // By a variant of the shaders that counts; not timed.
   std::uint64_t countRays(std::string_view method, const render::RenderParameters& parameters) override;

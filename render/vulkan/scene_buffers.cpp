@@ -60,6 +60,28 @@ SceneBuffers::SceneBuffers(const Device& device, const render::RenderScene& scen
   uploads.finish();
 }
 
+void SceneBuffers::updateSurfaces(const Device& device, const render::RenderScene& scene) {
+  const auto bytes = [](const auto&... arrays) { return (std::span(arrays).size_bytes() + ...); };
+  Uploads uploads(
+      device, "materials and lights",
+      bytes(scene.materials, scene.extras, scene.materialMaps, scene.textureMaps, scene.lights, scene.lightShapes,
+            scene.areaLights, scene.lightNodes, scene.environmentTexels, scene.environmentDistributions));
+  const auto replace = [&](std::string_view name, const auto& values, Buffer& buffer) {
+    buffer = addArray(device, uploads, name, values, usages::storage);
+  };
+  replace("materials", scene.materials, materials);
+  replace("extras", scene.extras, extras);
+  replace("materialMaps", scene.materialMaps, materialMaps);
+  replace("textureMaps", scene.textureMaps, textureMaps);
+  replace("lights", scene.lights, lights);
+  replace("lightShapes", scene.lightShapes, lightShapes);
+  replace("areaLights", scene.areaLights, areaLights);
+  replace("lightNodes", scene.lightNodes, lightNodes);
+  replace("environmentTexels", scene.environmentTexels, environmentTexels);
+  replace("environmentDistributions", scene.environmentDistributions, environmentDistributions);
+  uploads.finish();
+}
+
 void SceneBuffers::bind(Bindings& bindings) const {
 #define MALUS_ACCELERATION_STRUCTURE(number, name)
 #define MALUS_PIXEL_BUFFER(number, name, element)

@@ -9,6 +9,9 @@ namespace malus::vulkan {
 struct SceneBuffers {
   // device: must outlive the buffers. Throws Error.
   SceneBuffers(const Device& device, const render::RenderScene& scene);
+  // Replaces the buffers of the arrays that render::updateSurfaces() changes; bind() them afterwards. No command may be
+  // reading them. Throws Error.
+  void updateSurfaces(const Device& device, const render::RenderScene& scene);
   // Throws Error if a buffer is larger than the device can bind.
   void bind(Bindings& bindings) const;
 

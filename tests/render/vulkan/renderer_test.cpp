@@ -43,6 +43,29 @@ TEST(VulkanRenderer, EqualsEmbreeInEveryMethod) {
               0.002 * static_cast<double>(rays));
 }
 
+// Materials, lights, environment and camera change below the renderer, as for a new renderer.
+TEST(VulkanRenderer, TakesOverAChangedScene) {
+  pack::Scene scene = test::mixedScene();
+  const render::RenderParameters parameters = render::defaultParameters(scene);
+  Renderer renderer(scene, {});
+  const std::vector<float> first = renderer.render("stokes", parameters).pixels;
+  for (pack::Material& m : scene.materials) {
+    m.eta += glm::dvec3(0.1, 0.2, 0.3);
+    m.albedo *= 0.5;
+  }
+  scene.lights.push_back({{1, 2, 3}, {4, 5, 6}});
+  scene.environment.radiance += glm::dvec3(0.1);
+  scene.camera.position += 0.1 * scene.camera.right;
+  ASSERT_TRUE(renderer.updateScene());
+  const std::vector<float> second = renderer.render("stokes", parameters).pixels;
+  EXPECT_NE(first, second);
+  EXPECT_EQ(second, Renderer(scene, {}).render("stokes", parameters).pixels);
+  // The shader of a hit follows from the kind of its material.
+  scene.materials[0].kind =
+      scene.materials[0].kind == pack::MaterialKind::lambert ? pack::MaterialKind::metal : pack::MaterialKind::lambert;
+  EXPECT_FALSE(renderer.updateScene());
+}
+
 TEST(VulkanRenderer, RegionIsAPartOfTheImage) {
   const pack::Scene scene = test::mixedScene();
   Renderer renderer(scene, {});

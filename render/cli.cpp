@@ -295,10 +295,7 @@ void addOutputOptions(CLI::App& command, RenderArguments& a) {
 }
 
 void addMethodOptions(CLI::App& command, JobSettings& job) {
-  command
-      .add_option("--effects", job.effects, "Effects to render: auto, all, or names from --list-effects, with commas")
-      ->transform(effectList())
-      ->capture_default_str();
+  addEffects(command, job.effects);
   CLI::Option* maxError =
       command
           .add_option("--max-error", job.maxError,

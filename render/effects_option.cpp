@@ -25,4 +25,10 @@ CLI::Validator effectList() {
       ""};
 }
 
+void addEffects(CLI::App& command, std::string& effects) {
+  command.add_option("--effects", effects, "Effects to render: auto, all, or names from --list-effects, with commas")
+      ->transform(effectList())
+      ->capture_default_str();
+}
+
 }  // namespace malus::render

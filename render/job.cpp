@@ -79,6 +79,25 @@ RenderResult renderImage(Renderer& renderer, std::string_view method, const Rend
   return result;
 }
 
+ImageChoice chooseImage(const JobSettings& settings, const RenderParameters& parameters, const pack::Scene& scene) {
+  const bool hasMethods = backendInfo(settings.backend).hasMethods;
+  const bool storesStokes = settings.storesStokes && hasStokes(settings.backend, settings.method, parameters);
+  bake::ImageRequest request{parameters.depth, parameters.analyser, false, false};
+  request.linearStokes = storesStokes || settings.needsLinear;
+  request.circularStokes = storesStokes;
+
+  const EffectsChoice effects = chooseEffects(
+      splitAtCommas(settings.effects), hasMethods ? settings.method : completeRecursiveMethod().name, scene, request);
+  ImageChoice choice{settings.method, {}, effects.off, {}};
+  for (const EffectWarning& warning : effects.warnings)  // the reference always traces polarization
+    if (hasMethods || !isPolarization(warning.effect)) choice.warnings.push_back(warning.text);
+  if (hasMethods && effects.method != settings.method) {
+    if (!effects.why.empty()) choice.substitutedFor = fmt::format("{}: {}", settings.method, effects.why);
+    choice.method = effects.method;
+  }
+  return choice;
+}
+
 Job::Job(const pack::Pack& pack, const JobSettings& settings)
     : pack_(pack),
       settings_(settings),
@@ -112,22 +131,10 @@ void Job::applyBudget() {
 
 // Chooses the method and the scene for the effects that are asked for.
 void Job::applyEffects() {
-  const bool hasMethods = backendInfo(settings_.backend).hasMethods;
-  const bool storesStokes = settings_.storesStokes && hasStokes(settings_.backend, settings_.method, parameters_);
-  bake::ImageRequest request{parameters_.depth, parameters_.analyser, false, false};
-  request.linearStokes = storesStokes || settings_.needsLinear;
-  request.circularStokes = storesStokes;
-
-  const EffectsChoice choice =
-      chooseEffects(splitAtCommas(settings_.effects), hasMethods ? settings_.method : completeRecursiveMethod().name,
-                    scene(), request);
-  for (const EffectWarning& warning : choice.warnings)  // the reference always traces polarization
-    if (hasMethods || !isPolarization(warning.effect)) warnings_.push_back(warning.text);
-  if (hasMethods && choice.method != settings_.method) {
-    if (!choice.why.empty()) substitutedFor_ = fmt::format("{}: {}", settings_.method, choice.why);
-    settings_.method = choice.method;
-  }
-
+  const ImageChoice choice = chooseImage(settings_, parameters_, scene());
+  settings_.method = choice.method;
+  substitutedFor_ = choice.substitutedFor;
+  warnings_ = choice.warnings;
   if (choice.off.empty()) return;
   reduced_ = leaveOut(pack_.scene, choice.off, parameters_);
   renderers_.keepOnly(reduced_);

@@ -44,6 +44,16 @@ struct JobSettings {
 // Throws Error for a size or a region that the scene does not allow.
 RenderParameters renderParameters(const JobSettings& settings, const pack::Scene& scene);
 
+// The method and the effects of an image by --effects (render/scene/effects_choice.h).
+struct ImageChoice {
+  std::string method;
+  std::string substitutedFor;         // as Job::substitutedFor()
+  std::vector<std::string> off;       // effects that are removed
+  std::vector<std::string> warnings;  // as Job::warnings()
+};
+// Throws Error for an unknown effect.
+ImageChoice chooseImage(const JobSettings& settings, const RenderParameters& parameters, const pack::Scene& scene);
+
 // Renders once. countRays: if the renderer did not count the rays, it renders once more, untimed, to count them.
 RenderResult renderImage(Renderer& renderer, std::string_view method, const RenderParameters& parameters,
                          bool countRays);

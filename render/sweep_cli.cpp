@@ -1,7 +1,5 @@
 #include "render/sweep_cli.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -21,6 +19,7 @@
 #include "render/image/output.h"
 #include "render/job.h"
 #include "render/options.h"
+#include "render/output_folder.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
@@ -37,28 +36,6 @@ struct SweepArguments {
   unsigned frames = 36;
   std::optional<double> exposure;
   bool json = false;
-};
-
-// The output folder: created if it is missing, removed again if it stays empty.
-class OutputFolder {
- public:
-  explicit OutputFolder(const fs::path& path) : path_(path) {
-    std::error_code failed;
-    made_ = fs::create_directories(path, failed);
-    if (!fs::is_directory(path))
-      throw Error(path.string(), "cannot write", "a folder", failed ? failed.message() : "a file");
-    if (::access(path.c_str(), W_OK | X_OK) != 0) throw Error(path.string(), "cannot write", "a writable folder");
-  }
-  ~OutputFolder() {
-    std::error_code ignored;
-    if (made_) fs::remove(path_, ignored);  // fails unless the folder is empty
-  }
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
-
- private:
-  fs::path path_;
-  bool made_ = false;
 };
 
 // The colour behind an analyser, from the Stokes channels of a rendered image.

@@ -6,8 +6,7 @@
 
 namespace malus::render {
 
-std::shared_ptr<const pack::Scene> leaveOut(const pack::Scene& scene, const std::vector<std::string>& off,
-                                            RenderParameters& parameters) {
+void switchOff(const std::vector<std::string>& off, RenderParameters& parameters) {
   const auto isOff = [&](shaders::Effect effect) {
     return std::any_of(off.begin(), off.end(),
                        [&](const std::string& name) { return bake::effectNamed(name) == effect; });
@@ -15,6 +14,11 @@ std::shared_ptr<const pack::Scene> leaveOut(const pack::Scene& scene, const std:
   if (isOff(shaders::Effect::kShadows)) parameters.shadows = false;
   if (isOff(shaders::Effect::kFilteredShadows)) parameters.filteredShadows = false;
   if (isOff(shaders::Effect::kFilter)) parameters.analyser = kNoFilter;
+}
+
+std::shared_ptr<const pack::Scene> leaveOut(const pack::Scene& scene, const std::vector<std::string>& off,
+                                            RenderParameters& parameters) {
+  switchOff(off, parameters);
   if (!bake::canBeRemoved(off)) return nullptr;
   return std::make_shared<const pack::Scene>(bake::withoutEffects(scene, off));
 }

@@ -21,6 +21,7 @@
 #include "meshprep/output_option.h"
 #include "render/effects_option.h"
 #include "render/filter_options.h"
+#include "render/ground_truth/truth_image.h"
 #include "render/image/mosaic.h"
 #include "render/image/output.h"
 #include "render/image/polarization.h"
@@ -43,12 +44,13 @@ struct RenderArguments {
   JobSettings job;
   FilterOptions filter;
   std::vector<std::string> outputs;
-  std::string dolp, aolp, mosaic, mosaicChannel = "luminance";
+  std::string dolp, aolp, mosaic, truth, mosaicChannel = "luminance";
   unsigned mosaicBits = 8;
   std::optional<double> exposure;
   image::ExrCompression compression = image::ExrCompression::zip;
   bool json = false, intensity = false;
 
+  bool needsImage() const { return !outputs.empty() || !stokesOption().empty(); }
   // The first option that reads Stokes vectors; empty if none does.
   std::string stokesOption() const {
     return !mosaic.empty() ? "--mosaic" : !dolp.empty() ? "--output-dolp" : !aolp.empty() ? "--output-aolp" : "";
@@ -72,9 +74,11 @@ void checkOutputs(const RenderArguments& a) {
   files.addOutput(a.dolp, "--output-dolp");
   files.addOutput(a.aolp, "--output-aolp");
   files.addOutput(a.mosaic, "--mosaic");
+  files.addOutput(a.truth, "--ground-truth");
   files.check();
-  if (a.outputs.empty() && a.dolp.empty() && a.aolp.empty() && a.mosaic.empty())
-    refuse("--output", "no image asked for; use -o, --output-dolp, --output-aolp or --mosaic");
+  if (!a.needsImage() && a.truth.empty())
+    refuse("--output", "no image asked for; use -o, --output-dolp, --output-aolp, --mosaic or --ground-truth");
+  if (!a.truth.empty() && !hasExtension(a.truth, {".exr"})) refuse("--ground-truth", "expected .exr, found " + a.truth);
   for (const std::string& file : {a.dolp, a.aolp})
     if (!file.empty() && !hasExtension(file, {".exr", ".png"}))
       refuse("--output-dolp, --output-aolp", "expected .exr or .png, found " + file);
@@ -197,6 +201,31 @@ std::vector<std::string> writeOutputs(const RenderArguments& a, const image::Ima
   return written;
 }
 
+// Writes the ground truth of the scene that the job renders.
+void writeTruth(const RenderArguments& a, const Job& job, const pack::Pack& pack, std::vector<std::string>& written) {
+  if (a.truth.empty()) return;
+  console::progress("ground truth");
+  const std::vector<PixelTruth> pixels = GroundTruth(job.scene(), a.job.threads).render(job.parameters());
+  image::writeExr(a.truth, truthImage(pixels, pack, job.parameters()), a.compression);
+  written.push_back(a.truth);
+}
+
+// The result of a command that only writes ground truth.
+void printTruth(const RenderArguments& a, const Job& job, const std::vector<std::string>& written) {
+  const Region& region = job.parameters().region;
+  const std::string& scene = job.scene().name;
+  if (a.json)
+    console::printText(jsonText({{"scene", scene},
+                                 {"width", region.width},
+                                 {"height", region.height},
+                                 {"depth", job.parameters().depth},
+                                 {"outputs", written}}) +
+                       "\n");
+  else
+    console::printLine("{}: ground truth, {} x {}, depth {}", scene, region.width, region.height,
+                       job.parameters().depth);
+}
+
 void printResult(const RenderArguments& a, const Job& job, const std::string& scene, const RenderResult& result,
                  const std::vector<std::string>& written) {
   const std::string backend = backendInfo(job.backend()).name, &substitutedFor = job.substitutedFor();
@@ -244,6 +273,13 @@ void runRender(const RenderArguments& a) {
   const pack::Pack pack = pack::read(file);
   if (!a.mosaic.empty()) checkMosaicSize(renderParameters(settings, pack.scene).region);
   Job job(pack, settings);
+  std::vector<std::string> written;
+  if (!a.needsImage()) {
+    writeTruth(a, job, pack, written);
+    console::progressDone();
+    printTruth(a, job, written);
+    return;
+  }
   reportJob(a, job);
   if (settings.needsLinear) requireStokes(job.backend(), job.method(), a.stokesOption());
 
@@ -252,9 +288,9 @@ void runRender(const RenderArguments& a) {
   if (result.faults.count > 0) throw Error(file, describe(result.faults, pack.scene));
   if (a.intensity) result = withoutStokes(std::move(result));
   const image::Image image = takeImage(result, pack, job.parameters(), backend, job.method());
-  std::vector<std::string> written;
   oneapi::tbb::task_arena(a.job.threads > 0 ? static_cast<int>(a.job.threads) : oneapi::tbb::task_arena::automatic)
       .execute([&] { written = writeOutputs(a, image, a.exposure.value_or(pack.scene.exposureEv)); });
+  writeTruth(a, job, pack, written);
   console::progressDone();
   printResult(a, job, pack.scene.name, result, written);
 }
@@ -273,6 +309,11 @@ void addOutputOptions(CLI::App& command, RenderArguments& a) {
   command
       .add_option("--output-aolp", a.aolp,
                   "Angle of linear polarization before the filter: .exr (radians, per colour) or .png (hues)")
+      ->check(outputName())
+      ->type_name("FILE");
+  command
+      .add_option("--ground-truth", a.truth,
+                  "Geometry at the centre of each pixel: depth, normals, indices, angle of incidence, ...: .exr")
       ->check(outputName())
       ->type_name("FILE");
   CLI::Option* mosaic =

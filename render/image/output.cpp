@@ -11,6 +11,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "meshprep/base/error.h"
+#include "render/ground_truth/camera_matrices.h"
 
 namespace malus::render {
 
@@ -28,19 +29,8 @@ image::Image describeImage(const RenderResult& result, const pack::Pack& pack, c
       for (const char* c : {"R", "G", "B"}) image.channels.push_back(fmt::format("{}.{}", s, c));
 
   const pack::Camera& camera = pack.scene.camera;
-  const glm::dvec3 position = camera.position + pack.scene.origin;
-  const auto dot = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
-  // OpenEXR multiplies row vectors by this matrix; the camera looks along -z.
-  std::vector<float> worldToCamera;
-  for (int row = 0; row < 4; ++row) {
-    const auto entry = [&](const glm::dvec3& axis) {
-      return static_cast<float>(row < 3 ? axis[row] : -dot(position, axis));
-    };
-    worldToCamera.insert(worldToCamera.end(),
-                         {entry(camera.right), entry(camera.up), entry(-camera.forward), row < 3 ? 0.0f : 1.0f});
-  }
   image.attributes = {
-      {"worldToCamera", worldToCamera},
+      {"worldToCamera", exrWorldToCamera(pack.scene)},
       {"malus:scene", pack.scene.name},
       {"malus:pack", fmt::format("{:016x}", pack.hash)},
       {"malus:renderer", renderer},
@@ -52,9 +42,7 @@ image::Image describeImage(const RenderResult& result, const pack::Pack& pack, c
        camera.isOrthographic() ? camera.orthographicHeight : camera.verticalFovDegrees},
       {"malus:analyser", fmt::format("{:g} {:g} {:g} {:g}", parameters.analyser[0], parameters.analyser[1],
                                      parameters.analyser[2], parameters.analyser[3])},
-      {"malus:region",
-       fmt::format("{} {} {} {} of {} {}", parameters.region.x, parameters.region.y, parameters.region.width,
-                   parameters.region.height, parameters.width, parameters.height)},
+      {"malus:region", regionText(parameters)},
   };
   return image;
 }

@@ -20,6 +20,31 @@ TEST(Render, CheckNumerics) {
   }
 }
 
+TEST(Render, GroundTruth) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const auto render = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", folder / "tiny.pack"});
+    return malus(arguments);
+  };
+  const Finished both = render({"-o", folder / "a.exr", "--ground-truth", folder / "a.truth.exr", "--json"});
+  ASSERT_EQ(both.exitCode, 0) << both.err;
+  EXPECT_EQ(json::parse(both.out).at("outputs").size(), 2u);
+  // Alone, it is the same file, and no image is rendered.
+  const Finished alone = render({"--ground-truth", folder / "b.truth.exr", "--json", "--samples", "2"});
+  ASSERT_EQ(alone.exitCode, 0) << alone.err;
+  EXPECT_EQ(json::parse(alone.out).at("width"), 64);
+  EXPECT_FALSE(json::parse(alone.out).contains("traceMs"));
+  EXPECT_EQ(readText(folder / "a.truth.exr"), readText(folder / "b.truth.exr"));
+  for (const char* layer : {"Depth.Z", "Distance.Z", "Position.X", "Normal.X", "NormalGeometricCamera.Z", "IndexMA.X",
+                            "IndexOB.X", "Incidence.V", "Interactions.V", "Valid.V", "gold"})
+    EXPECT_TRUE(contains(readText(folder / "a.truth.exr"), layer)) << layer;
+  EXPECT_EQ(render({"--ground-truth", folder / "a.png"}).exitCode, 2);
+  EXPECT_EQ(render({"--ground-truth", folder / "tiny.pack"}).exitCode, 2);
+  EXPECT_EQ(render({"-o", folder / "c.exr", "--ground-truth", folder / "c.exr"}).exitCode, 2);
+}
+
 TEST(Render, CompressionOfExrFiles) {
   const Folder folder;
   writeTinyScene(folder.path());

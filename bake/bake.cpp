@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "bake/camera.h"
 #include "bake/effects/effects.h"
 #include "bake/environment/octahedral_map.h"
 #include "bake/environment/studio.h"
@@ -39,40 +40,14 @@ std::string hashText(const std::filesystem::path& file) {
   return fmt::format("{:016x}", pack::hashBytes(readFile(file)));
 }
 
-// A pixel (x, y) sees the direction ((x - cx) / fx, (cy - y) / fy, 1) along right, up and forward.
-void setIntrinsics(const Intrinsics& i, const SceneDescription& d, pack::Camera& camera) {
-  constexpr double kLeastFov = 1e-3, kMostFov = 179, kMostAspect = 1e3;  // of a pack (bake/pack/record_fields.h)
-  const auto require = [&](bool isInRange, const char* key, const std::string& expected) {
-    if (!isInRange) throw Error(d.file.string(), fmt::format("camera.intrinsics.{}: is out of range", key), expected);
-  };
-  camera.verticalFovDegrees = 2 * std::atan(d.height / (2 * i.fy)) * 180 / std::numbers::pi;
-  require(camera.verticalFovDegrees >= kLeastFov && camera.verticalFovDegrees <= kMostFov, "fy",
-          fmt::format("a vertical field of view of {:g} to {:g} degrees", kLeastFov, kMostFov));
-  camera.pixelAspect = i.fy / i.fx;
-  require(camera.pixelAspect >= 1 / kMostAspect && camera.pixelAspect <= kMostAspect, "fx",
-          fmt::format("{:g} to {:g} times fy", 1 / kMostAspect, kMostAspect));
-  camera.middleX = (d.width / 2.0 - i.cx) * camera.pixelAspect / d.height;
-  camera.middleY = (i.cy - d.height / 2.0) / d.height;
-  require(std::abs(camera.middleX) <= pack::kMaxImageShift, "cx", "a point near the image");
-  require(std::abs(camera.middleY) <= pack::kMaxImageShift, "cy", "a point near the image");
-}
-
 pack::Camera makeCamera(const SceneDescription& d, const glm::dvec3& origin) {
   pack::Camera camera;
-  const glm::dvec3 toTarget = d.cameraTarget - d.cameraPosition;
-  if (glm::length(toTarget) == 0)
-    throw Error(d.file.string(), "camera.target: equals camera.position", "another point");
+  // Subtract the rounded origin from the position only, so that the direction is exact.
+  placeCamera(d.cameraPosition, d.cameraTarget, d.cameraUp, d.file.string(), camera);
   camera.position = d.cameraPosition - origin;
-  camera.forward = glm::normalize(toTarget);
-  const glm::dvec3 right = glm::cross(camera.forward, d.cameraUp);
-  if (glm::length(right) <= 1e-9 * glm::length(d.cameraUp))
-    throw Error(d.file.string(), "camera.up: is parallel to the view",
-                "a direction that is not parallel to target - position");
-  camera.right = glm::normalize(right);
-  camera.up = glm::cross(camera.right, camera.forward);
   camera.verticalFovDegrees = d.verticalFovDegrees;
   camera.orthographicHeight = d.orthographicHeight;
-  if (d.intrinsics) setIntrinsics(*d.intrinsics, d, camera);
+  if (d.intrinsics) setIntrinsics(*d.intrinsics, d.width, d.height, d.file.string(), camera);
   camera.mediumEta = d.mediumEta;
   return camera;
 }

@@ -119,6 +119,23 @@ std::array<glm::dvec3, 9> irradiance(const LatLong& source, double rotationDegre
 
 }  // namespace
 
+glm::vec3& octahedralTexel(pack::Environment& environment, int i, int j) {
+  const std::size_t row = environment.size + std::size_t{2};
+  return environment.texels[static_cast<std::size_t>(j + 1) * row + static_cast<std::size_t>(i + 1)];
+}
+
+void fillOctahedralBorder(pack::Environment& environment) {
+  const int size = static_cast<int>(environment.size);
+  // Each edge of the square is folded about its middle.
+  for (int j = -1; j <= size; ++j)
+    for (int i = -1; i <= size; ++i) {
+      int x = i, y = j;
+      if (x < 0 || x >= size) x = x < 0 ? -1 - x : 2 * size - 1 - x, y = size - 1 - y;
+      if (y < 0 || y >= size) y = y < 0 ? -1 - y : 2 * size - 1 - y, x = size - 1 - x;
+      if (x != i || y != j) octahedralTexel(environment, i, j) = octahedralTexel(environment, x, y);
+    }
+}
+
 void bakeEnvironment(const image::Image& image, std::string_view where, double scale, double rotationDegrees,
                      pack::Environment& environment, std::vector<std::string>& notes) {
   const LatLong source(image, where, scale, notes);
@@ -140,22 +157,9 @@ void bakeEnvironment(const image::Image& image, std::string_view where, double s
   environment.size = static_cast<std::uint32_t>(size);
   const int row = size + 2;
   environment.texels.assign(static_cast<std::size_t>(row) * static_cast<std::size_t>(row), glm::vec3(0));
-  const auto slot = [&](int i, int j) -> glm::vec3& {
-    return environment
-        .texels[static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(row) + static_cast<std::size_t>(i + 1)];
-  };
   for (int j = 0; j < size; ++j)
-    for (int i = 0; i < size; ++i) slot(i, j) = glm::vec3(texelAt(i, j));
-
-  // The border repeats the texels across the edges: each edge of the square is folded about its middle.
-  for (int j = -1; j <= size; ++j)
-    for (int i = -1; i <= size; ++i) {
-      int x = i, y = j;
-      if (x < 0 || x >= size) x = x < 0 ? -1 - x : 2 * size - 1 - x, y = size - 1 - y;
-      if (y < 0 || y >= size) y = y < 0 ? -1 - y : 2 * size - 1 - y, x = size - 1 - x;
-      if (x != i || y != j) slot(i, j) = slot(x, y);
-    }
-
+    for (int i = 0; i < size; ++i) octahedralTexel(environment, i, j) = glm::vec3(texelAt(i, j));
+  fillOctahedralBorder(environment);
   environment.storage = pack::chooseTexelStorage(environment.texels);
   pack::roundTexels(environment.storage, environment.texels);
   environment.irradiance = irradiance(source, rotationDegrees);

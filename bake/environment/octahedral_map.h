@@ -26,4 +26,10 @@ void bakeConstantEnvironment(const glm::dvec3& radiance, pack::Environment& envi
 // The same under Rayleigh's phase function (shaders/optics/sky.h); sun: unit vector toward the sun.
 void bakeRayleighIrradiance(const glm::dvec3& sun, pack::Environment& environment);
 
+// The texel in column i of row j of a map with its border: -1 to size.
+glm::vec3& octahedralTexel(pack::Environment& environment, int i, int j);
+
+// Sets the border, which repeats the texels across the edges of the map.
+void fillOctahedralBorder(pack::Environment& environment);
+
 }  // namespace malus::bake

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <numbers>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "bake/materials/dielectric_k.h"
 #include "bake/materials/optical_file.h"
 #include "bake/materials/presets.h"
 #include "bake/pack/material_fields.h"
@@ -27,10 +27,6 @@ pack::MaterialKind readKind(StrictObject& object) {
               fmt::format("{}", fmt::join(names, ", ")), fmt::format("'{}'", type));
 }
 
-// Largest k of a dielectric from a file; the reflectance, which is computed without it, changes by less than k^2/(n +
-// 1)^2.
-constexpr double kMostDielectricK = 0.01;
-
 // The constants of a preset, or of a file, which is added to those of the scene.
 OpticalConstants readPreset(StrictObject& object, SceneDescription& scene) {
   const std::string name = object.text("preset");
@@ -44,16 +40,10 @@ OpticalConstants readPreset(StrictObject& object, SceneDescription& scene) {
   }
 }
 
-// A dielectric has no k: in the medium of a body it is absorption, 4 pi k / wavelength per metre (M. Born, E. Wolf,
-// Principles of Optics); of other surfaces a small one is left out.
-void convertDielectricK(StrictObject& object, const glm::dvec3& wavelengthsNm, pack::Material& m) {
-  for (int c = 0; c < 3; ++c)
-    if (m.k[c] > kMostDielectricK)
-      object.fail("preset", "k is too large for that of a dielectric",
-                  fmt::format("at most {}, or the type metal", kMostDielectricK),
-                  fmt::format("{:g} at {:g} nm", m.k[c], wavelengthsNm[c]));
-  if (pack::hasInside(m.kind)) m.absorption = 4e9 * std::numbers::pi * m.k / wavelengthsNm;
-  m.k = glm::dvec3(0.0);
+void convertK(StrictObject& object, const glm::dvec3& wavelengthsNm, pack::Material& m) try {
+  convertDielectricK(wavelengthsNm, m);
+} catch (const Error& error) {
+  object.fail("preset", error.what(), "");
 }
 
 // The index eta - i k: of a preset or file, or eta and k.
@@ -67,7 +57,7 @@ void readIndex(StrictObject& object, pack::Material& m, SceneDescription& scene)
     const OpticalConstants constants = readPreset(object, scene);
     m.eta = constants.eta;
     m.k = constants.k;
-    if (dielectric) convertDielectricK(object, scene.wavelengthsNm, m);
+    if (dielectric) convertK(object, scene.wavelengthsNm, m);
   } else {
     if (dielectric && !eta && !optional) object.fail("preset", "is missing", "preset or eta");
     if (dielectric && !eta) m.eta = glm::dvec3(1.5);

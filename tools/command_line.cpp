@@ -12,6 +12,8 @@
 #include "meshprep/base/nearest_name.h"
 #include "meshprep/base/text.h"
 #include "meshprep/cli.h"
+#include "render/batch/cli.h"
+#include "render/batch/merge_cli.h"
 #include "render/bench/cli.h"
 #include "render/cli.h"
 #include "render/compare/cli.h"
@@ -127,6 +129,8 @@ CommandLine::CommandLine() : app_("malus: polarized mirror and glass reflections
   render::addBenchCommand(app_);
   render::addCompareImagesCommand(app_);
   render::addSweepCommand(app_);
+  render::addBatchCommand(app_);
+  render::addMergeCommand(app_);
   render::addMaterialCommand(app_);
   render::addDevicesCommand(app_);
   addCompletionCommand(app_);

@@ -61,7 +61,8 @@ bool interfacesMutuallyVisible(const pack::Scene& scene) {
   for (const pack::Placement& placement : pack::placements(scene)) {
     const pack::Mesh& mesh = *placement.mesh;
     if (!isInterface(scene, mesh)) continue;
-    if (pack::transmits(scene.materials[mesh.material].kind) || faces.size() * corners.size() > kMostTests) return true;
+    if (pack::transmits(scene.materials[mesh.material].kind)) return true;
+    corners.reserve(corners.size() + mesh.positions.size());
     std::vector<bool> used(mesh.positions.size(), false);
     for (const glm::uvec3& t : mesh.triangles) used[t.x] = used[t.y] = used[t.z] = true;
     for (std::uint32_t i = 0; i < used.size(); ++i) {
@@ -73,11 +74,12 @@ bool interfacesMutuallyVisible(const pack::Scene& scene) {
       const glm::dvec3 p0 = placement.point(t.x),
                        n = glm::cross(placement.point(t.y) - p0, placement.point(t.z) - p0) * side;
       if (glm::length(n) > 0) faces.push_back({p0, glm::normalize(n)});
+      if (faces.size() * corners.size() > kMostTests) return true;
     }
   }
 
   // Step 2: whether a corner is in front of a face.
-  if (faces.empty() || faces.size() * corners.size() > kMostTests) return true;
+  if (faces.empty()) return true;
   const double tolerance = flatness(scene);
   bool before = false, behind = false;
   for (const Face& face : faces)

@@ -84,6 +84,7 @@ void runBatchCommand(const BatchArguments& a) {
   FrameRenderer renderer(pack::read(packFile(a.input)), a.defaults.job.backend, a.defaults.job.device,
                          a.defaults.job.threads);
   const OutputFolder made(a.folder);
+  const console::PeriodicProgress progress;
   const BatchResult result = runBatch(settings, jobs, renderer);
   printResult(a, renderer.scene().name, jobs, result);
 }

@@ -53,7 +53,8 @@ FrameRenderer::FrameRenderer(pack::Pack pack, Backend backend, std::string devic
     : pack_(std::move(pack)),
       base_(copyWithoutGeometry(pack_.scene)),
       backend_(backend),
-      options_{std::move(device), threads} {}
+      options_{std::move(device), threads},
+      surfacesKey_(nlohmann::json::object().dump()) {}
 
 // Sets the camera and the surfaces of the scene, with every effect.
 void FrameRenderer::applySurfaces(const Frame& frame) {

@@ -138,6 +138,19 @@ TEST_F(BatchCommand, KeepsFinishedFramesWhenInterrupted) {
   EXPECT_EQ(files, listed);
 }
 
+// A disk that is full: one line, and what was finished stays.
+TEST_F(BatchCommand, FullDisk) {
+  writeText(folder / "jobs.jsonl", "{\"name\": \"small\", \"width\": 8}\n{\"name\": \"large\", \"width\": 400}\n");
+  const Finished full = malusWithFileLimit(
+      64, {"batch", folder / "tiny.pack", folder / "jobs.jsonl", "-o", folder / "frames", "--compression", "none"});
+  expectRefusal(full, "large.exr");
+  EXPECT_TRUE(fs::exists(folder / "frames/small.exr"));
+  EXPECT_FALSE(fs::exists(folder / "frames/large.exr"));
+  const Finished rest = batch(readText(folder / "jobs.jsonl"), "frames", {"--json", "--compression", "none"});
+  ASSERT_EQ(rest.exitCode, 0) << rest.err;
+  EXPECT_EQ(json::parse(rest.out).at("reused"), 1);
+}
+
 TEST_F(BatchCommand, ShardsMerge) {
   const std::string jobs = "{\"repeat\": 5, \"polarizer\": {\"uniform\": [0, 180]}}";
   ASSERT_EQ(batch(jobs, "whole", {"--seed", "4"}).exitCode, 0);

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bake/materials/presets.h"
+#include "bake/environment/rotation.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/image.h"
 #include "render/batch/merge.h"
@@ -115,6 +115,30 @@ TEST(FrameRenderer, EffectsFollowTheFrame) {
             "fresnel");
   EXPECT_EQ(first.method, "stokes");
   EXPECT_EQ(renderer.builds(), 1u);
+}
+
+// The environment of each frame is rotated from that of the pack, not from that of the frame before.
+TEST(FrameRenderer, EnvironmentsRotateFromThatOfThePack) {
+  pack::Pack pack = test::batchPack();
+  pack::Environment& sky = pack.scene.environment;
+  sky.size = 64;
+  sky.texels.resize(66 * 66);
+  for (std::size_t i = 0; i < sky.texels.size(); ++i) sky.texels[i] = glm::vec3(static_cast<float>(i % 13), 1, 2);
+  bake::fillOctahedralBorder(sky);
+  pack::Scene rotated = pack.scene;
+  bake::rotateEnvironment(70, rotated.environment);
+  FrameRenderer renderer(pack, Backend::embree, "", 1);
+  const auto render = [&](const std::string& settings) {
+    return renderer.render(test::readFrame(settings, renderer.scene())).image.pixels;
+  };
+  const std::string turned = R"({"environment": {"rotationDegrees": 70}})";
+  const std::vector<float> first = render("{}");
+  EXPECT_EQ(first, renderAlone(pack.scene));
+  EXPECT_EQ(render(turned), renderAlone(rotated));
+  EXPECT_NE(render(turned), first);
+  EXPECT_EQ(render(R"({"environment": {"rotationDegrees": 20}})").size(), first.size());
+  EXPECT_EQ(render(turned), renderAlone(rotated));
+  EXPECT_EQ(render("{}"), first);
 }
 
 // A surface that vanishes changes the acceleration structure.

@@ -202,11 +202,11 @@ std::vector<std::string> writeOutputs(const RenderArguments& a, const image::Ima
 }
 
 // Writes the ground truth of the scene that the job renders.
-void writeTruth(const RenderArguments& a, const Job& job, const pack::Pack& pack, std::vector<std::string>& written) {
+void renderTruth(const RenderArguments& a, const Job& job, const pack::Pack& pack, std::vector<std::string>& written) {
   if (a.truth.empty()) return;
   console::progress("ground truth");
   const std::vector<PixelTruth> pixels = GroundTruth(job.scene(), a.job.threads).render(job.parameters());
-  image::writeExr(a.truth, truthImage(pixels, pack, job.parameters()), a.compression);
+  writeTruth(a.truth, truthImage(pixels, pack, job.parameters()), a.compression);
   written.push_back(a.truth);
 }
 
@@ -275,7 +275,7 @@ void runRender(const RenderArguments& a) {
   Job job(pack, settings);
   std::vector<std::string> written;
   if (!a.needsImage()) {
-    writeTruth(a, job, pack, written);
+    renderTruth(a, job, pack, written);
     console::progressDone();
     printTruth(a, job, written);
     return;
@@ -290,7 +290,7 @@ void runRender(const RenderArguments& a) {
   const image::Image image = takeImage(result, pack, job.parameters(), backend, job.method());
   oneapi::tbb::task_arena(a.job.threads > 0 ? static_cast<int>(a.job.threads) : oneapi::tbb::task_arena::automatic)
       .execute([&] { written = writeOutputs(a, image, a.exposure.value_or(pack.scene.exposureEv)); });
-  writeTruth(a, job, pack, written);
+  renderTruth(a, job, pack, written);
   console::progressDone();
   printResult(a, job, pack.scene.name, result, written);
 }

@@ -4,6 +4,7 @@
 
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/json_text.h"
+#include "render/ground_truth/truth_image.h"
 #include "render/image/output.h"
 #include "render/image/polarization.h"
 
@@ -24,7 +25,7 @@ ManifestEntry writeFrame(const fs::path& folder, const Frame& frame, RenderedFra
   write(FrameOutput::png, [&](const fs::path& path) { writeImage(path, image, frame.exposureEv); });
   write(FrameOutput::dolp, [&](const fs::path& path) { writeDolp(path, image, compression); });
   write(FrameOutput::aolp, [&](const fs::path& path) { writeAolp(path, image, compression); });
-  write(FrameOutput::truth, [&](const fs::path& path) { image::writeExr(path, rendered.truth, compression); });
+  write(FrameOutput::truth, [&](const fs::path& path) { writeTruth(path, rendered.truth, compression); });
   write(FrameOutput::camera, [&](const fs::path& path) {
     nlohmann::json document = {{"frame", frame.name}, {"camera", rendered.camera}, {"settings", frame.settings}};
     writeFile(path, jsonText(document) + "\n");

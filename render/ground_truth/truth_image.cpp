@@ -82,4 +82,9 @@ image::Image truthImage(std::span<const PixelTruth> pixels, const pack::Pack& pa
   return image;
 }
 
+void writeTruth(const std::filesystem::path& path, const image::Image& truth, image::ExrCompression compression) {
+  const bool isLossy = compression == image::ExrCompression::dwaa;
+  image::writeExr(path, truth, isLossy ? image::ExrCompression::zip : compression);
+}
+
 }  // namespace malus::render

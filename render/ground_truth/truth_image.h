@@ -17,6 +17,7 @@
 // Where the ray meets no surface, the indices are -1 and all other channels 0.
 #pragma once
 
+#include <filesystem>
 #include <span>
 
 #include "bake/pack/reader.h"
@@ -28,5 +29,8 @@ namespace malus::render {
 // pixels: those of parameters.region. Attributes: worldToCamera, malus:scene, malus:pack, malus:region, and
 // malus:materials and malus:meshes, lists of names in JSON.
 image::Image truthImage(std::span<const PixelTruth> pixels, const pack::Pack& pack, const RenderParameters& parameters);
+
+// Writes the image as .exr. Lossy compression is replaced by zip: it would take the channels .Y for luminance.
+void writeTruth(const std::filesystem::path& path, const image::Image& truth, image::ExrCompression compression);
 
 }  // namespace malus::render

@@ -40,6 +40,9 @@ TEST(Render, GroundTruth) {
   for (const char* layer : {"Depth.Z", "Distance.Z", "Position.X", "Normal.X", "NormalGeometricCamera.Z", "IndexMA.X",
                             "IndexOB.X", "Incidence.V", "Interactions.V", "Valid.V", "gold"})
     EXPECT_TRUE(contains(readText(folder / "a.truth.exr"), layer)) << layer;
+  // Compression that loses digits is for images.
+  ASSERT_EQ(render({"--ground-truth", folder / "d.truth.exr", "--compression", "dwaa"}).exitCode, 0);
+  EXPECT_EQ(readText(folder / "a.truth.exr"), readText(folder / "d.truth.exr"));
   EXPECT_EQ(render({"--ground-truth", folder / "a.png"}).exitCode, 2);
   EXPECT_EQ(render({"--ground-truth", folder / "tiny.pack"}).exitCode, 2);
   EXPECT_EQ(render({"-o", folder / "c.exr", "--ground-truth", folder / "c.exr"}).exitCode, 2);

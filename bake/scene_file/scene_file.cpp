@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/pack/format.h"
+#include "bake/scene_file/json_file.h"
 #include "bake/scene_file/key_reader.h"
 #include "bake/scene_file/parts.h"
 #include "bake/scene_file/scene_keys.h"
-#include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/nearest_name.h"
 
@@ -19,35 +19,6 @@ namespace malus::bake {
 using nlohmann::json;
 
 namespace {
-
-// More than SCENE.md needs; deeper nesting would overflow the stack of recursive functions.
-constexpr int kMaxNesting = 32;
-
-json parseJson(const std::filesystem::path& path) {
-  const std::string text = readTextFile(path, std::size_t{1} << 26);
-  std::vector<std::set<std::string>> keys;  // of the objects around the current value
-  const auto check = [&](int depth, json::parse_event_t event, json& value) {
-    if (depth > kMaxNesting)
-      throw Error(path.string(), "is nested too deeply", fmt::format("at most {} levels", kMaxNesting));
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-      throw Error(path.string(), fmt::format("key '{}' occurs twice in one object", value.get<std::string>()),
-                  "each key once");
-    return true;
-  };
-  try {
-    return json::parse(text, check);
-  } catch (const json::out_of_range& error) {  // a number such as 1e999
-    throw Error(path.string(), "contains a number that does not fit a double", "the schema of bake/SCENE.md",
-                error.what());
-  } catch (const json::parse_error& error) {
-    const auto line =
-        1 +
-        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
-    throw Error(fmt::format("{}:{}", path.string(), line), "is not JSON", "the schema of bake/SCENE.md", error.what());
-  }
-}
 
 void readCamera(StrictObject object, SceneDescription& scene) {
   visitCameraKeys(KeyReader(object), scene);
@@ -167,7 +138,7 @@ void readMeshes(StrictObject& top, SceneDescription& scene) {
 SceneDescription readSceneFile(const std::filesystem::path& path) {
   SceneDescription scene;
   scene.file = path;
-  const json document = parseJson(path);
+  const json document = readJsonFile(path, "the schema of bake/SCENE.md");
   StrictObject top(document, path.string(), "", &scene.deprecations);
   top.integer("malus", 1, 1);
   visitSceneKeys(KeyReader(top), scene);

@@ -1,22 +1,35 @@
 #include "render/image/mosaic.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "meshprep/base/error.h"
 #include "render/image/polarization.h"
-#include "render/scene/render_parameters.h"
+#include "render/sensor/expose.h"
 
 namespace malus::render {
 
 namespace {
-constexpr double kDegrees[2][2] = {{90, 45}, {135, 0}};  // [row][column]
+
+// A sensor with ideal polarizers and without noise, whose steps are electrons.
+Sensor idealSensor(const MosaicSettings& settings) {
+  Sensor sensor;
+  std::array<double, 3> weights = kLuminanceWeights;
+  if (settings.channel != MosaicChannel::luminance) {
+    weights = {};
+    weights[static_cast<std::size_t>(settings.channel) - static_cast<std::size_t>(MosaicChannel::red)] = 1;
+  }
+  sensor.response = {weights[0], weights[1], weights[2]};
+  sensor.shotNoise = false;
+  sensor.bits = settings.bits;
+  sensor.fullWell = largestNumber(sensor);
+  return sensor;
 }
 
-double mosaicDegrees(int x, int y) { return kDegrees[y & 1][x & 1]; }
+}  // namespace
 
 Mosaic mosaic(const image::Image& image, const MosaicSettings& settings) {
   if (settings.bits != 8 && settings.bits != 12 && settings.bits != 16)
@@ -24,22 +37,8 @@ Mosaic mosaic(const image::Image& image, const MosaicSettings& settings) {
   if (image.width % 2 != 0 || image.height % 2 != 0)
     throw Error("mosaic", "squares of 2 x 2 pixels do not fill the image", "an even width and height",
                 fmt::format("{} x {}", image.width, image.height));
-  const std::vector<std::array<double, 3>> stokes =
-      settings.channel == MosaicChannel::luminance
-          ? luminanceStokes(image)
-          : colourStokes(image, static_cast<int>(settings.channel) - static_cast<int>(MosaicChannel::red));
-  Mosaic result{image.width, image.height, settings.bits, {}};
-  result.values.reserve(stokes.size());
-  const double fullScale = std::exp2(settings.bits) - 1, gain = std::exp2(settings.exposureEv) * fullScale;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const auto& s = stokes[result.values.size()];
-      const Analyser a = linearPolarizer(mosaicDegrees(x, y));
-      const double value = gain * (a[0] * s[0] + a[1] * s[1] + a[2] * s[2]);
-      result.values.push_back(
-          static_cast<std::uint16_t>(std::isnan(value) ? 0 : std::lround(std::clamp(value, 0.0, fullScale))));
-    }
-  return result;
+  RawImage raw = expose(image, idealSensor(settings), {.exposureEv = settings.exposureEv});
+  return {raw.width, raw.height, settings.bits, std::move(raw.values)};
 }
 
 void writeMosaic(const std::filesystem::path& path, const Mosaic& mosaic) {
@@ -47,10 +46,10 @@ void writeMosaic(const std::filesystem::path& path, const Mosaic& mosaic) {
   if (extension != ".png" && extension != ".tif" && extension != ".tiff")
     throw Error(path.string(), "unknown format of a mosaic", ".png or .tif",
                 extension.empty() ? "no extension" : extension);
-  image::writeGrey(
-      path, mosaic.width, mosaic.height, mosaic.bits == 8 ? image::GreyDepth::bits8 : image::GreyDepth::bits16,
-      mosaic.values,
-      fmt::format("polarization mosaic, polarizers in degrees by row: 90 45 / 135 0, {} bits, linear", mosaic.bits));
+  image::writeGrey(path, mosaic.width, mosaic.height,
+                   mosaic.bits == 8 ? image::GreyDepth::bits8 : image::GreyDepth::bits16, mosaic.values,
+                   fmt::format("polarization mosaic, polarizers in degrees by row: {}, {} bits, linear", kPolarizerRows,
+                               mosaic.bits));
 }
 
 }  // namespace malus::render

@@ -1,5 +1,5 @@
-// Raw image of a division-of-focal-plane polarization camera: each pixel is behind a linear polarizer, at four angles
-// in squares of 2 x 2 pixels. Input for demosaicing and shape-from-polarization code.
+// Raw image of an ideal division-of-focal-plane polarization camera without colour filters (render/sensor/sensor.h
+// describes the others, mosaic_pattern.h the layout). Input for demosaicing and shape-from-polarization code.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,6 @@
 #include "meshprep/base/image.h"
 
 namespace malus::render {
-
-// Angle of the polarizer of a pixel in degrees, counter-clockwise from the x axis of the image; (0, 0) is the upper
-// left pixel. Rows 90, 45 / 135, 0: the layout of Sony's Polarsens sensors (IMX250MZR, IMX264MZR), without colour
-// filters.
-double mosaicDegrees(int x, int y);
 
 // Light that the sensor measures: the luminance (.2126 R + .7152 G + .0722 B, ITU-R BT.709) or one colour.
 enum class MosaicChannel { luminance, red, green, blue };

@@ -28,17 +28,10 @@ std::size_t stokesChannel(const image::Image& image, int component, int colour) 
 }
 
 std::vector<Stokes3> weightedStokes(const image::Image& image, const std::array<double, 3>& weights) {
+  const StokesChannels stokes(image);
   const std::size_t channels = image.channels.size();
-  std::vector<Stokes3> result(channels == 0 ? 0 : image.pixels.size() / channels, Stokes3{});
-  for (int component = 0; component < 3; ++component)
-    for (int colour = 0; colour < 3; ++colour) {
-      const std::size_t channel = stokesChannel(image, component, colour);
-      const double weight = weights[static_cast<std::size_t>(colour)];
-      if (weight == 0) continue;
-      for (std::size_t i = 0; i < result.size(); ++i)
-        result[i][static_cast<std::size_t>(component)] +=
-            weight * static_cast<double>(image.pixels[i * channels + channel]);
-    }
+  std::vector<Stokes3> result(channels == 0 ? 0 : image.pixels.size() / channels);
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = stokes.weighted(i, weights);
   return result;
 }
 
@@ -131,9 +124,24 @@ double angleOfLinearPolarization(double s1, double s2) {
   return angle >= 0 && angle < kPi ? angle : 0;  // NaN, or a negative angle of the size of rounding errors
 }
 
-std::vector<Stokes3> luminanceStokes(const image::Image& image) {
-  return weightedStokes(image, {0.2126, 0.7152, 0.0722});
+StokesChannels::StokesChannels(const image::Image& image) : image_(image) {
+  for (int component = 0; component < 3; ++component)
+    for (int colour = 0; colour < 3; ++colour)
+      index_[static_cast<std::size_t>(component)][static_cast<std::size_t>(colour)] =
+          stokesChannel(image, component, colour);
 }
+
+std::array<double, 3> StokesChannels::weighted(std::size_t pixel, const std::array<double, 3>& weights) const {
+  const float* const values = image_.pixels.data() + pixel * image_.channels.size();
+  std::array<double, 3> stokes{};
+  for (std::size_t component = 0; component < stokes.size(); ++component)
+    for (std::size_t colour = 0; colour < weights.size(); ++colour)
+      if (weights[colour] != 0)
+        stokes[component] += weights[colour] * static_cast<double>(values[index_[component][colour]]);
+  return stokes;
+}
+
+std::vector<Stokes3> luminanceStokes(const image::Image& image) { return weightedStokes(image, kLuminanceWeights); }
 std::vector<Stokes3> colourStokes(const image::Image& image, int colour) {
   return weightedStokes(image, {colour == 0 ? 1.0 : 0.0, colour == 1 ? 1.0 : 0.0, colour == 2 ? 1.0 : 0.0});
 }

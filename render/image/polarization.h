@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -18,6 +19,21 @@ namespace malus::render {
 
 double degreeOfLinearPolarization(double s0, double s1, double s2);
 double angleOfLinearPolarization(double s1, double s2);
+
+// Weights of R, G, B in the luminance (ITU-R BT.709).
+inline constexpr std::array<double, 3> kLuminanceWeights = {0.2126, 0.7152, 0.0722};
+
+// Reads the Stokes vectors of single pixels. Throws Error if a channel is missing. The image must outlive it.
+class StokesChannels {
+ public:
+  explicit StokesChannels(const image::Image& image);
+  // S0, S1, S2 of a pixel, the weighted sum of its colours; a colour of weight 0 is not read.
+  std::array<double, 3> weighted(std::size_t pixel, const std::array<double, 3>& weights) const;
+
+ private:
+  const image::Image& image_;
+  std::array<std::array<std::size_t, 3>, 3> index_{};  // [component][colour]
+};
 
 // S0, S1, S2 of the luminance of each pixel: the colours weighted by .2126, .7152, .0722 (ITU-R BT.709). A weighted sum
 // of Stokes vectors is a Stokes vector: that of a monochrome camera.

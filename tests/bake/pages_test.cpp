@@ -18,6 +18,7 @@
 #include "bake/scene_file/scene_keys.h"
 #include "bake/scene_file/special_keys.h"
 #include "meshprep/base/atomic_file.h"
+#include "render/sensor/sensor_keys.h"
 #include "tests/bake/fixtures.h"
 
 namespace malus::bake {
@@ -246,6 +247,11 @@ void checkPage(const std::filesystem::path& path, const std::map<std::string, st
 }
 
 TEST(Pages, Scene) { checkPage(kSource / "bake/SCENE.md", sceneTables()); }
+
+TEST(Pages, Sensor) {
+  checkPage(kSource / "render/sensor/SENSOR.md",
+            {{"sensor", sceneTable<render::Sensor>(MALUS_KEYS(render::visitSensorKeys), render::kSensorSpecialKeys)}});
+}
 
 TEST(Pages, Format) { checkPage(kSource / "bake/FORMAT.md", formatTables()); }
 

@@ -11,6 +11,7 @@
 
 #include "meshprep/base/error.h"
 #include "render/image/polarization.h"
+#include "render/sensor/mosaic_pattern.h"
 
 namespace malus::render {
 namespace {
@@ -47,11 +48,11 @@ TEST(Mosaic, LayoutIsThatOfPolarsensSensors) {
       for (std::size_t i = 0; i < 4; ++i)
         EXPECT_NEAR(m.values[left + i % 2 + (i / 2) * 4], c.values[i], 1) << c.degrees << " " << i;
   }
-  EXPECT_EQ(mosaicDegrees(0, 0), 90);
-  EXPECT_EQ(mosaicDegrees(1, 0), 45);
-  EXPECT_EQ(mosaicDegrees(0, 1), 135);
-  EXPECT_EQ(mosaicDegrees(1, 1), 0);
-  EXPECT_EQ(mosaicDegrees(6, 7), 135);
+  EXPECT_EQ(polarizerDegrees(0, 0), 90);
+  EXPECT_EQ(polarizerDegrees(1, 0), 45);
+  EXPECT_EQ(polarizerDegrees(0, 1), 135);
+  EXPECT_EQ(polarizerDegrees(1, 1), 0);
+  EXPECT_EQ(polarizerDegrees(6, 7), 135);
 }
 
 TEST(Mosaic, DemosaickedPatchGivesBackItsPolarization) {

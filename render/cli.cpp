@@ -28,6 +28,7 @@
 #include "render/job.h"
 #include "render/options.h"
 #include "render/scene/methods.h"
+#include "render/sensor_options.h"
 #include "render/vulkan/renderer.h"
 
 namespace malus::render {
@@ -43,6 +44,7 @@ struct RenderArguments {
   PackInput input;
   JobSettings job;
   FilterOptions filter;
+  SensorOptions sensor;
   std::vector<std::string> outputs;
   std::string dolp, aolp, mosaic, truth, mosaicChannel = "luminance";
   unsigned mosaicBits = 8;
@@ -53,7 +55,11 @@ struct RenderArguments {
   bool needsImage() const { return !outputs.empty() || !stokesOption().empty(); }
   // The first option that reads Stokes vectors; empty if none does.
   std::string stokesOption() const {
-    return !mosaic.empty() ? "--mosaic" : !dolp.empty() ? "--output-dolp" : !aolp.empty() ? "--output-aolp" : "";
+    return sensor.any()      ? "--sensor"
+           : !mosaic.empty() ? "--mosaic"
+           : !dolp.empty()   ? "--output-dolp"
+           : !aolp.empty()   ? "--output-aolp"
+                             : "";
   }
 };
 
@@ -75,10 +81,13 @@ void checkOutputs(const RenderArguments& a) {
   files.addOutput(a.aolp, "--output-aolp");
   files.addOutput(a.mosaic, "--mosaic");
   files.addOutput(a.truth, "--ground-truth");
+  addSensorFiles(files, a.sensor);
   files.check();
   if (!a.needsImage() && a.truth.empty())
-    refuse("--output", "no image asked for; use -o, --output-dolp, --output-aolp, --mosaic or --ground-truth");
+    refuse("--output",
+           "no image asked for; use -o, --output-dolp, --output-aolp, --mosaic, --sensor or --ground-truth");
   if (!a.truth.empty() && !hasExtension(a.truth, {".exr"})) refuse("--ground-truth", "expected .exr, found " + a.truth);
+  checkSensorOptions(a.sensor);
   for (const std::string& file : {a.dolp, a.aolp})
     if (!file.empty() && !hasExtension(file, {".exr", ".png"}))
       refuse("--output-dolp, --output-aolp", "expected .exr or .png, found " + file);
@@ -95,8 +104,9 @@ void checkOutputs(const RenderArguments& a) {
 void checkCombinations(const RenderArguments& a) {
   const std::string stokesOption = a.stokesOption();
   const bool hasMethods = backendInfo(a.job.backend).hasMethods;
-  if (!a.mosaic.empty() && a.filter.any())
-    refuse("--mosaic", "has a polarizer before every pixel; excludes --polarizer, --analyser and --wave-plate");
+  for (const char* const option : {a.mosaic.empty() ? nullptr : "--mosaic", a.sensor.any() ? "--sensor" : nullptr})
+    if (option && a.filter.any())
+      refuse(option, "has a polarizer before every pixel; excludes --polarizer, --analyser and --wave-plate");
   const char* const budget = a.job.maxError ? "--max-error" : a.job.maxMs ? "--max-ms" : nullptr;
   if (budget && !hasMethods) refuse(budget, "excludes --backend reference, which has no methods");
   if (budget && a.job.tolerance > 0) refuse("--tolerance", fmt::format("excludes {}", budget));
@@ -182,7 +192,7 @@ RenderResult withoutStokes(RenderResult result) {
   return result;
 }
 
-// Writes every file and returns their names.
+// Writes every file except those of the sensor and returns their names.
 std::vector<std::string> writeOutputs(const RenderArguments& a, const image::Image& image, double exposureEv) {
   std::vector<std::string> written;
   const auto write = [&](const std::string& output, const auto& writer) {
@@ -269,9 +279,11 @@ void runRender(const RenderArguments& a) {
   checkOutputs(a);
   const JobSettings settings = jobSettings(a);
   checkCombinations(a);
+  const std::optional<Sensor> sensor = readSensor(a.sensor);
   const std::string file = packFile(a.input);
   const pack::Pack pack = pack::read(file);
   if (!a.mosaic.empty()) checkMosaicSize(renderParameters(settings, pack.scene).region);
+  if (sensor) checkSensorRegion(*sensor, renderParameters(settings, pack.scene).region);
   Job job(pack, settings);
   std::vector<std::string> written;
   if (!a.needsImage()) {
@@ -289,7 +301,18 @@ void runRender(const RenderArguments& a) {
   if (a.intensity) result = withoutStokes(std::move(result));
   const image::Image image = takeImage(result, pack, job.parameters(), backend, job.method());
   oneapi::tbb::task_arena(a.job.threads > 0 ? static_cast<int>(a.job.threads) : oneapi::tbb::task_arena::automatic)
-      .execute([&] { written = writeOutputs(a, image, a.exposure.value_or(pack.scene.exposureEv)); });
+      .execute([&] {
+        const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
+        written = writeOutputs(a, image, exposureEv);
+        if (!sensor) return;
+        const nlohmann::json scene = {{"scene", pack.scene.name},
+                                      {"pack", fmt::format("{:016x}", pack.hash)},
+                                      {"renderer", backend},
+                                      {"method", job.method()}};
+        const std::vector<std::string> files =
+            writeSensorOutputs(a.sensor, *sensor, image, job.parameters().region, exposureEv, scene, a.compression);
+        written.insert(written.end(), files.begin(), files.end());
+      });
   renderTruth(a, job, pack, written);
   console::progressDone();
   printResult(a, job, pack.scene.name, result, written);
@@ -329,6 +352,7 @@ void addOutputOptions(CLI::App& command, RenderArguments& a) {
       ->transform(CLI::IsMember({"luminance", "r", "g", "b"}, CLI::ignore_case))
       ->capture_default_str()
       ->needs(mosaic);
+  addSensorOptions(command, a.sensor);
   addExposure(command, a.exposure);
   addCompression(command, a.compression);
   command.add_flag("--intensity", a.intensity, "Leave the Stokes channels out of .exr files");

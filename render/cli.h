@@ -1,6 +1,7 @@
 // malus render PACK|MODEL -o OUT.exr [-o OUT.png] [--backend B] [--method M]
 //              [--polarizer DEG | --analyser right|left] [--wave-plate AXIS[,RETARDANCE]]
-//              [--output-dolp FILE] [--output-aolp FILE] [--mosaic FILE [--mosaic-bits 8|12|16]] ...
+//              [--output-dolp FILE] [--output-aolp FILE] [--mosaic FILE [--mosaic-bits 8|12|16]]
+//              [--sensor FILE|PRESET [--sensor-raw FILE] [--sensor-mask FILE] [--sensor-stokes FILE]] ...
 // and the list that `malus --list-methods` prints.
 //
 // --json prints one object: scene, renderer, method, device, width, height, depth, samples, rays (null if not counted),

@@ -73,7 +73,8 @@ void addCompression(CLI::App& command, image::ExrCompression& compression) {
 }
 
 void addExposure(CLI::App& command, std::optional<double>& exposure) {
-  command.add_option("--exposure", exposure, "Exposure of 8-bit images and mosaics [stops] (default: the pack's)")
+  command
+      .add_option("--exposure", exposure, "Exposure of 8-bit images, mosaics and sensors [stops] (default: the pack's)")
       ->transform(numberBetween(-100, 100));
 }
 

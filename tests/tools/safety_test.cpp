@@ -52,6 +52,8 @@ TEST_F(Safety, OutputsAreNotInputs) {
   refuse({"bake", "scene.json", "-o", "cube.obj", "--force"}, "--output");
   refuse({"prep", "cube.obj", "-o", "./cube.obj"}, "--output");
   refuse({"prep", "cube.obj", "-o", "x.drc", "--report", "hard"}, "--report");
+  for (const char* option : {"--sensor-raw", "--sensor-mask", "--sensor-stokes"})
+    refuse({"render", "tiny.pack", "--method", "stokes", "--sensor", "imx250mzr", option, "tiny.pack"}, option);
   for (const char* option : {"--output-dolp", "--output-aolp", "--mosaic", "-o"})
     refuse({"render", "tiny.pack", "--method", "stokes", option, "tiny.pack"}, option[1] == '-' ? option : "--output");
   fs::create_directories(folder_ / "out/images");
@@ -111,7 +113,8 @@ TEST_F(Safety, OutputsHaveNames) {
   refuse({"bake", "scene.json", "-o", ""}, "--output");
   refuse({"prep", "cube.obj", "-o", "x.drc", "--report", ""}, "--report");
   refuse({"prep", "cube.obj", "-o", "x.drc", "--source-map", ""}, "--source-map");
-  for (const char* option : {"--output", "--output-dolp", "--output-aolp", "--mosaic"})
+  for (const char* option :
+       {"--output", "--output-dolp", "--output-aolp", "--mosaic", "--sensor-raw", "--sensor-mask", "--sensor-stokes"})
     refuse({"render", "tiny.pack", option, ""}, option);
   for (const char* command : {"sweep", "unpack", "compare"}) refuse({command, "tiny.pack", "-o", ""}, "--output");
   refuse({"material", "gold", "--plot", ""}, "--plot");

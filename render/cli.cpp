@@ -20,6 +20,7 @@
 #include "meshprep/json_text.h"
 #include "meshprep/output_option.h"
 #include "render/effects_option.h"
+#include "render/embree/coverage.h"
 #include "render/filter_options.h"
 #include "render/ground_truth/truth_image.h"
 #include "render/image/mosaic.h"
@@ -50,7 +51,7 @@ struct RenderArguments {
   unsigned mosaicBits = 8;
   std::optional<double> exposure;
   image::ExrCompression compression = image::ExrCompression::zip;
-  bool json = false, intensity = false;
+  bool json = false, intensity = false, alpha = false;
 
   bool needsImage() const { return !outputs.empty() || !stokesOption().empty(); }
   // The first option that reads Stokes vectors; empty if none does.
@@ -100,6 +101,11 @@ void checkOutputs(const RenderArguments& a) {
     }
 }
 
+bool writesExr(const RenderArguments& a) {
+  return std::any_of(a.outputs.begin(), a.outputs.end(),
+                     [](const std::string& file) { return hasExtension(file, {".exr"}); });
+}
+
 // Checks combinations of options that do not depend on the pack.
 void checkCombinations(const RenderArguments& a) {
   const std::string stokesOption = a.stokesOption();
@@ -110,6 +116,7 @@ void checkCombinations(const RenderArguments& a) {
   const char* const budget = a.job.maxError ? "--max-error" : a.job.maxMs ? "--max-ms" : nullptr;
   if (budget && !hasMethods) refuse(budget, "excludes --backend reference, which has no methods");
   if (budget && a.job.tolerance > 0) refuse("--tolerance", fmt::format("excludes {}", budget));
+  if (a.alpha && !writesExr(a)) refuse("--alpha", "needs an output with the extension .exr");
   if (a.intensity && a.job.stokes) refuse("--intensity", "excludes --stokes");
   if (a.intensity && !stokesOption.empty()) refuse("--intensity", "excludes " + stokesOption);
   if (a.job.tolerance > 0 && (!hasMethods || !methodNamed(a.job.method).isIterative)) {
@@ -129,8 +136,7 @@ JobSettings jobSettings(const RenderArguments& a) {
   job.analyser = makeAnalyser(a.filter);
   job.needsLinear = !a.stokesOption().empty();
   job.stokes = job.stokes || job.needsLinear;
-  job.storesStokes = !a.intensity && std::any_of(a.outputs.begin(), a.outputs.end(),
-                                                 [](const std::string& file) { return hasExtension(file, {".exr"}); });
+  job.storesStokes = !a.intensity && writesExr(a);
   return job;
 }
 
@@ -193,7 +199,9 @@ RenderResult withoutStokes(RenderResult result) {
 }
 
 // Writes every file except those of the sensor and returns their names.
-std::vector<std::string> writeOutputs(const RenderArguments& a, const image::Image& image, double exposureEv) {
+// withCoverage: the image with alpha, or null.
+std::vector<std::string> writeOutputs(const RenderArguments& a, const image::Image& image,
+                                      const image::Image* withCoverage, double exposureEv) {
   std::vector<std::string> written;
   const auto write = [&](const std::string& output, const auto& writer) {
     if (output.empty()) return;
@@ -202,7 +210,10 @@ std::vector<std::string> writeOutputs(const RenderArguments& a, const image::Ima
     written.push_back(output);
   };
   for (const std::string& output : a.outputs)
-    write(output, [&](const std::string& file) { writeImage(file, image, exposureEv, a.compression); });
+    write(output, [&](const std::string& file) {
+      const bool hasAlpha = withCoverage && hasExtension(file, {".exr"});
+      writeImage(file, hasAlpha ? *withCoverage : image, exposureEv, a.compression);
+    });
   write(a.dolp, [&](const std::string& file) { writeDolp(file, image, a.compression); });
   write(a.aolp, [&](const std::string& file) { writeAolp(file, image, a.compression); });
   write(a.mosaic, [&](const std::string& file) {
@@ -303,7 +314,9 @@ void runRender(const RenderArguments& a) {
   oneapi::tbb::task_arena(a.job.threads > 0 ? static_cast<int>(a.job.threads) : oneapi::tbb::task_arena::automatic)
       .execute([&] {
         const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
-        written = writeOutputs(a, image, exposureEv);
+        std::optional<image::Image> alpha;
+        if (a.alpha) alpha = withAlpha(image, embree::coverage(job.scene(), job.parameters(), a.job.threads));
+        written = writeOutputs(a, image, alpha ? &*alpha : nullptr, exposureEv);
         if (!sensor) return;
         const nlohmann::json scene = {{"scene", pack.scene.name},
                                       {"pack", fmt::format("{:016x}", pack.hash)},
@@ -355,6 +368,7 @@ void addOutputOptions(CLI::App& command, RenderArguments& a) {
   addSensorOptions(command, a.sensor);
   addExposure(command, a.exposure);
   addCompression(command, a.compression);
+  command.add_flag("--alpha", a.alpha, "Add alpha to .exr files: share of a pixel's rays that meet a surface");
   command.add_flag("--intensity", a.intensity, "Leave the Stokes channels out of .exr files");
   command.add_flag("--json", a.json, "Print the result as JSON");
 }

@@ -111,6 +111,28 @@ image::Image takeImage(RenderResult& result, const pack::Pack& pack, const Rende
   return image;
 }
 
+image::Image withAlpha(const image::Image& image, const std::vector<float>& coverage) {
+  image::Image result;
+  result.width = image.width;
+  result.height = image.height;
+  result.channels = image.channels;
+  result.channels.insert(result.channels.begin() + kColourChannels, "A");
+  result.attributes = image.attributes;
+  result.pixels.resize(coverage.size() * result.channels.size());
+  const std::size_t channels = image.channels.size();
+  namespace tbb = oneapi::tbb;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, coverage.size()), [&](const auto& pixels) {
+    for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
+      const float* const from = image.pixels.data() + i * channels;
+      float* const to = result.pixels.data() + i * (channels + 1);
+      std::copy_n(from, kColourChannels, to);
+      to[kColourChannels] = coverage[i];
+      std::copy(from + kColourChannels, from + channels, to + kColourChannels + 1);
+    }
+  });
+  return result;
+}
+
 std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureEv) {
   const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
   if (r < 0 || g < 0 || b < 0) throw Error("", "a PNG needs channels R, G and B", "an output with the extension .exr");

@@ -21,6 +21,10 @@ image::Image toImage(const RenderResult& result, const pack::Pack& pack, const R
 image::Image takeImage(RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
                        const std::string& renderer, const std::string& method);
 
+// Returns the image with the channel A after R, G, B: coverage (render/embree/coverage.h), one value per pixel. The
+// colours are not multiplied by it: they contain the environment behind a surface's edge.
+image::Image withAlpha(const image::Image& image, const std::vector<float>& coverage);
+
 // Converts the channels R, G, B from linear radiance to 8-bit sRGB: times 2^exposureEv, linear up to 0.7, above that an
 // exponential shoulder that approaches 1, then the sRGB curve (IEC 61966-2-1).
 std::vector<std::uint8_t> toneMapped(const image::Image& image, double exposureEv);

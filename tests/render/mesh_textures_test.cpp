@@ -4,6 +4,7 @@
 #include <complex>
 #include <numbers>
 
+#include "render/embree/coverage.h"
 #include "tests/render/render_everywhere.h"
 #include "tests/render/test_scene.h"
 
@@ -338,6 +339,19 @@ TEST(CutOuts, HolesLetRaysAndShadowRaysPass) {
   // From the same point, one that meets the sheet from below.
   test::look(scene, {0.2 + 4 * 0.5, 0.5, 3}, {0.2, 0.5, -1});
   for (const auto& [name, result] : renderEverywhere(scene)) EXPECT_NEAR(result.pixels[3], 0, 1e-6) << name;
+}
+
+TEST(CutOuts, HolesAreNotCovered) {
+  Material sheet;
+  sheet.meshMaps.coverage = makeMap(0);
+  pack::Scene scene = square(sheet, 0);
+  addTexture(scene, 2, {glm::vec3(1), glm::vec3(0), glm::vec3(0), glm::vec3(1)});
+  const auto covered = [&](double x, double y) {
+    lookAt(scene, x, y);
+    return embree::coverage(scene, render::defaultParameters(scene), 1);
+  };
+  EXPECT_EQ(covered(-0.5, 0.5), std::vector<float>{1});
+  EXPECT_EQ(covered(0.5, 0.5), std::vector<float>{0});
 }
 
 // A floor of black and white squares of 0.1 m, seen at a grazing angle, reflects the mean of an environment.

@@ -1,6 +1,7 @@
 // `malus render` and `malus sweep`: numeric checks, choice of the method, effects.
 #include <nlohmann/json.hpp>
 
+#include "meshprep/base/image.h"
 #include "tests/tools/command.h"
 
 namespace malus::test {
@@ -64,6 +65,30 @@ TEST(Render, CompressionOfExrFiles) {
   EXPECT_EQ(malus({"compare-images", folder / "zip.exr", folder / "dwaa.exr", "--fail-over", "0"}).exitCode, 3);
   EXPECT_EQ(malus({"compare-images", folder / "zip.exr", folder / "dwaa.exr", "--fail-over", "0.05"}).exitCode, 0);
   EXPECT_EQ(render("gif").exitCode, 2);
+}
+
+TEST(Render, AlphaIsAChannelOfExrFilesOnly) {
+  const Folder folder;
+  writeTinyScene(folder.path());
+  ASSERT_EQ(malus({"bake", folder / "scene.json", "-o", folder / "tiny.pack"}).exitCode, 0);
+  const auto render = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", folder / "tiny.pack", "-o", folder / (name + ".exr"), "-o",
+                               folder / (name + ".png"), "--method", "stokes", "--width", "64"});
+    const Finished done = malus(more);
+    EXPECT_EQ(done.exitCode, 0) << done.err;
+    return image::read(folder / (name + ".exr"));
+  };
+  const image::Image with = render("with", {"--alpha"}), without = render("without", {});
+  EXPECT_EQ(with.channels.size(), 16u);
+  EXPECT_EQ(without.channels.size(), 15u);
+  EXPECT_LT(without.channel("A"), 0);
+  ASSERT_GE(with.channel("A"), 0);
+  EXPECT_EQ(render("intensity", {"--alpha", "--intensity"}).channels.size(), 4u);
+  EXPECT_EQ(readText(folder / "with.png"), readText(folder / "without.png"));
+  EXPECT_EQ(malus({"compare-images", folder / "with.exr", folder / "without.exr", "--fail-over", "0"}).exitCode, 0);
+  const Finished refused = malus({"render", folder / "tiny.pack", "-o", folder / "a.png", "--alpha"});
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_TRUE(contains(refused.err, "--alpha", ".exr")) << refused.err;
 }
 
 TEST(Render, VulkanPath) {

@@ -69,6 +69,19 @@ TEST(Output, ExrKeepsChannelsAndMetadata) {
   EXPECT_EQ(attribute("DateTime"), "none");
 }
 
+TEST(Output, AlphaFollowsTheColours) {
+  const image::Image image = someImage(), alpha = withAlpha(image, {0, 0.25, 0.5, 0.75, 1, 1});
+  EXPECT_EQ(alpha.channels.size(), 16u);
+  EXPECT_EQ(alpha.channel("A"), 3);
+  EXPECT_EQ(alpha.channel("S0.R"), 4);
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t c = 0; c < 16; ++c)
+      EXPECT_EQ(alpha.pixels[16 * i + c], c < 3    ? image.pixels[15 * i + c]
+                                          : c == 3 ? std::min(0.25f * static_cast<float>(i), 1.0f)
+                                                   : image.pixels[15 * i + c - 1]);
+  EXPECT_EQ(toneMapped(alpha, 0), toneMapped(image, 0));
+}
+
 TEST(Output, EqualImagesGiveEqualFiles) {
   const fs::path folder = testing::TempDir();
   for (const char* extension : {"exr", "png"}) {

@@ -239,21 +239,24 @@ Ablation ablate(const std::vector<std::filesystem::path>& packs, const AblationS
   const std::size_t count = ablation.packs.size() * settings.backends.size();
   std::vector<Group> groups;
   groups.reserve(count);
-  for (const auto& [name, pack] : ablation.packs)
-    for (const Backend backend : settings.backends) {
-      if (interrupted() || limit.isOver()) break;
-      std::vector<Variant> variants =
-          ablationVariants(pack.scene, renderParameters(imageSettings(settings, pack.scene), pack.scene));
-      const std::size_t view = groups.size();
-      if (const std::size_t number = view % settings.backends.size(); number > 0)
-        sortByWorth(variants, ablation, groups[view - number]);
-      Group& group = groups.emplace_back(Group{&pack, backend, {settings.image.device, settings.image.threads}});
-      firstPass(ablation, group, std::move(variants), folder, progress,
-                [&] { return limit.isFirstPassOver(view, count); });
-      summarize(ablation, groups);
-      if (snapshot) snapshot(ablation);
-    }
-  timeRounds(ablation, groups, settings.rounds, limit, progress, snapshot);
+  try {
+    for (const auto& [name, pack] : ablation.packs)
+      for (const Backend backend : settings.backends) {
+        if (interrupted() || limit.isOver()) break;
+        std::vector<Variant> variants =
+            ablationVariants(pack.scene, renderParameters(imageSettings(settings, pack.scene), pack.scene));
+        const std::size_t view = groups.size();
+        if (const std::size_t number = view % settings.backends.size(); number > 0)
+          sortByWorth(variants, ablation, groups[view - number]);
+        Group& group = groups.emplace_back(Group{&pack, backend, {settings.image.device, settings.image.threads}});
+        firstPass(ablation, group, std::move(variants), folder, progress,
+                  [&] { return limit.isFirstPassOver(view, count); });
+        summarize(ablation, groups);
+        if (snapshot) snapshot(ablation);
+      }
+    timeRounds(ablation, groups, settings.rounds, limit, progress, snapshot);
+  } catch (const Interrupted&) {  // finished rows and rounds are kept
+  }
   ablation.interrupted = interrupted();
   ablation.timeIsOver = limit.isOver() && ablation.rounds < settings.rounds;
   summarize(ablation, groups);

@@ -282,19 +282,22 @@ std::vector<RowGroup> warmUp(Comparison& comparison, const ComparisonSettings& s
   const std::vector<Backend> backends = inOrder(settings);
   std::vector<RowGroup> groups;
   std::size_t count = 0;
-  for (const auto& [name, pack] : comparison.packs) count += views(pack.scene, settings).size();
-  for (auto& [name, pack] : comparison.packs) {
-    const auto renderers =
-        std::make_shared<RendererSet>(pack.scene, RendererOptions{settings.device, settings.threads});
-    for (const RenderParameters& parameters : views(pack.scene, settings)) {
-      if (interrupted() || (limit.isOver() && !groups.empty())) break;
-      const Share share{limit, groups.size(), count};
-      groups.push_back({&pack, parameters, renderers, {}});
-      const RenderResult reference = renderReference(comparison, groups.back(), settings.threads, output);
-      for (const Backend backend : backends)
-        renderRows(comparison, groups.back(), backend, settings, reference, share, output);
-      afterView(groups);
+  try {
+    for (const auto& [name, pack] : comparison.packs) count += views(pack.scene, settings).size();
+    for (auto& [name, pack] : comparison.packs) {
+      const auto renderers =
+          std::make_shared<RendererSet>(pack.scene, RendererOptions{settings.device, settings.threads});
+      for (const RenderParameters& parameters : views(pack.scene, settings)) {
+        if (interrupted() || (limit.isOver() && !groups.empty())) break;
+        const Share share{limit, groups.size(), count};
+        groups.push_back({&pack, parameters, renderers, {}});
+        const RenderResult reference = renderReference(comparison, groups.back(), settings.threads, output);
+        for (const Backend backend : backends)
+          renderRows(comparison, groups.back(), backend, settings, reference, share, output);
+        afterView(groups);
+      }
     }
+  } catch (const Interrupted&) {  // finished views are kept
   }
   return groups;
 }

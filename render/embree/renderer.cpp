@@ -17,6 +17,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "meshprep/base/error.h"
+#include "meshprep/base/interrupt.h"
 #include "render/embree/methods.h"
 #include "render/embree/packets/packets.h"
 #include "render/embree/tile.h"
@@ -66,6 +67,7 @@ void renderTiles(const TileInput& image, int threads, std::uint32_t tileWidth, s
   const std::uint32_t rows = (camera.regionHeight + tileHeight - 1) / tileHeight;
   arena.execute([&] {
     tbb::parallel_for(0u, columns * rows, [&](std::uint32_t i) {
+      if (interrupted()) return;
       TileInput tile = image;
       tile.beginX = i % columns * tileWidth;
       tile.beginY = i / columns * tileHeight;
@@ -78,6 +80,7 @@ void renderTiles(const TileInput& image, int threads, std::uint32_t tileWidth, s
       result.faults.add(output.faults, camera.width);
     });
   });
+  if (interrupted()) throw Interrupted();
   result.cost.rays = tracedRays;
 }
 }  // namespace

@@ -13,6 +13,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "meshprep/base/interrupt.h"
 #include "render/embree/embree.h"
 #include "render/reference/camera_rays.h"
 #include "render/reference/depth_paths.h"
@@ -127,6 +128,7 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
   tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(access, parameters); });
   const auto traceAll = [&] {
     tbb::parallel_for(std::uint32_t{0}, columns * rows, [&](std::uint32_t tile) {
+      if (interrupted()) return;
       renderTile(scene.camera, parameters, cameraRays, tile % columns * kTileWidth, tile / columns * kTileHeight,
                  workers.local(), result);
     });
@@ -135,6 +137,7 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
     traceAll();
   else
     tbb::task_arena(static_cast<int>(impl_->threads)).execute(traceAll);
+  if (interrupted()) throw Interrupted();
 
   result.cost.buildMs = impl_->buildMs;
   result.cost.traceMs = result.cost.wallMs = sinceMs(start);

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "meshprep/base/error.h"
+#include "meshprep/base/program_folder.h"
 
 extern char** environ;
 
@@ -24,7 +25,7 @@ constexpr const char* kPython = "/usr/bin/python3";
 void runReportScript(const std::string& script, const std::vector<std::string>& arguments, const std::string& input,
                      const std::string& failure) {
   std::error_code failed;
-  const fs::path path = fs::read_symlink("/proc/self/exe", failed).parent_path() / MALUS_DATA_PATH / "report" / script;
+  const fs::path path = (programFolder() / MALUS_DATA_PATH / "report" / script).lexically_normal();
   if (!fs::exists(path, failed))
     throw Error(path.string(), "the script of the report is missing", "the file that malus installs");
   const std::string text = path.string();

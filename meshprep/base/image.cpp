@@ -14,18 +14,16 @@
 #include "meshprep/base/atomic_file.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/image_module.h"
+#include "meshprep/base/program_folder.h"
 
 namespace malus::image {
 namespace fs = std::filesystem;
 
 namespace {
 
-// File of a module. MALUS_MODULE_PATH is its folder relative to that of the executable, in the build tree and in the
+// File of a module. MALUS_MODULE_PATH is its folder relative to that of the program, in the build tree and in the
 // installed one.
-fs::path moduleFile(const char* name) {
-  std::error_code failed;
-  return fs::read_symlink("/proc/self/exe", failed).parent_path() / MALUS_MODULE_PATH / name;
-}
+fs::path moduleFile(const char* name) { return (programFolder() / MALUS_MODULE_PATH / name).lexically_normal(); }
 
 template <class Interface>
 const Interface* load(const fs::path& file, const char* entryName) {

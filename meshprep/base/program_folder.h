@@ -1,0 +1,14 @@
+// Where the program is, so that it finds its modules and scripts relative to itself.
+#pragma once
+
+#include <filesystem>
+
+namespace malus {
+
+// Folder of the executable, or the one that was set.
+std::filesystem::path programFolder();
+
+// For code that runs inside of another program (Python). Call it before the first use.
+void setProgramFolder(const std::filesystem::path& folder);
+
+}  // namespace malus

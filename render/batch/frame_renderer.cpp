@@ -132,6 +132,7 @@ RenderedFrame FrameRenderer::render(const Frame& frame) {
   rendered.camera = cameraJson(pack_.scene, parameters);
   if (frame.outputs.needImage()) {
     RenderResult result = currentRenderer().render(choice.method, parameters);
+    rendered.traceMs = result.cost.traceMs;
     result.device = device();  // on which files depend, unlike the number of threads
     rendered.image = takeImage(result, pack_, parameters, backendInfo(backend_).name, rendered.method);
   }

@@ -23,6 +23,7 @@ struct RenderedFrame {
   image::Image image;     // empty if no output needs it
   image::Image truth;     // empty unless asked for
   nlohmann::json camera;  // cameraJson()
+  double traceMs = 0;     // of the image
 };
 
 class FrameRenderer {

@@ -46,6 +46,17 @@ endforeach()
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${oiio_kept}")
 target_link_libraries(malus_openimageio INTERFACE OpenImageIO::OpenImageIO)
 
+# The Python package is built where pybind11 is installed, for Debian's Python unless another one is named.
+if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python_EXECUTABLE /usr/bin/python3)
+endif()
+find_package(Python COMPONENTS Interpreter Development.Module QUIET)
+find_package(pybind11 QUIET)
+option(MALUS_PYTHON "Build the Python package" ${pybind11_FOUND})
+if(MALUS_PYTHON AND NOT pybind11_FOUND)
+  message(FATAL_ERROR "MALUS_PYTHON needs pybind11: tools/install-deps, or -DMALUS_PYTHON=OFF")
+endif()
+
 if(MALUS_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

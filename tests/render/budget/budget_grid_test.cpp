@@ -28,6 +28,7 @@ struct Case {
   std::string scene;
   double bound = 0, found = 0;
   std::string chosen;
+  bool isFaster = false;  // than the image by the exact rules of --effects auto alone, once each
 };
 
 // Error of the image that --max-error makes, against the exact method with every effect.
@@ -41,7 +42,8 @@ Case measure(const pack::Pack& pack, double bound, std::uint32_t width, const An
   Job budget(pack, settings);
   const RenderResult truth = exact.render(), image = budget.render();
   return {fmt::format("{}, {} pixels{}", pack.scene.name, width, analyser == kNoFilter ? "" : ", polarizer"), bound,
-          displayError(image, truth, pack.scene.exposureEv).relRms(), budget.method()};
+          displayError(image, truth, pack.scene.exposureEv).relRms(), budget.method(),
+          image.cost.traceMs < truth.cost.traceMs};
 }
 
 std::vector<fs::path> scenes() {
@@ -55,7 +57,7 @@ std::vector<fs::path> scenes() {
 TEST(Budget, KeepsTheErrorInNearlyEveryCase) {
   const fs::path cache = fs::temp_directory_path() / fmt::format("malus-budget-{}", ::getpid());
   ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
-  std::size_t cases = 0, within = 0;
+  std::size_t cases = 0, within = 0, faster = 0;
   std::string exceeded;
   for (const fs::path& scene : scenes()) {
     const pack::WriteSettings settings;
@@ -67,6 +69,7 @@ TEST(Budget, KeepsTheErrorInNearlyEveryCase) {
         for (const double bound : {0.001, 0.01, 0.05}) {
           const Case result = measure(pack, bound, width, analyser);
           ++cases;
+          faster += result.isFaster ? 1 : 0;
           if (result.found <= bound)
             ++within;
           else
@@ -77,6 +80,7 @@ TEST(Budget, KeepsTheErrorInNearlyEveryCase) {
   fs::remove_all(cache);
   EXPECT_GE(static_cast<double>(within), kShareWithin * static_cast<double>(cases)) << exceeded;
   std::printf("%zu of %zu cases within the bound; others:\n%s", within, cases, exceeded.c_str());
+  std::printf("the exact rules alone took longer in %zu of %zu cases\n", faster, cases);
 }
 
 }  // namespace

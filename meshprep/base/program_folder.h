@@ -1,4 +1,4 @@
-// Where the program is, so that it finds its modules and scripts relative to itself.
+// The folder of the program, from which it finds its modules and scripts.
 #pragma once
 
 #include <filesystem>

@@ -78,25 +78,25 @@ Image renderScene(Scene& scene, const std::string& settings, const std::string& 
   return withoutLock([&] { return scene.render(nlohmann::json::parse(settings), options); });
 }
 
-py::dict effectsOf(const Scene& scene) {
+py::dict effectReasons(const Scene& scene) {
   py::dict effects;
   for (const pack::Effect& e : scene.scene().effects) effects[py::str(e.name)] = py::make_tuple(e.on, e.reason);
   return effects;
 }
 
-std::size_t trianglesOf(const Scene& scene) {
+std::size_t countTriangles(const Scene& scene) {
   std::size_t count = 0;
   for (const pack::Mesh& mesh : scene.scene().meshes) count += mesh.triangles.size();
   return count;
 }
 
-std::vector<std::string> materialsOf(const Scene& scene) {
+std::vector<std::string> materialNames(const Scene& scene) {
   std::vector<std::string> names;
   for (const pack::Material& material : scene.scene().materials) names.push_back(material.name);
   return names;
 }
 
-std::vector<std::string> meshesOf(const Scene& scene) {
+std::vector<std::string> meshNames(const Scene& scene) {
   std::vector<std::string> names;
   for (const pack::Placement& placement : pack::placements(scene.scene())) names.push_back(placement.name());
   return names;
@@ -134,10 +134,10 @@ void addScene(py::module_& module) {
       .def_property_readonly("width", [](const Scene& s) { return s.scene().width; })
       .def_property_readonly("height", [](const Scene& s) { return s.scene().height; })
       .def_property_readonly("depth", [](const Scene& s) { return s.scene().depth; })
-      .def_property_readonly("triangles", &trianglesOf)
-      .def_property_readonly("materials", &materialsOf)
-      .def_property_readonly("meshes", &meshesOf)
-      .def_property_readonly("effects", &effectsOf)
+      .def_property_readonly("triangles", &countTriangles)
+      .def_property_readonly("materials", &materialNames)
+      .def_property_readonly("meshes", &meshNames)
+      .def_property_readonly("effects", &effectReasons)
       .def("render", &renderScene, "settings"_a, "backend"_a, "device"_a, "threads"_a, "region"_a, "tolerance"_a,
            "stokes"_a, "truth"_a);
   module.def("_load", &load, "file"_a);

@@ -16,7 +16,7 @@
 
 namespace malus::python {
 
-// How to render, apart from the settings of the frame.
+// Options beside the settings of a frame.
 struct RenderOptions {
   render::Backend backend = render::Backend::embree;
   std::string device;

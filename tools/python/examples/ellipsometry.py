@@ -52,7 +52,7 @@ def write_scene(folder, preset, degrees):
 
 
 def measured_ratio(stokes):
-    """r_p / r_s per colour, from a Stokes vector whose x axis lies in the plane of incidence (p), for light that
+    """r_p / r_s per colour, from a Stokes vector whose x axis is in the plane of incidence (p), for light that
     arrives at 45 degrees."""
     s0, s1, s2, s3 = np.moveaxis(stokes, -1, 0)
     power_p, power_s = (s0 + s1) / 2, (s0 - s1) / 2

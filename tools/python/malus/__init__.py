@@ -7,7 +7,7 @@
     image.save("model.png")
 
 Angles are in degrees unless stated, lengths in metres, wavelengths in nanometres. Colours are red, green and blue: 630,
-532 and 465 nm unless the scene says otherwise. Errors are malus.Error, a ValueError, with the text of the command line.
+532 and 465 nm unless the scene states others. Errors are malus.Error, a ValueError, with the text of the command line.
 """
 
 from malus._malus import Error, Material, __version__, material, methods, presets

@@ -33,7 +33,7 @@ json parseLine(std::string_view text, const std::string& where) {
     return true;
   };
   try {
-    json value = json::parse(text, check);
+    json value = json::parse(std::string(text), check);
     if (!value.is_object()) throw Error(where, "the line is not an object", "{\"KEY\": VALUE, ...}");
     return value;
   } catch (const json::exception& error) {

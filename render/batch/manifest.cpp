@@ -97,7 +97,7 @@ std::optional<Manifest> readManifest(const std::filesystem::path& folder) {
     const std::size_t end = text.find('\n', at);
     if (end == std::string::npos) break;  // its writer was killed
     try {
-      const json line = json::parse(std::string_view(text).substr(at, end - at));
+      const json line = json::parse(text.substr(at, end - at));
       if (number == 1) {
         manifest.header = parseHeader(line);
       } else {

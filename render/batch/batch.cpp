@@ -157,7 +157,12 @@ BatchResult runBatch(const BatchSettings& settings, const Jobs& jobs, FrameRende
   result.updates = renderer.updates();
   writeManifest(settings.folder, manifest);
   console::progressDone();
-  if (interrupted()) throw Interrupted();
+  if (interrupted()) {
+    console::inform(fmt::format("{} of {} frames are finished; the same command renders the others",
+                                manifest.entries.size(),
+                                manifest.entries.size() + unfinished.size() - result.rendered));
+    throw Interrupted();
+  }
   return result;
 }
 

@@ -121,6 +121,7 @@ TEST_F(BatchCommand, KeepsFinishedFramesWhenInterrupted) {
   start.sendSignalWhen = [](std::string_view text) { return contains(text, "frame 5 of 200"); };
   const Finished stopped = batch(jobs, "frames", {"-v"}, start);
   EXPECT_EQ(stopped.exitCode, 130) << stopped.err;
+  EXPECT_TRUE(contains(stopped.err, "of 200 frames are finished")) << stopped.err;
   std::istringstream lines(readText(folder / "frames/manifest.jsonl"));
   std::size_t listed = 0;
   std::string line;

@@ -12,6 +12,7 @@ namespace malus::render {
 
 std::vector<std::string> frameOutputNames() {
   std::vector<std::string> names;
+  names.reserve(kFrameOutputs.size());
   for (const FrameOutputInfo& info : kFrameOutputs) names.emplace_back(info.name);
   return names;
 }

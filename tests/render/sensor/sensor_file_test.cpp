@@ -1,9 +1,12 @@
 // Descriptions of sensors: presets, and errors that name the file and the key.
 #include "render/sensor/sensor_file.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +16,9 @@ namespace malus::render {
 namespace {
 
 using nlohmann::json;
-const std::string kFile = (std::filesystem::path(testing::TempDir()) / "sensor_file_test.json").string();
+// Tests of several processes run at once.
+const std::string kFile =
+    (std::filesystem::path(testing::TempDir()) / fmt::format("sensor_file_test-{}.json", ::getpid())).string();
 
 Sensor read(const std::string& text) {
   std::ofstream(kFile) << text;

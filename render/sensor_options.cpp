@@ -30,12 +30,15 @@ void requireExtension(const char* option, const std::string& file, std::initiali
 
 }  // namespace
 
+CLI::Option* addSensor(CLI::App& command, std::string& sensor) {
+  return command
+      .add_option("--sensor", sensor,
+                  "Polarization sensor that the image falls on: a .json file, imx250mzr or imx250myr")
+      ->type_name("FILE|PRESET");
+}
+
 void addSensorOptions(CLI::App& command, SensorOptions& options) {
-  CLI::Option* sensor =
-      command
-          .add_option("--sensor", options.sensor,
-                      "Polarization sensor that the image falls on: a .json file, imx250mzr or imx250myr")
-          ->type_name("FILE|PRESET");
+  CLI::Option* sensor = addSensor(command, options.sensor);
   const auto add = [&](const char* name, std::string& file, const char* description) {
     command.add_option(name, file, description)->check(outputName())->type_name("FILE")->needs(sensor);
   };

@@ -24,6 +24,9 @@ struct SensorOptions {
   bool any() const { return !sensor.empty(); }
 };
 
+// --sensor
+CLI::Option* addSensor(CLI::App& command, std::string& sensor);
+// --sensor, its outputs and its noise
 void addSensorOptions(CLI::App& command, SensorOptions& options);
 
 // Registers the files that the sensor reads and writes.

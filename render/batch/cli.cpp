@@ -21,6 +21,7 @@
 #include "render/options.h"
 #include "render/output_folder.h"
 #include "render/scene/methods.h"
+#include "render/sensor_options.h"
 
 namespace malus::render {
 namespace fs = std::filesystem;
@@ -30,6 +31,7 @@ namespace {
 struct BatchArguments {
   PackInput input;
   std::string jobs, folder;
+  SensorOptions sensor;  // without its files
   FrameDefaults defaults;
   std::vector<std::string> outputs = {"exr"};
   std::uint64_t seed = 0;
@@ -42,6 +44,7 @@ void checkFiles(const BatchArguments& a, const Jobs& jobs) {
   OutputFiles files;
   addInputs(files, a.input);
   files.addInput(a.jobs);
+  addSensorFiles(files, a.sensor);
   files.addOutputFolder(a.folder, "--output");
   files.addOutput(fs::path(a.folder) / kManifestFile, "--output");
   std::error_code ignored;
@@ -77,6 +80,8 @@ void runBatchCommand(const BatchArguments& a) {
   settings.defaults = a.defaults;
   settings.seed = a.seed;
   settings.defaults.outputs = FrameOutputs(a.outputs, "--outputs");
+  if (const std::optional<Sensor> sensor = readSensor(a.sensor))
+    settings.defaults.sensor = std::make_shared<const Sensor>(*sensor);
   if (!a.shard.empty()) settings.shard = *parseShard(a.shard);
   makeAnalyser(a.defaults.filter);  // refuses filters that exclude each other
   const Jobs jobs(readJobLines(a.jobs), a.seed);
@@ -116,6 +121,7 @@ void addBatchCommand(CLI::App& app) {
   addFilterOptions(*command, a->defaults.filter);
   addEffects(*command, a->defaults.job.effects);
   addExposure(*command, a->defaults.exposure);
+  addSensor(*command, a->sensor.sensor);
   addCompression(*command, a->defaults.compression);
   command->add_option("--seed", a->seed, "Seed of the values that jobs draw at random")
       ->transform(wholeNumberBetween(0, 0xffffffff))

@@ -13,6 +13,7 @@
 #include "render/batch/camera_keys.h"
 #include "render/ground_truth/camera_matrices.h"
 #include "render/scene/methods.h"
+#include "render/sensor/raw_output.h"
 
 namespace malus::render {
 using bake::StrictObject;
@@ -104,6 +105,28 @@ void applyOutputs(StrictObject& object, const FrameOutputs& outputs, JobSettings
                 "stokes");
 }
 
+// The sensor of a frame, if an output needs it. The noise follows from the seed of the frame.
+void readSensor(Frame& frame, const FrameDefaults& defaults, const Region& region, const std::string& where) {
+  const std::string output = frame.outputs.sensorOutput();
+  if (output.empty()) return;
+  if (!defaults.sensor) throw Error(where, fmt::format("output '{}' needs a sensor", output), "--sensor FILE|PRESET");
+  frame.sensor = defaults.sensor;
+  frame.exposure = {frame.exposureEv, frame.seed, 0, region.x, region.y};
+  const auto period = static_cast<std::uint32_t>(patternPeriod(frame.sensor->pattern));
+  for (const std::uint32_t pixels : {region.width, region.height, region.x, region.y})
+    if (pixels % period != 0)
+      throw Error(where, "the image does not fit the pattern of the sensor",
+                  fmt::format("a width, height and region of multiples of {} pixels", period), std::to_string(pixels));
+}
+
+// The conditions of a raw image, apart from the image.
+json sensorJson(const Frame& frame) {
+  if (!frame.sensor) return nullptr;
+  json sensor = describeRaw({}, *frame.sensor, frame.exposure, nullptr);
+  for (const char* key : {"malus", "width", "height", "saturatedPixels", "image"}) sensor.erase(key);
+  return sensor;
+}
+
 json toJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 // Every setting by its value, so that frames that are made in the same way have the same text.
@@ -134,6 +157,7 @@ json settingsJson(const Frame& frame, const FrameDefaults& defaults, const Rende
             {"middle", {c.middleX, c.middleY}}}},
           {"scene", frame.surfaceKeys},
           {"outputs", frame.outputs.names()},
+          {"sensor", sensorJson(frame)},
           {"compression", image::kExrCompressionNames[static_cast<std::size_t>(defaults.compression)]}};
 }
 
@@ -159,6 +183,7 @@ Frame readFrame(const FrameJob& job, const FrameDefaults& defaults, const pack::
   } catch (const Error& error) {
     throw Error(job.where, error.what());
   }
+  readSensor(frame, defaults, parameters.region, job.where);
   frame.camera = scene.camera;
   if (object.has("camera"))
     frame.camera = readCamera(object.object("camera"), scene, parameters.width, parameters.height, job.where);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,7 @@
 #include "render/batch/overrides.h"
 #include "render/filter_options.h"
 #include "render/job.h"
+#include "render/sensor/expose.h"
 
 namespace malus::render {
 
@@ -25,6 +27,7 @@ struct FrameDefaults {
   std::optional<double> exposure;  // else the pack's
   FrameOutputs outputs;
   image::ExrCompression compression = image::ExrCompression::zip;
+  std::shared_ptr<const Sensor> sensor{};  // of the outputs raw, mask and sensor-stokes
 };
 
 struct Frame {
@@ -35,6 +38,8 @@ struct Frame {
   double exposureEv = 0;
   FrameOutputs outputs;
   pack::Camera camera;
+  std::shared_ptr<const Sensor> sensor;  // null unless an output needs it
+  Exposure exposure;                     // of the sensor
   SceneSurfaces surfaces;
   nlohmann::json surfaceKeys;  // of the job, by which surfaces differs from the pack
   nlohmann::json settings;     // every setting that the files depend on

@@ -35,6 +35,12 @@ std::string FrameOutputs::stokesOutput() const {
   return {};
 }
 
+std::string FrameOutputs::sensorOutput() const {
+  for (const FrameOutputInfo& info : kFrameOutputs)
+    if (info.readsSensor && has(info.output)) return info.name;
+  return {};
+}
+
 bool FrameOutputs::needImage() const { return (bits_ & ~(bit(FrameOutput::truth) | bit(FrameOutput::camera))) != 0; }
 
 std::vector<std::string> FrameOutputs::names() const {

@@ -10,21 +10,25 @@
 
 namespace malus::render {
 
-enum class FrameOutput : std::uint32_t { exr, png, dolp, aolp, truth, camera };
+enum class FrameOutput : std::uint32_t { exr, png, dolp, aolp, truth, camera, raw, mask, sensorStokes };
 
 struct FrameOutputInfo {
   FrameOutput output;
   const char* name;    // in --outputs and in jobs
   const char* suffix;  // behind the name of the frame
   bool readsStokes;    // needs a method with Stokes vectors
+  bool readsSensor;    // needs a sensor
 };
-inline constexpr std::array<FrameOutputInfo, 6> kFrameOutputs = {{
-    {FrameOutput::exr, "exr", ".exr", false},
-    {FrameOutput::png, "png", ".png", false},
-    {FrameOutput::dolp, "dolp", ".dolp.exr", true},
-    {FrameOutput::aolp, "aolp", ".aolp.exr", true},
-    {FrameOutput::truth, "truth", ".truth.exr", false},
-    {FrameOutput::camera, "camera", ".json", false},
+inline constexpr std::array<FrameOutputInfo, 9> kFrameOutputs = {{
+    {FrameOutput::exr, "exr", ".exr", false, false},
+    {FrameOutput::png, "png", ".png", false, false},
+    {FrameOutput::dolp, "dolp", ".dolp.exr", true, false},
+    {FrameOutput::aolp, "aolp", ".aolp.exr", true, false},
+    {FrameOutput::truth, "truth", ".truth.exr", false, false},
+    {FrameOutput::camera, "camera", ".json", false, false},
+    {FrameOutput::raw, "raw", ".raw.png", true, true},
+    {FrameOutput::mask, "mask", ".mask.png", true, true},
+    {FrameOutput::sensorStokes, "sensor-stokes", ".sensor.exr", true, true},
 }};
 
 class FrameOutputs {
@@ -36,6 +40,8 @@ class FrameOutputs {
   bool has(FrameOutput output) const { return (bits_ & bit(output)) != 0; }
   // A name of an output that needs Stokes vectors; empty if none does.
   std::string stokesOutput() const;
+  // The same of a sensor.
+  std::string sensorOutput() const;
   // Whether an image is rendered: not for ground truth and camera alone.
   bool needImage() const;
   std::vector<std::string> names() const;

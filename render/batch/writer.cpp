@@ -7,9 +7,44 @@
 #include "render/ground_truth/truth_image.h"
 #include "render/image/output.h"
 #include "render/image/polarization.h"
+#include "render/sensor/demosaic.h"
+#include "render/sensor/expose.h"
+#include "render/sensor/raw_output.h"
 
 namespace malus::render {
 namespace fs = std::filesystem;
+
+namespace {
+
+// Calls add(name) for each file of the sensor that is written.
+template <class Add>
+void writeSensor(const fs::path& folder, const Frame& frame, const RenderedFrame& rendered,
+                 image::ExrCompression compression, Add add) {
+  if (!frame.sensor) return;
+  const Sensor& sensor = *frame.sensor;
+  const RawImage raw = expose(rendered.image, sensor, frame.exposure);
+  const auto write = [&](FrameOutput output, const auto& writer) {
+    if (!frame.outputs.has(output)) return;
+    const std::string name = frame.name + kFrameOutputs[static_cast<std::size_t>(output)].suffix;
+    writer(folder / name);
+    add(name);
+  };
+  write(FrameOutput::raw, [&](const fs::path& path) {
+    const fs::path description = rawDescriptionFile(path);
+    writeFile(description, jsonText(describeRaw(raw, sensor, frame.exposure, {{"frame", frame.name}})) + "\n");
+    add(description.filename().string());
+    writeRaw(path, raw, sensor);
+  });
+  write(FrameOutput::mask, [&](const fs::path& path) { writeSaturation(path, raw); });
+  write(FrameOutput::sensorStokes, [&](const fs::path& path) {
+    image::Image stokes = demosaic(raw, sensor, frame.exposureEv);
+    stokes.attributes = rendered.image.attributes;
+    stokes.attributes.emplace_back("malus:sensor", sensor.name);
+    image::writeExr(path, stokes, compression);
+  });
+}
+
+}  // namespace
 
 ManifestEntry writeFrame(const fs::path& folder, const Frame& frame, RenderedFrame rendered,
                          image::ExrCompression compression, const std::string& hash) {
@@ -30,6 +65,8 @@ ManifestEntry writeFrame(const fs::path& folder, const Frame& frame, RenderedFra
     nlohmann::json document = {{"frame", frame.name}, {"camera", rendered.camera}, {"settings", frame.settings}};
     writeFile(path, jsonText(document) + "\n");
   });
+  writeSensor(folder, frame, rendered, compression,
+              [&](const std::string& name) { entry.files.push_back(describeFile(folder, name)); });
   return entry;
 }
 

@@ -1,6 +1,7 @@
 // `malus batch` and `malus merge`: images of `malus render`, interrupted and killed batches, bad jobs.
 #include <csignal>
 #include <set>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -88,6 +89,38 @@ TEST_F(BatchCommand, GroundTruthIsThatOfRender) {
 }
 
 // A batch that is killed leaves whole files, and the next one adds the others.
+TEST_F(BatchCommand, SensorsHaveTheNoiseOfTheirFrame) {
+  const std::string jobs = "{\"repeat\": 2, \"name\": \"f\"}\n";
+  const std::vector<std::string> options = {"--sensor", "imx250mzr", "--outputs", "raw,mask,sensor-stokes",
+                                            "--width",  "32"};
+  for (const char* output : {"frames", "again"}) {
+    const Finished done = batch(jobs, output, options);
+    ASSERT_EQ(done.exitCode, 0) << done.err;
+  }
+  const auto raw = [&](const char* name) { return readText(folder / (std::string(name) + ".raw.png")); };
+  EXPECT_EQ(raw("frames/f-0"), raw("again/f-0"));
+  EXPECT_NE(raw("frames/f-0"), raw("frames/f-1")) << "the same view with other noise";
+  const json description = json::parse(readText(folder / "frames/f-1.raw.json"));
+  std::istringstream manifest(readText(folder / "frames/manifest.jsonl"));
+  std::string line;
+  for (int i = 0; i < 3; ++i) std::getline(manifest, line);
+  const json entry = json::parse(line);
+  EXPECT_EQ(description.at("seed"), entry.at("seed"));
+  EXPECT_EQ(entry.at("settings").at("sensor").at("fullWell"), description.at("fullWell"));
+  EXPECT_EQ(entry.at("files").size(), 4u);
+  EXPECT_TRUE(fs::exists(folder / "frames/f-1.mask.png") && fs::exists(folder / "frames/f-1.sensor.exr"));
+
+  // Without a sensor, with an unknown one, and with a size that does not fit its pattern.
+  const auto fails = [&](std::vector<std::string> more, int code, const char* word) {
+    const Finished done = batch(jobs, "none", std::move(more));
+    EXPECT_EQ(done.exitCode, code) << done.err;
+    EXPECT_TRUE(contains(done.err, word)) << done.err;
+  };
+  fails({"--outputs", "raw"}, 1, "--sensor");
+  fails({"--outputs", "raw", "--sensor", "imx250mzz"}, 2, "imx250mzr");
+  fails({"--outputs", "raw", "--sensor", "imx250mzr", "--width", "33", "--height", "20"}, 1, "multiples of 2");
+}
+
 TEST_F(BatchCommand, ContinuesAfterAKill) {
   const std::string jobs = "{\"repeat\": 30, \"name\": \"f\", \"polarizer\": {\"uniform\": [0, 180]}, \"width\": 200}";
   ASSERT_EQ(batch(jobs, "whole", {"--outputs", "exr,png,truth"}).exitCode, 0);

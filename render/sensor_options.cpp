@@ -12,7 +12,6 @@
 #include "meshprep/json_text.h"
 #include "meshprep/number_option.h"
 #include "meshprep/output_option.h"
-#include "render/sensor/demosaic.h"
 #include "render/sensor/expose.h"
 #include "render/sensor/raw_output.h"
 #include "render/sensor/sensor_file.h"
@@ -113,12 +112,8 @@ std::vector<std::string> writeSensorOutputs(const SensorOptions& options, const 
   write(options.raw.empty() ? "" : rawDescriptionFile(options.raw).string(),
         [&](const std::string& file) { writeFile(file, jsonText(describeRaw(raw, sensor, exposure, scene)) + "\n"); });
   write(options.mask, [&](const std::string& file) { writeSaturation(file, raw); });
-  write(options.stokes, [&](const std::string& file) {
-    image::Image stokes = demosaic(raw, sensor, exposureEv);
-    stokes.attributes = image.attributes;
-    stokes.attributes.emplace_back("malus:sensor", sensor.name);
-    image::writeExr(file, stokes, compression);
-  });
+  write(options.stokes,
+        [&](const std::string& file) { writeSensorStokes(file, raw, sensor, exposureEv, image, compression); });
   return written;
 }
 

@@ -7,7 +7,6 @@
 #include "render/ground_truth/truth_image.h"
 #include "render/image/output.h"
 #include "render/image/polarization.h"
-#include "render/sensor/demosaic.h"
 #include "render/sensor/expose.h"
 #include "render/sensor/raw_output.h"
 
@@ -37,10 +36,7 @@ void writeSensor(const fs::path& folder, const Frame& frame, const RenderedFrame
   });
   write(FrameOutput::mask, [&](const fs::path& path) { writeSaturation(path, raw); });
   write(FrameOutput::sensorStokes, [&](const fs::path& path) {
-    image::Image stokes = demosaic(raw, sensor, frame.exposureEv);
-    stokes.attributes = rendered.image.attributes;
-    stokes.attributes.emplace_back("malus:sensor", sensor.name);
-    image::writeExr(path, stokes, compression);
+    writeSensorStokes(path, raw, sensor, frame.exposureEv, rendered.image, compression);
   });
 }
 

@@ -77,6 +77,14 @@ void writeSaturation(const std::filesystem::path& path, const RawImage& raw) {
   image::writePng(path, raw.width, raw.height, 1, raw.saturation);
 }
 
+void writeSensorStokes(const std::filesystem::path& path, const RawImage& raw, const Sensor& sensor, double exposureEv,
+                       const image::Image& rendered, image::ExrCompression compression) {
+  image::Image stokes = demosaic(raw, sensor, exposureEv);
+  stokes.attributes = rendered.attributes;
+  stokes.attributes.emplace_back("malus:sensor", sensor.name);
+  image::writeExr(path, stokes, compression);
+}
+
 std::filesystem::path rawDescriptionFile(const std::filesystem::path& raw) {
   std::filesystem::path file = raw;
   return file.replace_extension(".json");

@@ -1,5 +1,5 @@
-// Files of a raw image: the numbers, the mask of saturated pixels, and a JSON file with what is needed to interpret
-// them.
+// Files of a raw image: the numbers, the mask of saturated pixels, the Stokes vectors that follow from them, and a JSON
+// file with what is needed to interpret them.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meshprep/base/image.h"
 #include "render/sensor/expose.h"
 #include "render/sensor/sensor.h"
 
@@ -19,6 +20,11 @@ void writeRaw(const std::filesystem::path& path, const RawImage& raw, const Sens
 
 // Writes the mask as an 8-bit PNG: 255 for saturated pixels, else 0.
 void writeSaturation(const std::filesystem::path& path, const RawImage& raw);
+
+// Writes the Stokes vectors that are demosaicked from the raw image, with the attributes of the
+// rendered image.
+void writeSensorStokes(const std::filesystem::path& path, const RawImage& raw, const Sensor& sensor, double exposureEv,
+                       const image::Image& rendered, image::ExrCompression compression);
 
 // Name of the JSON file of a raw image: the same with the extension .json.
 std::filesystem::path rawDescriptionFile(const std::filesystem::path& raw);

@@ -1,7 +1,9 @@
 #include "render/sensor/sensor_file.h"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -62,7 +64,30 @@ void checkValues(bake::StrictObject& top, const Sensor& sensor) {
              fmt::format("{:g}", sensor.blackLevel));
 }
 
-Sensor readDocument(const json& document, const std::string& location) {
+// Sets the key of each field; a value without a key is not set.
+class KeyWriter {
+ public:
+  explicit KeyWriter(json& document) : document_(document) {}
+  template <class T>
+  void operator()(const pack::Field& field, const std::optional<T>& value) {
+    if (value) (*this)(field, *value);
+  }
+  template <class T>
+  void operator()(const pack::Field& field, const T& value) {
+    json& key = document_[std::string(field.name)];
+    if constexpr (std::is_same_v<T, glm::dvec3>)
+      key = {value.x, value.y, value.z};
+    else
+      key = value;
+  }
+
+ private:
+  json& document_;
+};
+
+}  // namespace
+
+Sensor readSensorDocument(const json& document, const std::string& location) {
   Sensor sensor;
   bake::StrictObject top(document, location, "");
   top.integer("malus", 1, 1);
@@ -79,7 +104,12 @@ Sensor readDocument(const json& document, const std::string& location) {
   return sensor;
 }
 
-}  // namespace
+json sensorDocument(const Sensor& sensor) {
+  json document = {
+      {"malus", 1}, {"pattern", kMosaicPatternNames[static_cast<std::size_t>(sensor.pattern)]}, {"bits", sensor.bits}};
+  visitSensorKeys(KeyWriter(document), sensor);
+  return document;
+}
 
 std::vector<std::string> sensorPresets() {
   std::vector<std::string> names;
@@ -90,7 +120,7 @@ std::vector<std::string> sensorPresets() {
 bool isSensorFile(const std::string& name) { return name.find_first_of("./") != std::string::npos; }
 
 Sensor readSensor(const std::string& name) {
-  if (!isSensorFile(name)) return readDocument(presetDocument(name, "--sensor"), "preset " + name);
+  if (!isSensorFile(name)) return readSensorDocument(presetDocument(name, "--sensor"), "preset " + name);
   json document = bake::readJsonFile(name, "the schema of render/sensor/SENSOR.md");
   bake::StrictObject top(document, name, "");
   if (top.has("preset")) {
@@ -100,7 +130,7 @@ Sensor readSensor(const std::string& name) {
     merged.update(document);
     document = std::move(merged);
   }
-  return readDocument(document, name);
+  return readSensorDocument(document, name);
 }
 
 }  // namespace malus::render

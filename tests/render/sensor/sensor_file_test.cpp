@@ -86,6 +86,20 @@ TEST(SensorFile, ReadsEveryKey) {
   EXPECT_EQ(s.blackLevel, 60);
   EXPECT_EQ(electronsPerNumber(s), 9);
   EXPECT_EQ(electronsPerRadiance(s, 5), 4000);
+  EXPECT_EQ(sensorDocument(s), document);
+}
+
+// A sensor is that of its document, also without the optional keys.
+TEST(SensorFile, WritesEveryKey) {
+  for (const json& document : {kMono, with(kMono, "gain", 0.1), with(kMono, "darkSignal", 1.0 / 3)}) {
+    const Sensor sensor = read(document),
+                 again = readSensorDocument(json::parse(sensorDocument(sensor).dump()), "test");
+    EXPECT_EQ(sensorDocument(again), sensorDocument(sensor));
+    EXPECT_EQ(again.gain, sensor.gain);
+    EXPECT_EQ(again.electronsPerRadiance, sensor.electronsPerRadiance);
+    EXPECT_EQ(again.darkSignal, sensor.darkSignal);
+    EXPECT_EQ(again.transmission, glm::dvec3(1));
+  }
 }
 
 TEST(SensorFile, HasDefaults) {

@@ -17,14 +17,16 @@ struct BatchSettings {
   std::filesystem::path folder;  // exists
   FrameDefaults defaults;
   std::uint64_t seed = 0;
-  Shard shard;
+  Shard shard;         // of the frames, or of the tiles of all frames
+  bool tiles = false;  // store tiles of frames (tiles.h), which `malus merge` puts together
 };
 
 struct BatchResult {
-  std::size_t rendered = 0, reused = 0;  // frames of the shard
+  std::size_t rendered = 0, reused = 0;  // frames or tiles of the shard
+  std::size_t tiles = 0;                 // of all frames and shards; 0 of a batch of whole frames
   double seconds = 0;                    // of rendering and writing
   unsigned builds = 0, updates = 0;      // of FrameRenderer
-  double framesPerMinute() const { return seconds > 0 ? 60 * static_cast<double>(rendered) / seconds : 0; }
+  double perMinute() const { return seconds > 0 ? 60 * static_cast<double>(rendered) / seconds : 0; }
 };
 
 // The version and the commit of this program.

@@ -16,6 +16,8 @@
 #include "meshprep/json_text.h"
 #include "meshprep/output_option.h"
 #include "render/batch/batch.h"
+#include "render/batch/tile_files.h"
+#include "render/batch/tiles.h"
 #include "render/effects_option.h"
 #include "render/filter_options.h"
 #include "render/options.h"
@@ -36,6 +38,7 @@ struct BatchArguments {
   std::vector<std::string> outputs = {"exr"};
   std::uint64_t seed = 0;
   std::string shard;
+  bool tiles = false;
   bool json = false;
 };
 
@@ -48,6 +51,12 @@ void checkFiles(const BatchArguments& a, const Jobs& jobs) {
   files.addOutputFolder(a.folder, "--output");
   files.addOutput(fs::path(a.folder) / kManifestFile, "--output");
   std::error_code ignored;
+  if (a.tiles) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(a.folder, ignored))
+      if (isTileFileName(entry.path().filename().string())) files.addOutput(entry.path(), "--output");
+    files.check();
+    return;
+  }
   for (std::size_t i = 0; fs::exists(a.folder, ignored) && i < jobs.size(); ++i)
     for (const FrameOutputInfo& info : kFrameOutputs)
       if (const fs::path file = fs::path(a.folder) / (jobs.name(i) + info.suffix); fs::exists(file, ignored))
@@ -57,20 +66,22 @@ void checkFiles(const BatchArguments& a, const Jobs& jobs) {
 
 void printResult(const BatchArguments& a, const std::string& scene, const Jobs& jobs, const BatchResult& result) {
   if (a.json) {
-    console::printText(jsonText({{"scene", scene},
-                                 {"frames", jobs.size()},
-                                 {"rendered", result.rendered},
-                                 {"reused", result.reused},
-                                 {"seconds", result.seconds},
-                                 {"framesPerMinute", result.framesPerMinute()},
-                                 {"accelerationBuilds", result.builds},
-                                 {"sceneUpdates", result.updates},
-                                 {"manifest", (fs::path(a.folder) / kManifestFile).string()}}) +
-                       "\n");
+    nlohmann::json document = {{"scene", scene},
+                               {"frames", jobs.size()},
+                               {"rendered", result.rendered},
+                               {"reused", result.reused},
+                               {"seconds", result.seconds},
+                               {a.tiles ? "tilesPerMinute" : "framesPerMinute", result.perMinute()},
+                               {"accelerationBuilds", result.builds},
+                               {"sceneUpdates", result.updates},
+                               {"manifest", (fs::path(a.folder) / kManifestFile).string()}};
+    if (a.tiles) document["tiles"] = result.tiles;
+    console::printText(jsonText(document) + "\n");
     return;
   }
-  console::printLine("{}: {} frames rendered in {:.1f} s ({:.3g} per minute), {} finished before; {}", scene,
-                     result.rendered, result.seconds, result.framesPerMinute(), result.reused,
+  const std::string unit = a.tiles ? fmt::format("of {} tiles", result.tiles) : "frames";
+  console::printLine("{}: {} {} rendered in {:.1f} s ({:.3g} per minute), {} finished before; {}", scene,
+                     result.rendered, unit, result.seconds, result.perMinute(), result.reused,
                      (fs::path(a.folder) / kManifestFile).string());
 }
 
@@ -83,6 +94,7 @@ void runBatchCommand(const BatchArguments& a) {
   if (const std::optional<Sensor> sensor = readSensor(a.sensor))
     settings.defaults.sensor = std::make_shared<const Sensor>(*sensor);
   if (!a.shard.empty()) settings.shard = *parseShard(a.shard);
+  settings.tiles = a.tiles;
   makeAnalyser(a.defaults.filter);  // refuses filters that exclude each other
   const Jobs jobs(readJobLines(a.jobs), a.seed);
   checkFiles(a, jobs);
@@ -129,6 +141,10 @@ void addBatchCommand(CLI::App& app) {
   command->add_option("--shard", a->shard, "Render part K of N of the frames only: every N-th index")
       ->check(shardText())
       ->type_name("K/N");
+  command->add_flag("--tiles", a->tiles,
+                    fmt::format("Render tiles of {0} x {0} pixels, divided among the shards; 'malus merge' writes the "
+                                "frames",
+                                kFrameTileSide));
   command->add_flag("--json", a->json, "Print the result as JSON");
   command->callback([a] { runBatchCommand(*a); });
 }

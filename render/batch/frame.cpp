@@ -105,15 +105,16 @@ void applyOutputs(StrictObject& object, const FrameOutputs& outputs, JobSettings
                 "stokes");
 }
 
-// The sensor of a frame, if an output needs it. The noise follows from the seed of the frame.
-void readSensor(Frame& frame, const FrameDefaults& defaults, const Region& region, const std::string& where) {
+// The sensor of a frame, if an output needs it.
+void readSensor(Frame& frame, const FrameDefaults& defaults, const std::string& where) {
   const std::string output = frame.outputs.sensorOutput();
   if (output.empty()) return;
   if (!defaults.sensor) throw Error(where, fmt::format("output '{}' needs a sensor", output), "--sensor FILE|PRESET");
   frame.sensor = defaults.sensor;
-  frame.exposure = {frame.exposureEv, frame.seed, 0, region.x, region.y};
+  frame.exposure = frameExposure(frame.exposureEv, frame.seed, frame.region);
   const auto period = static_cast<std::uint32_t>(patternPeriod(frame.sensor->pattern));
-  for (const std::uint32_t pixels : {region.width, region.height, region.x, region.y})
+  const Region& r = frame.region;
+  for (const std::uint32_t pixels : {r.width, r.height, r.x, r.y})
     if (pixels % period != 0)
       throw Error(where, "the image does not fit the pattern of the sensor",
                   fmt::format("a width, height and region of multiples of {} pixels", period), std::to_string(pixels));
@@ -163,6 +164,10 @@ json settingsJson(const Frame& frame, const FrameDefaults& defaults, const Rende
 
 }  // namespace
 
+Exposure frameExposure(double exposureEv, std::uint64_t seed, const Region& region) {
+  return {exposureEv, seed, 0, region.x, region.y};
+}
+
 Frame readFrame(const FrameJob& job, const FrameDefaults& defaults, const pack::Scene& scene) {
   Frame frame;
   frame.index = job.index;
@@ -183,7 +188,8 @@ Frame readFrame(const FrameJob& job, const FrameDefaults& defaults, const pack::
   } catch (const Error& error) {
     throw Error(job.where, error.what());
   }
-  readSensor(frame, defaults, parameters.region, job.where);
+  frame.region = parameters.region;
+  readSensor(frame, defaults, job.where);
   frame.camera = scene.camera;
   if (object.has("camera"))
     frame.camera = readCamera(object.object("camera"), scene, parameters.width, parameters.height, job.where);

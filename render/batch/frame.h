@@ -37,13 +37,17 @@ struct Frame {
   JobSettings job;  // analyser, needsLinear and storesStokes follow from the filter and the outputs
   double exposureEv = 0;
   FrameOutputs outputs;
+  Region region;  // that is rendered
   pack::Camera camera;
   std::shared_ptr<const Sensor> sensor;  // null unless an output needs it
-  Exposure exposure;                     // of the sensor
+  Exposure exposure;                     // frameExposure()
   SceneSurfaces surfaces;
   nlohmann::json surfaceKeys;  // of the job, by which surfaces differs from the pack
   nlohmann::json settings;     // every setting that the files depend on
 };
+
+// Exposure of the sensor: the noise follows from the seed of the frame and the position in the whole image.
+Exposure frameExposure(double exposureEv, std::uint64_t seed, const Region& region);
 
 // scene: that of the pack. Throws Error that names the line and the key.
 Frame readFrame(const FrameJob& job, const FrameDefaults& defaults, const pack::Scene& scene);

@@ -118,7 +118,7 @@ std::string FrameRenderer::device() {
   return backend_ == Backend::embree ? text.substr(0, text.find(',')) : text;
 }
 
-RenderedFrame FrameRenderer::render(const Frame& frame) {
+RenderedFrame FrameRenderer::render(const Frame& frame, const Region& part) {
   applySurfaces(frame);
   RenderParameters parameters = renderParameters(frame.job, pack_.scene);
   const ImageChoice choice = chooseImage(frame.job, parameters, pack_.scene);
@@ -130,14 +130,16 @@ RenderedFrame FrameRenderer::render(const Frame& frame) {
   RenderedFrame rendered;
   rendered.method = methodName(backend_, choice.method);
   rendered.camera = cameraJson(pack_.scene, parameters);
+  RenderParameters traced = parameters;
+  traced.region = part;
   if (frame.outputs.needImage()) {
-    RenderResult result = currentRenderer().render(choice.method, parameters);
+    RenderResult result = currentRenderer().render(choice.method, traced);
     rendered.traceMs = result.cost.traceMs;
     result.device = device();  // on which files depend, unlike the number of threads
     rendered.image = takeImage(result, pack_, parameters, backendInfo(backend_).name, rendered.method);
   }
   if (frame.outputs.has(FrameOutput::truth))
-    rendered.truth = truthImage(currentTruth().render(parameters), pack_, parameters);
+    rendered.truth = truthImage(currentTruth().render(traced), pack_, parameters, part);
   return rendered;
 }
 

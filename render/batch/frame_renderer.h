@@ -17,7 +17,7 @@
 
 namespace malus::render {
 
-// The contents of the files of a frame.
+// The contents of the files of a frame, or of a tile of it.
 struct RenderedFrame {
   std::string method;     // that rendered, after --effects
   image::Image image;     // empty if no output needs it
@@ -37,8 +37,10 @@ class FrameRenderer {
   const pack::Scene& scene() const { return base_; }
   std::uint64_t packHash() const { return pack_.hash; }
 
-  // Prints each warning once. Throws as Renderer::render().
-  RenderedFrame render(const Frame& frame);
+  // Prints each warning once. part: the pixels of a tile alone; the attributes are those of the frame. Throws as
+  // Renderer::render().
+  RenderedFrame render(const Frame& frame) { return render(frame, frame.region); }
+  RenderedFrame render(const Frame& frame, const Region& part);
 
   // Renderer::device() without the number of threads. Makes the renderer.
   std::string device();

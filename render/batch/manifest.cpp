@@ -24,32 +24,22 @@ std::string hashText(std::span<const std::byte> bytes) { return fmt::format("{:0
 
 std::string headerLine(const ManifestHeader& h) {
   const Producer& p = h.producer;
-  return jsonText({{"malusBatch", kVersion},
-                   {"scene", h.scene},
-                   {"pack", h.pack},
-                   {"seed", h.seed},
-                   {"frames", h.frames},
-                   {"program", p.program},
-                   {"backend", p.backend},
-                   {"device", p.device},
-                   {"processor", p.processor}},
-                  -1) +
-         "\n";
+  json line = {{"malusBatch", kVersion}, {"scene", h.scene},   {"pack", h.pack},
+               {"seed", h.seed},         {"frames", h.frames}, {"program", p.program},
+               {"backend", p.backend},   {"device", p.device}, {"processor", p.processor}};
+  if (h.tileSide > 0) line["tileSide"] = h.tileSide;
+  return jsonText(line, -1) + "\n";
 }
 
-std::string entryLine(const ManifestEntry& e) {
+// hasTile: the entry is a tile.
+std::string entryLine(const ManifestEntry& e, bool hasTile) {
   json files = json::array();
   for (const ManifestFile& file : e.files)
     files.push_back({{"file", file.name}, {"bytes", file.bytes}, {"xxh64", file.hash}});
-  return jsonText({{"index", e.index},
-                   {"name", e.name},
-                   {"hash", e.hash},
-                   {"seed", e.seed},
-                   {"method", e.method},
-                   {"settings", e.settings},
-                   {"files", files}},
-                  -1) +
-         "\n";
+  json line = {{"index", e.index},   {"name", e.name},         {"hash", e.hash}, {"seed", e.seed},
+               {"method", e.method}, {"settings", e.settings}, {"files", files}};
+  if (hasTile) line["tile"] = e.tile;
+  return jsonText(line, -1) + "\n";
 }
 
 ManifestHeader parseHeader(const json& line) {
@@ -58,12 +48,15 @@ ManifestHeader parseHeader(const json& line) {
           line.at("pack"),
           line.at("seed"),
           line.at("frames"),
-          {line.at("program"), line.at("backend"), line.at("device"), line.at("processor")}};
+          {line.at("program"), line.at("backend"), line.at("device"), line.at("processor")},
+          line.value("tileSide", 0u)};
 }
 
 ManifestEntry parseEntry(const json& line) {
-  ManifestEntry entry{
-      line.at("index"), line.at("name"), line.at("hash"), line.at("seed"), line.at("method"), line.at("settings"), {}};
+  ManifestEntry entry{line.at("index"),    line.value("tile", std::uint64_t{0}),
+                      line.at("name"),     line.at("hash"),
+                      line.at("seed"),     line.at("method"),
+                      line.at("settings"), {}};
   for (const json& file : line.at("files")) {
     entry.files.push_back({file.at("file"), file.at("bytes"), file.at("xxh64")});
     if (entry.files.back().name.find('/') != std::string::npos)  // must stay in the folder
@@ -102,7 +95,8 @@ std::optional<Manifest> readManifest(const std::filesystem::path& folder) {
         manifest.header = parseHeader(line);
       } else {
         ManifestEntry entry = parseEntry(line);
-        manifest.entries[entry.index] = std::move(entry);
+        const EntryKey key = entryKey(entry);
+        manifest.entries[key] = std::move(entry);
       }
     } catch (const json::exception&) {
       throw Error(fmt::format("{}:{}", path.string(), number), "is not a line of a manifest",
@@ -116,19 +110,21 @@ std::optional<Manifest> readManifest(const std::filesystem::path& folder) {
 
 void writeManifest(const std::filesystem::path& folder, const Manifest& manifest) {
   std::string text = headerLine(manifest.header);
-  for (const auto& [index, entry] : manifest.entries) text += entryLine(entry);
+  for (const auto& [key, entry] : manifest.entries) text += entryLine(entry, manifest.header.tileSide > 0);
   writeFile(folder / kManifestFile, text);
 }
 
-ManifestAppender::ManifestAppender(const std::filesystem::path& folder)
-    : path_((folder / kManifestFile).string()), file_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)) {
+ManifestAppender::ManifestAppender(const std::filesystem::path& folder, const ManifestHeader& header)
+    : path_((folder / kManifestFile).string()),
+      hasTiles_(header.tileSide > 0),
+      file_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)) {
   if (file_ < 0) throw Error(path_, "cannot write", "a writable file", errorText());
 }
 
 ManifestAppender::~ManifestAppender() { ::close(file_); }
 
 void ManifestAppender::add(const ManifestEntry& entry) {
-  const std::string line = entryLine(entry);
+  const std::string line = entryLine(entry, hasTiles_);
   const ssize_t written = ::write(file_, line.data(), line.size());
   if (written != static_cast<ssize_t>(line.size()))
     throw Error(path_, "cannot write", "enough space", written < 0 ? errorText() : "a part was written");

@@ -1,5 +1,6 @@
-// The list of the finished frames of a folder: manifest.jsonl, a header and a line per frame (render/batch/BATCH.md). A
-// line is added when all files of its frame are complete, so that a killed batch continues behind its last frame.
+// The list of the finished frames of a folder: manifest.jsonl, a header and a line per frame (render/batch/BATCH.md),
+// or per tile of a frame. A line is added when all of its files are complete, so that a killed batch continues behind
+// its last frame.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -30,6 +32,7 @@ struct ManifestHeader {
   std::uint64_t seed = 0;
   std::uint64_t frames = 0;  // of the whole batch, finished or not
   Producer producer;
+  std::uint32_t tileSide = 0;  // in pixels; 0: the entries are frames
 };
 
 struct ManifestFile {
@@ -38,8 +41,10 @@ struct ManifestFile {
   std::string hash;  // XXH64, 16 hexadecimal digits
 };
 
+// A frame, or a tile of it.
 struct ManifestEntry {
-  std::uint64_t index = 0;
+  std::uint64_t index = 0;  // of the frame
+  std::uint64_t tile = 0;   // within the frame; 0 of a frame without tiles
   std::string name;
   std::string hash;  // of what made the frame: frameHash()
   std::uint64_t seed = 0;
@@ -48,9 +53,13 @@ struct ManifestEntry {
   std::vector<ManifestFile> files;
 };
 
+// Frame and tile.
+using EntryKey = std::pair<std::uint64_t, std::uint64_t>;
+inline EntryKey entryKey(const ManifestEntry& entry) { return {entry.index, entry.tile}; }
+
 struct Manifest {
   ManifestHeader header;
-  std::map<std::uint64_t, ManifestEntry> entries;  // by index
+  std::map<EntryKey, ManifestEntry> entries;
 };
 
 // Hash of the pack, the settings and the program.
@@ -63,14 +72,14 @@ ManifestFile describeFile(const std::filesystem::path& folder, const std::string
 // Error for any other damage.
 std::optional<Manifest> readManifest(const std::filesystem::path& folder);
 
-// Writes the frames in the order of their indices.
+// Writes the frames in the order of their indices, and their tiles in that of their numbers.
 void writeManifest(const std::filesystem::path& folder, const Manifest& manifest);
 
 // Adds lines to a manifest that exists.
 class ManifestAppender {
  public:
   // Throws Error.
-  explicit ManifestAppender(const std::filesystem::path& folder);
+  ManifestAppender(const std::filesystem::path& folder, const ManifestHeader& header);
   ~ManifestAppender();
   ManifestAppender(const ManifestAppender&) = delete;
   ManifestAppender& operator=(const ManifestAppender&) = delete;
@@ -79,6 +88,7 @@ class ManifestAppender {
 
  private:
   std::string path_;
+  bool hasTiles_;
   int file_ = -1;
 };
 

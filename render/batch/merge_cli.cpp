@@ -46,7 +46,9 @@ void runMerge(const MergeArguments& a) {
 void addMergeCommand(CLI::App& app) {
   auto a = std::make_shared<MergeArguments>();
   CLI::App* command = app.add_subcommand("merge", "Check and join the folders of the shards of a batch");
-  command->add_option("folders", a->folders, "Folders of 'malus batch --shard'")->required()->type_name("FOLDER");
+  command->add_option("folders", a->folders, "Folders of 'malus batch' with --shard or --tiles")
+      ->required()
+      ->type_name("FOLDER");
   command->add_option("-o,--output", a->output, "Folder for all files and one manifest.jsonl")
       ->required()
       ->check(outputName())

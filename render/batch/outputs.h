@@ -44,6 +44,8 @@ class FrameOutputs {
   std::string sensorOutput() const;
   // Whether an image is rendered: not for ground truth and camera alone.
   bool needImage() const;
+  // Whether any file has pixels: not for the camera alone.
+  bool needPixels() const { return needImage() || has(FrameOutput::truth); }
   std::vector<std::string> names() const;
 
  private:

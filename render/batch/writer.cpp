@@ -44,7 +44,7 @@ void writeSensor(const fs::path& folder, const Frame& frame, const RenderedFrame
 
 ManifestEntry writeFrame(const fs::path& folder, const Frame& frame, RenderedFrame rendered,
                          image::ExrCompression compression, const std::string& hash) {
-  ManifestEntry entry{frame.index, frame.name, hash, frame.seed, rendered.method, frame.settings, {}};
+  ManifestEntry entry{frame.index, 0, frame.name, hash, frame.seed, rendered.method, frame.settings, {}};
   const auto write = [&](FrameOutput output, const auto& writer) {
     if (!frame.outputs.has(output)) return;
     const std::string name = frame.name + kFrameOutputs[static_cast<std::size_t>(output)].suffix;

@@ -63,12 +63,13 @@ std::string nameList(const std::vector<std::string>& names) { return jsonText(nl
 
 }  // namespace
 
-image::Image truthImage(std::span<const PixelTruth> pixels, const pack::Pack& pack,
-                        const RenderParameters& parameters) {
+image::Image truthImage(std::span<const PixelTruth> pixels, const pack::Pack& pack, const RenderParameters& parameters,
+                        std::optional<Region> tile) {
   const pack::Scene& scene = pack.scene;
   image::Image image;
-  image.width = static_cast<int>(parameters.region.width);
-  image.height = static_cast<int>(parameters.region.height);
+  const Region region = tile.value_or(parameters.region);
+  image.width = static_cast<int>(region.width);
+  image.height = static_cast<int>(region.height);
   image.channels.assign(kChannels.begin(), kChannels.end());
   image.pixels.reserve(pixels.size() * kChannels.size());
   for (const PixelTruth& p : pixels) appendPixel(p, scene.camera, image.pixels);

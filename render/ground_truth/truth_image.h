@@ -18,6 +18,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 
 #include "bake/pack/reader.h"
@@ -26,9 +27,10 @@
 
 namespace malus::render {
 
-// pixels: those of parameters.region. Attributes: worldToCamera, malus:scene, malus:pack, malus:region, and
-// malus:materials and malus:meshes, lists of names in JSON.
-image::Image truthImage(std::span<const PixelTruth> pixels, const pack::Pack& pack, const RenderParameters& parameters);
+// pixels: those of parameters.region, or of a tile of it. Attributes: worldToCamera, malus:scene, malus:pack,
+// malus:region (also of a tile that of parameters), and malus:materials and malus:meshes, lists of names in JSON.
+image::Image truthImage(std::span<const PixelTruth> pixels, const pack::Pack& pack, const RenderParameters& parameters,
+                        std::optional<Region> tile = {});
 
 // Writes the image as .exr. Lossy compression is replaced by zip: it would take the channels .Y for luminance.
 void writeTruth(const std::filesystem::path& path, const image::Image& truth, image::ExrCompression compression);

@@ -1,5 +1,6 @@
 // `malus batch` and `malus merge`: images of `malus render`, interrupted and killed batches, bad jobs.
 #include <csignal>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -203,6 +204,47 @@ TEST_F(BatchCommand, ShardsMerge) {
     EXPECT_EQ(readText(entry.path()), readText(folder / ("merged/" + entry.path().filename().string())))
         << entry.path();
   EXPECT_EQ(malus({"merge", folder / "one", "-o", folder / "one"}).exitCode, 2);
+}
+
+// One image in tiles: the first shard is killed, the second is interrupted, both continue.
+TEST_F(BatchCommand, TilesContinueAndMerge) {
+  const std::string job = "{\"name\": \"large\", \"width\": 1530, \"height\": 1100, \"outputs\": \"exr,png\"}";
+  ASSERT_EQ(batch(job, "whole").exitCode, 0);
+  const auto shard = [&](const char* number, int signal) {
+    Start start;
+    start.sendSignal = signal;
+    start.sendSignalWhen = [](std::string_view text) { return contains(text, "tile 8 of 15"); };
+    return batch(job, std::string("part") + number, {"--tiles", "--shard", number + std::string("/2"), "-v", "--json"},
+                 signal == 0 ? Start() : start);
+  };
+  EXPECT_EQ(shard("1", SIGKILL).signal, SIGKILL);
+  const Finished stopped = shard("2", SIGINT);
+  EXPECT_EQ(stopped.exitCode, 130);
+  EXPECT_TRUE(contains(stopped.err, "of 15 tiles are finished")) << stopped.err;
+  const auto merge = [&] { return malus({"merge", folder / "part1", folder / "part2", "-o", folder / "merged"}); };
+  expectRefusal(merge(), "manifest.jsonl", "of 30 tiles", "'large'");
+  for (const char* number : {"1", "2"}) {
+    const std::string part = std::string("part") + number;
+    std::map<std::string, std::string> before;  // complete tiles
+    for (const auto& entry : fs::directory_iterator(folder.path() / part)) {
+      const std::string name = entry.path().filename();
+      if (!name.starts_with(".") && name != "manifest.jsonl") before[name] = readText(entry.path());
+    }
+    EXPECT_GE(before.size(), 3u);
+    EXPECT_LT(before.size(), 16u);
+    const Finished rest = shard(number, 0);
+    ASSERT_EQ(rest.exitCode, 0) << rest.err;
+    const json document = json::parse(rest.out);
+    EXPECT_EQ(document.at("tiles"), 30);
+    EXPECT_GE(document.at("reused"), 1);
+    EXPECT_EQ(document.at("reused").get<int>() + document.at("rendered").get<int>(), 15);
+    for (const auto& [name, text] : before) EXPECT_TRUE(readText(folder / (part + "/" + name)) == text) << name;
+  }
+  const Finished merged = merge();
+  ASSERT_EQ(merged.exitCode, 0) << merged.err;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "whole"))
+    EXPECT_TRUE(readText(entry.path()) == readText(folder / ("merged/" + entry.path().filename().string())))
+        << entry.path();
 }
 
 TEST_F(BatchCommand, BadJobsAreOneLine) {

@@ -1,10 +1,7 @@
 // Batches: images of frames, acceleration structures that stay, resuming, shards and their merge.
 #include "render/batch/batch.h"
 
-#include <unistd.h>
-
 #include <fstream>
-#include <iterator>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -15,7 +12,7 @@
 #include "render/batch/merge.h"
 #include "render/image/output.h"
 #include "render/make_renderer.h"
-#include "tests/render/batch/batch_scene.h"
+#include "tests/render/batch/batch_folder.h"
 
 namespace malus::render {
 namespace {
@@ -23,40 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class Batch : public testing::Test {
+class Batch : public test::BatchFolder {
  protected:
-  Batch() : folder_(fs::path(testing::TempDir()) / ("malus-batch-" + std::to_string(::getpid()))) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Batch() override { fs::remove_all(folder_); }
-
-  static Jobs jobs(const std::string& text, std::uint64_t seed = 0) {
-    const fs::path file = fs::path(testing::TempDir()) / (std::to_string(::getpid()) + "-jobs.jsonl");
-    std::ofstream(file) << text;
-    return {readJobLines(file), seed};
-  }
-  fs::path sub(const std::string& name) const {
-    fs::create_directories(folder_ / name);
-    return folder_ / name;
-  }
   static BatchResult run(const fs::path& folder, const Jobs& jobs, Shard shard = {}, FrameOutputs outputs = {}) {
     FrameRenderer renderer(test::batchPack(), Backend::embree, "", 1);
     FrameDefaults defaults = test::batchDefaults();
     defaults.outputs = outputs;
     return runBatch({folder, defaults, 0, shard}, jobs, renderer);
   }
-  static std::string bytes(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-  static std::set<std::string> names(const fs::path& folder) {
-    std::set<std::string> found;
-    for (const auto& entry : fs::directory_iterator(folder)) found.insert(entry.path().filename());
-    return found;
-  }
-
-  fs::path folder_;
 };
 
 // The image of a scene by a new renderer.
@@ -180,13 +151,13 @@ TEST_F(Batch, WritesTheFilesOfEachFrame) {
   EXPECT_EQ(manifest->header.frames, 2u);
   EXPECT_EQ(manifest->header.pack, "0000000000001234");
   ASSERT_EQ(manifest->entries.size(), 2u);
-  for (const auto& [index, entry] : manifest->entries)
+  for (const auto& [key, entry] : manifest->entries)
     for (const ManifestFile& file : entry.files) {
       const ManifestFile found = describeFile(folder_, file.name);
       EXPECT_EQ(found.bytes, file.bytes);
       EXPECT_EQ(found.hash, file.hash);
     }
-  EXPECT_EQ(manifest->entries.at(1).files.size(), 3u);
+  EXPECT_EQ(manifest->entries.at({1, 0}).files.size(), 3u);
   const json camera = json::parse(bytes(folder_ / "b.json"));
   EXPECT_EQ(camera.at("camera").at("width"), 24);
 }

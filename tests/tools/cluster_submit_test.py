@@ -65,7 +65,15 @@ class Submit(unittest.TestCase):
                               env=self.environment | environment)
 
     def test_scripts_render_the_batch(self):
-        done = self.submit(*kSmall, "--dry-run")
+        self.expect_batch()
+
+    def test_scripts_render_tiles(self):
+        self.jobs.write_text('{"width": 300, "height": 3}\n' * 5, encoding="utf-8")
+        self.expect_batch("--tiles")
+
+    def expect_batch(self, *more):
+        """The scripts make the files of the command without `more`."""
+        done = self.submit(*kSmall, *more, "--dry-run")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.record.read_text(encoding="utf-8"), "")
         runs = [("prepare.sh", {"SLURM_JOB_ID": "1"})]

@@ -68,14 +68,14 @@ class Slurm(unittest.TestCase):
     def log(self, name: str) -> str:
         return (self.output / f"cluster/logs/{name}.log").read_text(encoding="utf-8")
 
-    def find_busy_node(self, tasks=(1, 2)):
+    def find_busy_node(self, tasks=(1, 2), least=2):
         """A node with one of the tasks in its middle, and the number of the task."""
         def find():
             for line in self.cluster.queue():
                 number, state, *node = line.split()
                 if state == "RUNNING" and "_" in number and node:
                     task = int(number.split("_")[1])
-                    if task in tasks and 2 <= count_frames(self.shard(task)) <= kFrames // 4:
+                    if task in tasks and least <= count_frames(self.shard(task)) <= kFrames // 4:
                         return node[0], task
             return None
         return wait_for(find, "task between 2 and 10 frames", 120)
@@ -144,6 +144,23 @@ class Slurm(unittest.TestCase):
         self.expect_merged()
         self.expect_continued(task)
         self.assertIn("code 130", self.log(f"frames-{task}"))
+
+    def test_large_image_in_tiles(self):
+        """A tiled frame; one renderer is killed at its second tile or later."""
+        jobs = self.folder / "large.jsonl"
+        jobs.write_text('{"name": "large", "width": 1500, "height": 800}\n', encoding="utf-8")
+        options = ["--outputs", "exr,png,truth"]
+        subprocess.run([os.environ["MALUS"], "batch", kModel, jobs, "-o", self.folder / "large", *options], check=True,
+                       capture_output=True, env=os.environ | {"XDG_CACHE_HOME": str(self.folder / "cache")})
+        done = self.submit(*options, "--tiles", jobs=jobs)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        node, task = self.find_busy_node(least=1)
+        for pid in self.cluster.find_processes(node, "malus"):
+            os.kill(pid, signal.SIGKILL)
+        wait_for(lambda: not self.cluster.queue(), "empty queue", 300)
+        self.assertTrue((self.output / "manifest.jsonl").exists(), self.read_logs())
+        self.assertEqual(hash_files(self.output), hash_files(self.folder / "large"))
+        self.assertIn("restart 1", self.log(f"frames-{task}"))
 
     def test_queued_batch_is_not_submitted_again(self):
         self.start()

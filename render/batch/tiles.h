@@ -20,7 +20,8 @@ class TileGrid {
   // A frame whose outputs have no pixels is one tile.
   TileGrid(const Region& region, const FrameOutputs& outputs);
 
-  // Tiles are numbered from 0: rows from the top, within a row from the left.
+  // Tiles are numbered from 0: rows from the top, within a row to the right, and from its left end on after its right
+  // end. Each row begins at another column, so that every N-th tile is not always in the same columns.
   std::size_t count() const { return std::size_t{columns_} * rows_; }
   // In pixels of the whole image, as the region of the frame. Call only with tile < count().
   Region operator[](std::size_t tile) const;

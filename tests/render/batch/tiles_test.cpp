@@ -36,6 +36,20 @@ TEST(TileGrid, CoversEveryPixelOnce) {
   EXPECT_EQ(TileGrid({0, 0, 257, 257}, FrameOutputs({"camera"}, "")).count(), 1u);
 }
 
+// A shard with every N-th tile would otherwise have few columns, and perhaps all that take long.
+TEST(TileGrid, SpreadsEveryShardOverTheColumns) {
+  constexpr std::uint32_t kRows = 60;
+  for (const std::uint32_t columns : {8u, 9u, 64u}) {
+    const TileGrid grid({0, 0, columns * kFrameTileSide, kRows * kFrameTileSide}, FrameOutputs());
+    for (std::size_t shards = 1; shards <= 66; ++shards) {
+      std::vector<std::size_t> tiles(columns);
+      for (std::size_t tile = 0; tile < grid.count(); tile += shards) ++tiles.at(grid[tile].x / kFrameTileSide);
+      const std::size_t most = std::ranges::max(tiles), all = (grid.count() + shards - 1) / shards;
+      EXPECT_LE(most, all / 2 + 1) << columns << " columns, " << shards << " shards";
+    }
+  }
+}
+
 // Tiles of odd sizes, one tile, no pixels, another projection, no Stokes vectors.
 const std::string kJobs =
     R"({"name": "all", "width": 516, "height": 260, "outputs":

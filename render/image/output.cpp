@@ -12,10 +12,18 @@
 
 #include "meshprep/base/error.h"
 #include "render/ground_truth/camera_matrices.h"
+#include "shaders/optics/language_begin.h"
 
 namespace malus::render {
 
 namespace {
+
+namespace display {
+using real = double;
+using std::exp;
+using std::pow;
+#include "shaders/display/tone_curve.h"
+}  // namespace display
 
 // Everything but the pixels.
 image::Image describeImage(const RenderResult& result, const pack::Pack& pack, const RenderParameters& parameters,
@@ -48,11 +56,8 @@ image::Image describeImage(const RenderResult& result, const pack::Pack& pack, c
 }
 
 std::uint8_t displayByte(float radiance, double gain) {
-  constexpr double kLinear = 0.7;
-  double x = std::isnan(radiance) ? 0 : std::clamp(static_cast<double>(radiance) * gain, 0.0, 1e6);
-  if (x > kLinear) x = kLinear + (1 - kLinear) * (1 - std::exp(-(x - kLinear) / (1 - kLinear)));
-  const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(s * 255));
+  const double x = std::isnan(radiance) ? 0 : std::clamp(static_cast<double>(radiance) * gain, 0.0, 1e6);
+  return static_cast<std::uint8_t>(std::lround(display::srgbCurve(display::toneCurve(x)) * 255));
 }
 
 // displayByte of one gain by table, which is monotonic: the least radiance of each byte, and the byte of the least
@@ -161,3 +166,5 @@ void writeImage(const std::filesystem::path& path, const image::Image& image, do
 }
 
 }  // namespace malus::render
+
+#include "shaders/optics/language_end.h"

@@ -7,12 +7,25 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <glm/vec3.hpp>
 
 #include "meshprep/base/error.h"
+#include "shaders/optics/language_begin.h"
 
 namespace malus::render {
 
 namespace {
+
+namespace display {
+using real = double;
+using real3 = glm::dvec3;
+using std::cos;
+using std::exp;
+using std::pow;
+using std::sin;
+#include "shaders/display/aolp_colour.h"
+#include "shaders/display/tone_curve.h"
+}  // namespace display
 
 using Stokes3 = std::array<double, 3>;
 constexpr const char* kColours[] = {"R", "G", "B"};
@@ -72,33 +85,16 @@ std::vector<std::uint8_t> coloured(const image::Image& image, F colour) {
   return bytes;
 }
 
-// The sRGB curve (IEC 61966-2-1), to a byte.
+// The sRGB curve, to a byte.
 std::uint8_t srgbByte(double linear) {
-  const double x = std::clamp(linear, 0.0, 1.0);
-  return static_cast<std::uint8_t>(
-      std::lround(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055)));
+  return static_cast<std::uint8_t>(std::lround(255 * display::srgbCurve(std::clamp(linear, 0.0, 1.0))));
 }
 
-// matplotlib's viridis at 18 equal steps from 0 to 1; straight lines between them are within 2 of 255.
 constexpr std::array<std::array<std::uint8_t, 3>, 18> kViridis = {{
-    {68, 1, 84},
-    {72, 23, 105},
-    {71, 42, 122},
-    {67, 61, 132},
-    {61, 78, 138},
-    {53, 94, 141},
-    {46, 109, 142},
-    {41, 123, 142},
-    {35, 137, 142},
-    {31, 151, 139},
-    {33, 165, 133},
-    {46, 179, 124},
-    {70, 192, 111},
-    {101, 203, 94},
-    {137, 213, 72},
-    {176, 221, 47},
-    {216, 226, 25},
-    {253, 231, 37},
+#define MALUS_COLOUR(r, g, b) {r, g, b},
+#define MALUS_LAST_COLOUR(r, g, b) \
+  { r, g, b }
+#include "shaders/display/viridis.def"
 }};
 
 void write(const std::filesystem::path& path, const image::Image& image, image::ExrCompression compression,
@@ -172,17 +168,8 @@ std::vector<std::uint8_t> dolpColours(const image::Image& image) {
 }
 
 std::array<std::uint8_t, 3> aolpColour(double aolp, double dolp) {
-  // At lightness 0.75 every hue of chroma 0.125 is within sRGB. Hue 29 degrees is that of sRGB's red.
-  constexpr double kLightness = 0.75, kChroma = 0.125, kFirstHue = 29 * kPi / 180;
-  const double fade = std::clamp(dolp / kAolpFadeDolp, 0.0, 1.0), hue = kFirstHue + 2 * aolp;
-  const double lightness = fade * kLightness, a = fade * kChroma * std::cos(hue), b = fade * kChroma * std::sin(hue);
-  // Oklab to linear sRGB, with Ottosson's numbers.
-  const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
-  const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
-  const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
-  return {srgbByte(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
-          srgbByte(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
-          srgbByte(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+  const glm::dvec3 c = display::aolpLinearColour(aolp, std::clamp(dolp / kAolpFadeDolp, 0.0, 1.0));
+  return {srgbByte(c.x), srgbByte(c.y), srgbByte(c.z)};
 }
 std::vector<std::uint8_t> aolpColours(const image::Image& image) {
   return coloured(image, [](const Stokes3& s) {
@@ -198,3 +185,5 @@ void writeAolp(const std::filesystem::path& path, const image::Image& image, ima
 }
 
 }  // namespace malus::render
+
+#include "shaders/optics/language_end.h"

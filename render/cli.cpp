@@ -19,6 +19,7 @@
 #include "meshprep/base/output_files.h"
 #include "meshprep/json_text.h"
 #include "meshprep/output_option.h"
+#include "render/batch/camera_keys.h"
 #include "render/effects_option.h"
 #include "render/embree/coverage.h"
 #include "render/filter_options.h"
@@ -47,7 +48,7 @@ struct RenderArguments {
   FilterOptions filter;
   SensorOptions sensor;
   std::vector<std::string> outputs;
-  std::string dolp, aolp, mosaic, truth, mosaicChannel = "luminance";
+  std::string view, dolp, aolp, mosaic, truth, mosaicChannel = "luminance";
   unsigned mosaicBits = 8;
   std::optional<double> exposure;
   image::ExrCompression compression = image::ExrCompression::zip;
@@ -292,7 +293,11 @@ void runRender(const RenderArguments& a) {
   checkCombinations(a);
   const std::optional<Sensor> sensor = readSensor(a.sensor);
   const std::string file = packFile(a.input);
-  const pack::Pack pack = pack::read(file);
+  pack::Pack pack = pack::read(file);
+  if (!a.view.empty()) {
+    const RenderParameters size = renderParameters(settings, pack.scene);
+    pack.scene.camera = parseCamera(a.view, pack.scene, size.width, size.height, "--view");
+  }
   if (!a.mosaic.empty()) checkMosaicSize(renderParameters(settings, pack.scene).region);
   if (sensor) checkSensorRegion(*sensor, renderParameters(settings, pack.scene).region);
   Job job(pack, settings);
@@ -402,6 +407,7 @@ void addRenderCommand(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
   CLI::App* command = app.add_subcommand("render", "Render a scene pack or a model file");
   addJobOptions(*command, a->input, a->job);
+  addView(*command, a->view);
   addFilterOptions(*command, a->filter);
   addMethodOptions(*command, a->job);
   addOutputOptions(*command, *a);

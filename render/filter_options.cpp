@@ -10,16 +10,6 @@ namespace malus::render {
 
 namespace {
 
-// "AXIS" or "AXIS,RETARDANCE" in degrees.
-std::optional<WavePlate> parseWavePlate(std::string_view text) {
-  const std::size_t comma = text.find(',');
-  const std::optional<double> axis = parseNumber(text.substr(0, comma));
-  const std::optional<double> retardance =
-      comma == std::string_view::npos ? WavePlate{}.retardanceDegrees : parseNumber(text.substr(comma + 1));
-  if (!axis || !retardance) return std::nullopt;
-  return WavePlate{*axis, *retardance};
-}
-
 CLI::Validator wavePlate() {
   return {[](std::string& text) {
             return parseWavePlate(text) ? "" : "expected AXIS[,RETARDANCE] in degrees, found " + text;
@@ -28,6 +18,15 @@ CLI::Validator wavePlate() {
 }
 
 }  // namespace
+
+std::optional<WavePlate> parseWavePlate(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  const std::optional<double> axis = parseNumber(text.substr(0, comma));
+  const std::optional<double> retardance =
+      comma == std::string_view::npos ? WavePlate{}.retardanceDegrees : parseNumber(text.substr(comma + 1));
+  if (!axis || !retardance) return std::nullopt;
+  return WavePlate{*axis, *retardance};
+}
 
 void addFilterOptions(CLI::App& command, FilterOptions& options) {
   command

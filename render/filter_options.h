@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -19,6 +20,9 @@ struct FilterOptions {
 };
 
 void addFilterOptions(CLI::App& command, FilterOptions& options);
+
+// "AXIS" or "AXIS,RETARDANCE" in degrees; nothing: other text.
+std::optional<WavePlate> parseWavePlate(std::string_view text);
 
 // The filter as one analyser. Throws CLI::ValidationError for a linear and a circular one together.
 Analyser makeAnalyser(const FilterOptions& options);

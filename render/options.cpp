@@ -78,6 +78,29 @@ void addExposure(CLI::App& command, std::optional<double>& exposure) {
       ->transform(numberBetween(-100, 100));
 }
 
+void addView(CLI::App& command, std::string& camera) {
+  command
+      .add_option(
+          "--view", camera,
+          "Camera in place of the pack's: JSON with position, target, up, verticalFovDegrees (BATCH.md, camera)")
+      ->type_name("JSON");
+}
+
+void addSamples(CLI::App& command, std::uint32_t& samples, std::uint32_t& lightSamples) {
+  command.add_option("--samples", samples, "Rays per pixel along each axis")
+      ->transform(wholeNumberBetween(1, 64))
+      ->capture_default_str();
+  command
+      .add_option("--light-samples", lightSamples,
+                  "Shadow rays to area lights, and to the environment, at each diffuse hit")
+      ->transform(wholeNumberBetween(1, kMostLightSamples))
+      ->capture_default_str();
+}
+
+CLI::Option* addFrames(CLI::App& command, unsigned& frames) {
+  return command.add_option("--frames", frames, "Number of images")->transform(wholeNumberBetween(1, 100000));
+}
+
 void addJobOptions(CLI::App& command, PackInput& input, JobSettings& settings) {
   addPackInput(command, input);
   addBackend(command, settings.backend);
@@ -85,14 +108,7 @@ void addJobOptions(CLI::App& command, PackInput& input, JobSettings& settings) {
   addWidth(command, settings.width);
   addHeight(command, settings.height);
   addDepth(command, settings.depth);
-  command.add_option("--samples", settings.samples, "Rays per pixel along each axis")
-      ->transform(wholeNumberBetween(1, 64))
-      ->capture_default_str();
-  command
-      .add_option("--light-samples", settings.lightSamples,
-                  "Shadow rays to area lights, and to the environment, at each diffuse hit")
-      ->transform(wholeNumberBetween(1, kMostLightSamples))
-      ->capture_default_str();
+  addSamples(command, settings.samples, settings.lightSamples);
   command.add_option("--region", settings.region, "Part of the image: x y width height [pixels] (default: all of it)")
       ->transform(wholeNumberBetween(0, pack::kMaxResolution))
       ->expected(4);

@@ -57,6 +57,13 @@ CLI::Option* addDepth(CLI::App& command, Value& depth) {
                    "Most specular interactions along a path (default: the pack's)");
 }
 
+// --view: a camera in place of the pack's, as render/batch/camera_keys.h reads it
+void addView(CLI::App& command, std::string& camera);
+// --samples and --light-samples
+void addSamples(CLI::App& command, std::uint32_t& samples, std::uint32_t& lightSamples);
+// --frames: number of images of a command that renders several.
+CLI::Option* addFrames(CLI::App& command, unsigned& frames);
+
 // The input, and every option of JobSettings that `render` and `sweep` share.
 void addJobOptions(CLI::App& command, PackInput& input, JobSettings& settings);
 

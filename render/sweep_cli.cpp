@@ -150,15 +150,14 @@ void runSweep(const SweepArguments& a) {
 void addSweepCommand(CLI::App& app) {
   auto a = std::make_shared<SweepArguments>();
   a->job.method = completeRecursiveMethod().name;
-  CLI::App* command = app.add_subcommand("sweep", "Render a polarizer that rotates by 180 degrees, as numbered frames");
+  CLI::App* command =
+      app.add_subcommand("sweep", "Render a polarizer that rotates by 180 degrees in equal steps, as numbered frames");
   addJobOptions(*command, a->input, a->job);
   command->add_option("-o,--output", a->folder, "Folder for frame-000.png, ... and sweep.json")
       ->required()
       ->check(outputName())
       ->type_name("FOLDER");
-  command->add_option("--frames", a->frames, "Number N of images, the polarizer at 0, 180/N, ... degrees")
-      ->transform(wholeNumberBetween(1, 100000))
-      ->capture_default_str();
+  addFrames(*command, a->frames)->capture_default_str();
   addExposure(*command, a->exposure);
   command->add_flag("--json", a->json, "Print sweep.json");
   command->callback([a] { runSweep(*a); });

@@ -13,6 +13,7 @@
 #include "bake/pack/format.h"
 #include "bake/scene_file/key_reader.h"
 #include "bake/scene_file/scene_keys.h"
+#include "meshprep/base/error.h"
 
 namespace malus::render {
 using bake::StrictObject;
@@ -102,6 +103,14 @@ pack::Camera readCamera(StrictObject object, const pack::Scene& scene, double wi
   readProjection(object, width, height, where, camera);
   object.finish();
   return camera;
+}
+
+pack::Camera parseCamera(const std::string& text, const pack::Scene& scene, double width, double height,
+                         const std::string& where) {
+  const nlohmann::json keys = nlohmann::json::parse(text, nullptr, false);
+  if (!keys.is_object())
+    throw Error(where, "is not a JSON object", R"({"position": [0, 1, 4], "target": [0, 0, 0]})", text);
+  return readCamera(StrictObject(keys, where, ""), scene, width, height, where);
 }
 
 }  // namespace malus::render

@@ -18,4 +18,8 @@ namespace malus::render {
 pack::Camera readCamera(bake::StrictObject object, const pack::Scene& scene, double width, double height,
                         const std::string& where);
 
+// The same of a JSON text: the value of --view, or a camera that `malus view` prints. where: for errors.
+pack::Camera parseCamera(const std::string& text, const pack::Scene& scene, double width, double height,
+                         const std::string& where);
+
 }  // namespace malus::render

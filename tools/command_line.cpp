@@ -23,6 +23,7 @@
 #include "render/material_cli.h"
 #include "render/polarization_probe.h"
 #include "render/sweep_cli.h"
+#include "render/viewer/cli.h"
 #include "tools/completion.h"
 
 namespace malus {
@@ -125,6 +126,7 @@ CommandLine::CommandLine() : app_("malus: polarized mirror and glass reflections
   bake::addInfoCommand(app_, render::probePolarization);
   bake::addUnpackCommand(app_);
   render::addRenderCommand(app_);
+  render::addViewCommand(app_);
   render::addCompareCommand(app_);
   render::addBenchCommand(app_);
   render::addCompareImagesCommand(app_);

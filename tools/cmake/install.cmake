@@ -1,10 +1,13 @@
-# Installed files, in two components. `runtime`: the command, its image modules, the scripts of its reports and its
+# Installed files, in two components. `runtime`: the command, its image modules, its viewer, the scripts of its reports and its
 # completion for bash. `development`: the libraries malus::pack (reader and writer of scene packs) and malus::optics
 # (headers), for find_package(malus).
 include(CMakePackageConfigHelpers)
 
 install(TARGETS malus RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 install(TARGETS malus_image_module malus_formats_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/malus COMPONENT runtime)
+if(MALUS_VIEWER)
+  install(TARGETS malus_viewer_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/malus COMPONENT runtime)
+endif()
 install(DIRECTORY tools/report DESTINATION ${CMAKE_INSTALL_DATADIR}/malus COMPONENT runtime
   PATTERN "__pycache__" EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/bash-completion/completions/malus

@@ -1,0 +1,222 @@
+#include "render/viewer/display_pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/viewer/device_stores.h"
+#include "shaders/display/display_parameters.h"
+#include "shaders/display/present_spirv.h"
+
+namespace malus::viewer {
+using vulkan::check;
+using vulkan::create;
+
+namespace {
+
+constexpr std::uint32_t kBuffers = 6;
+constexpr std::uint32_t kGroupWidth = 16, kGroupHeight = 4;  // of present.comp
+
+vulkan::Owned<VkDescriptorSetLayout> makeSetLayout(VkDevice device) {
+  std::array<VkDescriptorSetLayoutBinding, 1 + kBuffers> bindings{};
+  for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+    bindings[i].binding = i;
+    bindings[i].descriptorType = i == 0 ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    bindings[i].descriptorCount = 1;
+    bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+  }
+  VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+  info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+  info.pBindings = bindings.data();
+  return create(device, vkCreateDescriptorSetLayout, info, vkDestroyDescriptorSetLayout,
+                "vkCreateDescriptorSetLayout (display)");
+}
+
+vulkan::Owned<VkPipelineLayout> makeLayout(VkDevice device, VkDescriptorSetLayout sets) {
+  const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::DisplayParameters)};
+  VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+  info.setLayoutCount = 1;
+  info.pSetLayouts = &sets;
+  info.pushConstantRangeCount = 1;
+  info.pPushConstantRanges = &range;
+  return create(device, vkCreatePipelineLayout, info, vkDestroyPipelineLayout, "vkCreatePipelineLayout (display)");
+}
+
+vulkan::Owned<VkPipeline> makePipeline(VkDevice device, VkPipelineLayout layout, Quantity shown, bool interpolates) {
+  VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+  code.codeSize = sizeof kPresentSpirv;
+  code.pCode = kPresentSpirv;
+  const auto module =
+      create(device, vkCreateShaderModule, code, vkDestroyShaderModule, "vkCreateShaderModule (display)");
+  VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module.get();
+  info.stage.pName = "main";
+  const std::array<std::uint32_t, 2> values = {static_cast<std::uint32_t>(shown), interpolates ? 1u : 0u};
+  const VkSpecializationMapEntry entries[] = {{0, 0, 4}, {1, 4, 4}};
+  const VkSpecializationInfo constants{2, entries, sizeof values, values.data()};
+  info.stage.pSpecializationInfo = &constants;
+  info.layout = layout;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+        "vkCreateComputePipelines (display)");
+  return {device, pipeline, vkDestroyPipeline};
+}
+
+vulkan::Owned<VkDescriptorPool> makePool(VkDevice device) {
+  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1},
+                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBuffers}};
+  VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+  info.maxSets = 1;
+  info.poolSizeCount = 2;
+  info.pPoolSizes = sizes;
+  return create(device, vkCreateDescriptorPool, info, vkDestroyDescriptorPool, "vkCreateDescriptorPool (display)");
+}
+
+gpu::DisplayImage describe(const ImageRows& image) {
+  if (!image.store) return {};
+  return {image.width, image.height, image.channels, image.rows};
+}
+
+gpu::DisplayParameters parametersFor(const DisplayInput& input, const DisplayImageTarget& target) {
+  gpu::DisplayParameters p{};
+  p.analyser = input.analyser;
+  for (std::size_t i = 0; i < 2; ++i) {
+    p.coarse[i] = describe(input.coarse[i]);
+    p.fine[i] = describe(input.fine[i]);
+  }
+  const ImageRows& reference = input.reference;
+  const bool fits = reference.store && reference.width == target.width() && reference.height == target.height();
+  p.referenceRows = fits ? reference.rows : 0;
+  p.againstOther = input.againstOther ? 1 : 0;
+  p.divider = input.dividerColumn;
+  p.gain = input.gain;
+  p.differenceScale = input.differenceScale;
+  p.target = target.width() | target.height() << 16u;
+  return p;
+}
+
+void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags before,
+                VkAccessFlags after, VkPipelineStageFlags stageBefore, VkPipelineStageFlags stageAfter) {
+  VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
+  barrier.srcAccessMask = before;
+  barrier.dstAccessMask = after;
+  barrier.oldLayout = from;
+  barrier.newLayout = to;
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image;
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  vkCmdPipelineBarrier(commands, stageBefore, stageAfter, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+}
+
+}  // namespace
+
+DisplayImageTarget::DisplayImageTarget(const DisplayDevice& device, std::uint32_t width, std::uint32_t height)
+    : width_(width), height_(height) {
+  VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+  info.imageType = VK_IMAGE_TYPE_2D;
+  info.format = VK_FORMAT_R8G8B8A8_UNORM;
+  info.extent = {width, height, 1};
+  info.mipLevels = info.arrayLayers = 1;
+  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.tiling = VK_IMAGE_TILING_OPTIMAL;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  image_ = create(device.get(), vkCreateImage, info, vkDestroyImage, "vkCreateImage (display)");
+  VkMemoryRequirements needs{};
+  vkGetImageMemoryRequirements(device.get(), image_.get(), &needs);
+  memory_ = device.allocate(needs, {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0}, "the image of the window");
+  check(vkBindImageMemory(device.get(), image_.get(), memory_.get(), 0), "vkBindImageMemory (display)");
+  VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+  view.image = image_.get();
+  view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  view.format = info.format;
+  view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  view_ = create(device.get(), vkCreateImageView, view, vkDestroyImageView, "vkCreateImageView (display)");
+}
+
+DisplayInput displayInput(const ViewState& state, const Published& published, std::uint32_t width) {
+  DisplayInput input;
+  for (std::size_t i = 0; i < 2; ++i) {
+    input.coarse[i] = published.sides[i].coarse;
+    input.fine[i] = published.sides[i].fine;
+  }
+  const render::Analyser analyser = state.filter.analyser();
+  input.analyser = glm::dvec4(analyser[0], analyser[1], analyser[2], analyser[3]);
+  input.againstOther = state.against == Against::otherSide && state.isSplit;
+  input.dividerColumn = static_cast<float>(state.isSplit ? std::round(state.divider * width) : width);
+  input.gain = static_cast<float>(std::exp2(state.exposureEv));
+  input.differenceScale = static_cast<float>(state.differenceScale);
+  return input;
+}
+
+DisplayPass::DisplayPass(const DisplayDevice& device)
+    : device_(device),
+      setLayout_(makeSetLayout(device.get())),
+      layout_(makeLayout(device.get(), setLayout_.get())),
+      descriptors_(makePool(device.get())),
+      empty_(std::make_shared<DeviceStore>(device, 0)) {
+  VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+  info.descriptorPool = descriptors_.get();
+  info.descriptorSetCount = 1;
+  const VkDescriptorSetLayout layout = setLayout_.get();
+  info.pSetLayouts = &layout;
+  check(vkAllocateDescriptorSets(device.get(), &info, &set_), "vkAllocateDescriptorSets (display)");
+}
+
+void DisplayPass::record(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target) {
+  used_ = input;
+  const std::array<std::shared_ptr<PixelStore>, kBuffers> stores = {input.coarse[0].store, input.coarse[1].store,
+                                                                    input.fine[0].store,   input.fine[1].store,
+                                                                    input.reference.store, input.flip};
+  std::array<VkDescriptorBufferInfo, kBuffers> buffers{};
+  std::array<VkWriteDescriptorSet, 1 + kBuffers> writes{};
+  const VkDescriptorImageInfo image{VK_NULL_HANDLE, target.view(), VK_IMAGE_LAYOUT_GENERAL};
+  for (std::uint32_t i = 0; i < writes.size(); ++i) {
+    writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    writes[i].dstSet = set_;
+    writes[i].dstBinding = i;
+    writes[i].descriptorCount = 1;
+    writes[i].descriptorType = i == 0 ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    if (i == 0) {
+      writes[i].pImageInfo = &image;
+      continue;
+    }
+    const auto& store = static_cast<const DeviceStore&>(stores[i - 1] ? *stores[i - 1] : *empty_);
+    buffers[i - 1] = {store.buffer(), 0, VK_WHOLE_SIZE};
+    writes[i].pBufferInfo = &buffers[i - 1];
+  }
+  vkUpdateDescriptorSets(device_.get(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+
+  transition(commands, target.image(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, 0,
+             VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+  vulkan::Owned<VkPipeline>& pipeline = pipelines_[static_cast<std::size_t>(input.shown)];
+  if (!pipeline) pipeline = makePipeline(device_.get(), layout_.get(), input.shown, !device_.isCpu());
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &set_, 0, nullptr);
+  const gpu::DisplayParameters parameters = parametersFor(input, target);
+  vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof parameters, &parameters);
+  vkCmdDispatch(commands, (target.width() + kGroupWidth - 1) / kGroupWidth,
+                (target.height() + kGroupHeight - 1) / kGroupHeight, 1);
+  transition(commands, target.image(), VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+             VK_ACCESS_SHADER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+             VK_PIPELINE_STAGE_TRANSFER_BIT);
+}
+
+std::vector<std::uint8_t> readTarget(const DisplayDevice& device, const DisplayImageTarget& target) {
+  const std::size_t pixels = std::size_t{target.width()} * target.height();
+  DeviceStore store(device, pixels);  // four bytes per pixel
+  device.submit("read the display", [&](VkCommandBuffer commands) {
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    copy.imageExtent = {target.width(), target.height(), 1};
+    vkCmdCopyImageToBuffer(commands, target.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, store.buffer(), 1, &copy);
+  });
+  const std::span<const std::byte> bytes = std::as_bytes(store.values());
+  std::vector<std::uint8_t> rgb(3 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = std::to_integer<std::uint8_t>(bytes[4 * i + c]);
+  return rgb;
+}
+
+}  // namespace malus::viewer

@@ -1,0 +1,246 @@
+#include "render/viewer/render_thread.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "meshprep/base/error.h"
+#include "meshprep/base/interrupt.h"
+
+namespace malus::viewer {
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+// Time of a band of the full image: a newer wish waits for it.
+constexpr double kBandMs = 12;
+
+double elapsedMs(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::uint32_t scaled(std::uint32_t side, double fraction) {
+  return std::max(1u, static_cast<std::uint32_t>(std::lround(side * fraction)));
+}
+
+std::string pathName(const render::RenderResult& result) {
+  if (result.vulkanPath != render::VulkanPath::automatic) return render::vulkanPathName(result.vulkanPath);
+  if (result.embreePath != render::EmbreePath::automatic) return render::embreePathName(result.embreePath);
+  return {};
+}
+
+}  // namespace
+
+RenderThread::RenderThread(const Host& host, const pack::Scene& scene, const render::RendererOptions& options,
+                           PixelStores& stores, std::vector<pack::Effect> needed, std::function<void()> notify)
+    : host_(host),
+      renderers_(host, scene, options),
+      stores_(stores),
+      needed_(std::move(needed)),
+      notify_(std::move(notify)),
+      thread_([this] { run(); }) {}
+
+RenderThread::~RenderThread() {
+  {
+    const std::scoped_lock lock(mutex_);
+    isEnding_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void RenderThread::submit(const Wish& wish) {
+  {
+    const std::scoped_lock lock(mutex_);
+    waiting_ = wish;
+  }
+  changed_.notify_all();
+}
+
+Published RenderThread::published() const {
+  const std::scoped_lock lock(mutex_);
+  return published_;
+}
+
+std::string RenderThread::failure() const {
+  const std::scoped_lock lock(mutex_);
+  return failure_;
+}
+
+bool RenderThread::waitFor(std::uint64_t generation, bool complete, int limitMs) const {
+  std::unique_lock lock(mutex_);
+  const auto isShown = [&] {
+    return !failure_.empty() || (published_.generation >= generation && (published_.isComplete || !complete));
+  };
+  return changed_.wait_for(lock, std::chrono::milliseconds(limitMs), isShown) && failure_.empty();
+}
+
+bool RenderThread::hasNewer(std::uint64_t generation) const {
+  const std::scoped_lock lock(mutex_);
+  return isEnding_ || (waiting_ && waiting_->generation != generation);
+}
+
+void RenderThread::publish(const Published& next) {
+  {
+    const std::scoped_lock lock(mutex_);
+    published_ = next;
+  }
+  changed_.notify_all();
+  notify_();
+}
+
+void RenderThread::run() {
+  try {
+    for (;;) {
+      Wish wish;
+      {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return isEnding_ || waiting_; });
+        if (isEnding_) return;
+        wish = *std::exchange(waiting_, std::nullopt);
+      }
+      renderWish(wish);
+    }
+  } catch (const Interrupted&) {  // the window ends by itself
+  } catch (const std::exception& error) {
+    const std::scoped_lock lock(mutex_);
+    failure_ = error.what();
+  }
+  changed_.notify_all();
+  notify_();
+}
+
+void RenderThread::renderWish(const Wish& wish) {
+  next_.generation = wish.generation;
+  next_.isComplete = false;
+  // A choice of effects looks at the whole scene, which takes some milliseconds: not while only the camera moves.
+  if (!prepared_ || !isSamePreparation(*prepared_, wish, needed_)) prepareSides(wish);
+  prepared_ = wish;
+  if (!tasks_[0] && !tasks_[1]) {
+    next_.isComplete = true;
+    publish(next_);
+    return;
+  }
+  renderCoarse(wish);
+  if (next_.isComplete && !wish.state.isContinuous) return;
+  {
+    std::unique_lock lock(mutex_);
+    if (changed_.wait_for(lock, std::chrono::milliseconds(kStillMs), [&] { return isEnding_ || waiting_; })) return;
+  }
+  do
+    if (!renderFine(wish)) return;
+  while (wish.state.isContinuous && !hasNewer(wish.generation));
+}
+
+// Sides that cannot be rendered, for example because of an effect that cannot be removed, keep their image and get the
+// reason.
+void RenderThread::prepareSides(const Wish& wish) {
+  tasks_ = {};
+  for (std::size_t i = 0; i < 2; ++i) {
+    PublishedSide& side = next_.sides[i];
+    if (i == 1 && !wish.state.isSplit) {
+      side = {};
+      continue;
+    }
+    const SideSettings& settings = wish.state.sides[i];
+    if (!(settings == timed_[i])) times_[i].clear();
+    timed_[i] = settings;
+    side.problem.clear();
+    try {
+      tasks_[i] = SideTask{renderers_.prepare(jobSettings(wish.state, settings, wish.width, wish.height, needed_))};
+    } catch (const Error& error) {
+      side.problem = error.what();
+      continue;
+    }
+    side.method = tasks_[i]->image.method;
+    side.substitutedFor = tasks_[i]->image.substitutedFor;
+    side.warnings = tasks_[i]->image.warnings;
+  }
+}
+
+void RenderThread::noteSide(std::size_t side, const SideTask& task, const render::RenderResult& result, double fullMs,
+                            std::uint64_t rays) {
+  PublishedSide& published = next_.sides[side];
+  times_[side].add(fullMs);
+  published.traceMs = fullMs;
+  published.medianMs = times_[side].median();
+  published.device = result.device;
+  published.path = pathName(result);
+  published.rays = rays;
+  published.method = task.image.method;
+}
+
+void RenderThread::renderCoarse(const Wish& wish) {
+  const double fraction = resolution_.fraction();
+  const auto start = Clock::now();
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!tasks_[i]) continue;
+    SideTask& task = *tasks_[i];
+    render::RenderParameters parameters = task.image.parameters;
+    parameters.width = scaled(wish.width, fraction);
+    parameters.height = scaled(wish.height, fraction);
+    parameters.region = {0, 0, parameters.width, parameters.height};
+    task.image.scene->camera = wish.state.camera;
+    const render::RenderResult result = task.image.renderer->render(task.image.method, parameters);
+    ImageRows image{stores_.take(result.pixels.size()), result.width, result.height,
+                    static_cast<std::uint32_t>(result.channels), result.height};
+    std::ranges::copy(result.pixels, image.store->values().begin());
+    const double share = double(wish.width) * wish.height / (double(result.width) * result.height);
+    task.bandRows = std::max(1.0, kBandMs / std::max(result.cost.wallMs * share, 1e-3) * wish.height);
+    noteSide(i, task, result, result.cost.traceMs * share,
+             static_cast<std::uint64_t>(static_cast<double>(result.cost.rays) * share));
+    next_.sides[i].coarse = fraction < 1 ? image : ImageRows{};
+    next_.sides[i].fine = fraction < 1 ? ImageRows{} : image;
+  }
+  resolution_.add(fraction, elapsedMs(start));
+  next_.fraction = fraction;
+  next_.isComplete = fraction == 1;
+  ++next_.images;
+  publish(next_);
+}
+
+bool RenderThread::renderFine(const Wish& wish) {
+  for (std::size_t i = 0; i < 2; ++i)
+    if (tasks_[i] && !renderFineSide(wish, i, *tasks_[i])) return false;
+  next_.isComplete = true;
+  ++next_.images;
+  publish(next_);
+  return true;
+}
+
+// Returns false if a newer wish ended it.
+bool RenderThread::renderFineSide(const Wish& wish, std::size_t side, SideTask& task) {
+  PublishedSide& published = next_.sides[side];
+  render::RenderParameters parameters = task.image.parameters;
+  task.image.scene->camera = wish.state.camera;
+  // While the same view is rendered again, the complete image stays visible.
+  const bool isHidden = published.fine.isComplete() && published.fine.height == wish.height;
+  ImageRows image;
+  double traceMs = 0;
+  std::uint64_t rays = 0;
+  render::RenderResult band;
+  for (std::uint32_t row = 0; row < wish.height;) {
+    if (hasNewer(wish.generation)) return false;
+    const std::uint32_t count =
+        std::min(wish.height - row, std::max(1u, static_cast<std::uint32_t>(std::min(task.bandRows, 1e6))));
+    parameters.region = {0, row, wish.width, count};
+    band = task.image.renderer->render(task.image.method, parameters);
+    if (!image.store)
+      image = {stores_.take(band.channels * wish.width * wish.height), wish.width, wish.height,
+               static_cast<std::uint32_t>(band.channels), 0};
+    std::ranges::copy(band.pixels,
+                      image.store->values().begin() + static_cast<std::ptrdiff_t>(band.channels * wish.width * row));
+    row += count;
+    image.rows = row;
+    traceMs += band.cost.traceMs;
+    rays += band.cost.rays;
+    task.bandRows *= std::clamp(kBandMs / std::max(band.cost.wallMs, 1e-3), 0.5, 2.0);
+    if (row == wish.height) noteSide(side, task, band, traceMs, rays);
+    if (isHidden && row < wish.height) continue;
+    published.fine = image;
+    if (row < wish.height) publish(next_);
+  }
+  return true;
+}
+
+}  // namespace malus::viewer

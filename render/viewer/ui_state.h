@@ -1,0 +1,27 @@
+// State of the window that does not change the view: modes of the mouse, the panel, messages.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "render/viewer/frame_times.h"
+
+namespace malus::viewer {
+
+struct UiState {
+  bool flies = false;  // WASD and the mouse move the camera freely
+  bool showsPanel = true;
+  bool turnsPolarizer = false;  // by itself
+  std::size_t editedSide = 0;
+  double scale = 1;
+  FrameTimes frames;    // of the window
+  std::string message;  // the last event, such as a saved file
+  std::string device;   // of the display
+  std::array<char, 256> saveFile{"view.exr"};
+  std::array<char, 256> sceneFile{"scene.json"};
+  std::array<char, 256> folder{"frames"};
+  int recordedFrames = 36;
+};
+
+}  // namespace malus::viewer

@@ -1,0 +1,159 @@
+#include "render/viewer/window.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "meshprep/base/error.h"
+#include "meshprep/base/interrupt.h"
+#include "render/viewer/overlay.h"
+#include "render/viewer/panel.h"
+#include "render/viewer/window_input.h"
+
+namespace malus::viewer {
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void drawHelp(bool& isOpen) {
+  if (!isOpen) return;
+  if (ImGui::Begin("Keys", &isOpen, ImGuiWindowFlags_AlwaysAutoResize)) {
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+      for (const KeyHelp& key : keyHelp()) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(key.key);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(key.text);
+      }
+      ImGui::EndTable();
+    }
+  }
+  ImGui::End();
+}
+
+// Members are destroyed in reverse order: each may refer to those before it.
+class ViewerWindow {
+ public:
+  ViewerWindow(const Request& request, const Host& host)
+      : request_(request),
+        host_(host),
+        window_(request.width, request.height, fmt::format("malus: {}", request.pack->scene.name)),
+        instance_(glfw_.extensions()),
+        surface_(makeSurface(instance_.get(), window_)),
+        device_(instance_, surface_.get(), request.device),
+        pass_(device_),
+        swapchain_(device_, surface_.get()),
+        session_(request, host, device_, [] { glfwPostEmptyEvent(); }),
+        input_(window_, session_, ui_) {
+    ui_.scale = request.uiScale > 0 ? request.uiScale : window_.uiScale();
+    ui_.device = device_.name();
+  }
+
+  void run() {
+    std::uint32_t width = 0, height = 0;
+    window_.size(width, height);
+    resize(std::max(width, 1u), std::max(height, 1u));
+    overlay_ = std::make_unique<Overlay>(window_, instance_.get(), device_, swapchain_, ui_.scale);
+    auto last = Clock::now();
+    std::uint64_t shownImages = ~std::uint64_t{0};
+    while (!glfwWindowShouldClose(window_.get())) {
+      if (host_.interrupted()) throw Interrupted();
+      const bool isActive = input_.redraws > 0 || isAnimated();
+      // Wakes for events, for new images, and to notice Ctrl-C.
+      constexpr double kLongestWait = 0.1;
+      if (isActive)
+        glfwPollEvents();
+      else
+        glfwWaitEventsTimeout(kLongestWait);
+      const auto start = Clock::now();
+      const double passed = std::min(secondsSince(last), 0.1);
+      last = start;
+      animate(passed);
+      window_.size(width, height);
+      if (width == 0 || height == 0) {  // minimised
+        glfwWaitEventsTimeout(kLongestWait);
+        continue;
+      }
+      session_.update(width, height);
+      const Published published = session_.renders().published();
+      if (!isActive && input_.redraws <= 0 && publishedRows(published) == shownImages) continue;
+      shownImages = publishedRows(published);
+      resize(width, height);
+      drawFrame(published);
+      --input_.redraws;
+      ui_.frames.add(1000 * secondsSince(start));
+    }
+    swapchain_.finish();
+    if (instance_.messages() > 0)
+      throw Error("", fmt::format("{} messages of the validation layers", instance_.messages()));
+  }
+
+ private:
+  // Changes with every publication.
+  static std::uint64_t publishedRows(const Published& published) {
+    std::uint64_t sum = published.images << 32u;
+    for (const PublishedSide& side : published.sides) sum += side.fine.rows + 7919 * side.problem.size();
+    return sum + published.generation;
+  }
+
+  bool isAnimated() const { return ui_.turnsPolarizer || ui_.flies; }
+
+  void animate(double seconds) {
+    constexpr double kDegreesPerSecond = 45;
+    if (ui_.turnsPolarizer && session_.state.filter.kind == FilterKind::linear) {
+      double& degrees = session_.state.filter.polarizerDegrees;
+      degrees += kDegreesPerSecond * seconds;
+      if (degrees >= 180) degrees -= 180;
+    }
+    input_.flyOn(seconds);
+  }
+
+  void resize(std::uint32_t width, std::uint32_t height) {
+    swapchain_.resize(width, height);
+    if (target_ && target_->width() == width && target_->height() == height) return;
+    swapchain_.finish();
+    target_ = std::make_unique<DisplayImageTarget>(device_, width, height);
+  }
+
+  void drawFrame(const Published& published) {
+    overlay_->beginFrame();
+    drawPanel(session_, ui_, published);
+    drawHelp(input_.showsHelp);
+    overlay_->endFrame();
+    const DisplayInput input = displayInput(session_.state, published, session_.width());
+    const bool isCurrent = swapchain_.draw(
+        *target_, [&](VkCommandBuffer commands) { pass_.record(commands, input, *target_); },
+        [&](VkCommandBuffer commands) { overlay_->record(commands); });
+    if (!isCurrent) input_.redraws = std::max<int>(input_.redraws, 1) + 1;
+  }
+
+  const Request& request_;
+  const Host& host_;
+  Glfw glfw_;
+  GlfwWindow window_;
+  DisplayInstance instance_;
+  vulkan::OwnedChild<VkInstance, VkSurfaceKHR> surface_;
+  DisplayDevice device_;
+  DisplayPass pass_;
+  Swapchain swapchain_;
+  std::unique_ptr<DisplayImageTarget> target_;
+  UiState ui_;
+  Session session_;
+  WindowInput input_;
+  std::unique_ptr<Overlay> overlay_;
+};
+
+}  // namespace
+
+void runWindow(const Request& request, const Host& host) {
+  const auto window = std::make_unique<ViewerWindow>(request, host);
+  window->run();
+}
+
+}  // namespace malus::viewer

@@ -184,7 +184,8 @@ constexpr double kKnee = 0.4, kKneeValue = 0.95;
 
 }  // namespace
 
-double meanFlip(const RenderResult& image, const RenderResult& reference, double exposureEv, double pixelsPerDegree) {
+std::vector<double> flipValues(const RenderResult& image, const RenderResult& reference, double exposureEv,
+                               double pixelsPerDegree) {
   if (image.width != reference.width || image.height != reference.height)
     throw Error("", "the images differ in size", fmt::format("{} x {}", reference.width, reference.height),
                 fmt::format("{} x {}", image.width, image.height));
@@ -198,17 +199,23 @@ double meanFlip(const RenderResult& image, const RenderResult& reference, double
     for (double& v : c) v = std::clamp(v, 0.0, 1.0);
     return toHuntLab(c);
   };
-  double sum = 0;
-  const std::size_t count = a.features.edges.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  std::vector<double> values(a.features.edges.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
     double colour = std::pow(hyAb(labAt(a, i), labAt(b, i)), kColourPower);
     colour =
         colour < knee ? kKneeValue / knee * colour : kKneeValue + (colour - knee) / (largest - knee) * (1 - kKneeValue);
     const double feature = std::max(std::abs(a.features.edges[i] - b.features.edges[i]),
                                     std::abs(a.features.points[i] - b.features.points[i]));
-    sum += std::pow(colour, 1 - std::pow(std::numbers::sqrt2 / 2 * feature, kFeaturePower));
-  }
-  return sum / static_cast<double>(count);
+    values[i] = std::pow(colour, 1 - std::pow(std::numbers::sqrt2 / 2 * feature, kFeaturePower));
+  });
+  return values;
+}
+
+double meanFlip(const RenderResult& image, const RenderResult& reference, double exposureEv, double pixelsPerDegree) {
+  double sum = 0;
+  const std::vector<double> values = flipValues(image, reference, exposureEv, pixelsPerDegree);
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
 }
 
 }  // namespace malus::render

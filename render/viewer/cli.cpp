@@ -50,7 +50,16 @@ class ProgramHost final : public viewer::Host {
                           const pack::Scene& scene) const override {
     return render::chooseImage(settings, parameters, scene);
   }
+  PixelTruth pixelTruth(const pack::Scene& scene, const RenderParameters& parameters) const override {
+    if (truthScene_ != &scene) truth_ = std::make_unique<GroundTruth>(scene, 0);
+    truthScene_ = &scene;
+    return truth_->render(parameters).front();
+  }
   bool interrupted() const override { return malus::interrupted(); }
+
+ private:
+  mutable const pack::Scene* truthScene_ = nullptr;
+  mutable std::unique_ptr<GroundTruth> truth_;
 };
 
 void checkCombinations(const ViewArguments& a) {

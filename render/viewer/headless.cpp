@@ -2,16 +2,17 @@
 
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
-#include "meshprep/base/image.h"
 #include "meshprep/base/interrupt.h"
 #include "meshprep/json_text.h"
 #include "render/viewer/frame_times.h"
+#include "render/viewer/save_image.h"
 #include "render/viewer/script.h"
 #include "render/viewer/session.h"
 
@@ -78,10 +79,24 @@ class HeadlessRun {
   void act(const ScriptLine& line) {
     const std::string& command = line.words.front();
     wait(true);
+    if (command == "wait-reference") waitForReference();
+    if (command == "command") console::printText(session_.command(0, line.words[1]) + "\n");
     show();
-    if (command == "save")
-      image::writePng(line.words[1], static_cast<int>(target_.width()), static_cast<int>(target_.height()), 3,
-                      readTarget(device_, target_));
+    if (command == "save") saveImage(line.words[1], session_, device_, target_);
+  }
+
+  // Until the reference is complete and the errors of the sides are known.
+  void waitForReference() {
+    session_.state.usesReference = true;
+    for (;;) {
+      if (host_.interrupted()) throw Interrupted();
+      session_.update(request_.width, request_.height);
+      session_.updateBackground(session_.renders().published());
+      const BackgroundState state = session_.background();
+      if (!state.problem.empty()) throw Error("", state.problem);
+      if (state.errors[0] && (session_.state.shown != Quantity::flip || state.flip)) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
   }
 
   void wait(bool complete) {
@@ -97,7 +112,7 @@ class HeadlessRun {
 
   void show() {
     session_.update(request_.width, request_.height);
-    const DisplayInput input = session_.input();
+    const DisplayInput input = session_.input(session_.renders().published());
     device_.submit("display", [&](VkCommandBuffer commands) { pass_.record(commands, input, target_); });
   }
 
@@ -125,11 +140,14 @@ class HeadlessRun {
       for (const Frame& frame : frames_)
         all.push_back({{"ms", frame.ms}, {"rendered", frame.rendered}, {"resolution", frame.fraction}});
       const Published published = session_.renders().published();
+      const BackgroundState background = session_.background();
       nlohmann::json sides = nlohmann::json::array();
       for (std::size_t i = 0; i < (session_.state.isSplit ? 2u : 1u); ++i)
         sides.push_back({{"method", published.sides[i].method},
                          {"device", published.sides[i].device},
-                         {"fullFrameMs", published.sides[i].medianMs}});
+                         {"fullFrameMs", published.sides[i].medianMs},
+                         {"relRms", background.errors[i] ? nlohmann::json(background.errors[i]->relRms) : nullptr},
+                         {"flip", background.errors[i] ? nlohmann::json(background.errors[i]->flip) : nullptr}});
       console::printText(jsonText({{"scene", session_.pack().scene.name},
                                    {"width", request_.width},
                                    {"height", request_.height},

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "render/ground_truth/ground_truth.h"
 #include "render/job.h"
 #include "render/make_renderer.h"
 
@@ -23,6 +24,10 @@ class Host {
   virtual render::ImageChoice chooseImage(const render::JobSettings& settings,
                                           const render::RenderParameters& parameters,
                                           const pack::Scene& scene) const = 0;
+  // The geometry that one pixel sees (render/ground_truth/ground_truth.h): parameters.region is the pixel. The first
+  // call for a scene builds an acceleration structure, which is kept for later calls with the same object. Not
+  // thread-safe.
+  virtual render::PixelTruth pixelTruth(const pack::Scene& scene, const render::RenderParameters& parameters) const = 0;
   // Whether Ctrl-C was pressed (meshprep/base/interrupt.h), whose state is the program's.
   virtual bool interrupted() const = 0;
 

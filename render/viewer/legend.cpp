@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -43,7 +44,7 @@ LegendText legendText(const ViewState& state) {
     case Quantity::dolp:
       return {"DoLP", "0", "0.5", "1"};
     case Quantity::aolp:
-      return {"AoLP [degrees], dark where DoLP < 0.05", "0", "90", "180"};
+      return {"AoLP [degrees], dark: DoLP < 0.05", "0", "90", "180"};
     case Quantity::s1:
       return {"S1 / S0", "-1", "0", "1"};
     case Quantity::s2:
@@ -51,7 +52,7 @@ LegendText legendText(const ViewState& state) {
     case Quantity::s3:
       return {"S3 / S0", "-1", "0", "1"};
     case Quantity::difference:
-      return {fmt::format("largest difference of a colour to {}", against), "0",
+      return {fmt::format("difference to {}", against), "0",
               fmt::format("{:.3g}", state.differenceScale / 2), fmt::format("{:.3g}", state.differenceScale)};
     case Quantity::flip:
       return {fmt::format("FLIP to {}", against), "0", "0.5", "1"};
@@ -67,7 +68,7 @@ void drawLegend(const ViewState& state, const UiState& ui, std::uint32_t width, 
   if (state.shown == Quantity::colour) return;
   const LegendText text = legendText(state);
   const auto scale = static_cast<float>(ui.scale);
-  const float w = 260 * scale, h = 12 * scale, line = ImGui::GetFontSize(), margin = 10 * scale;
+  const float w = std::max(260 * scale, ImGui::CalcTextSize(text.title.c_str()).x), h = 12 * scale, line = ImGui::GetFontSize(), margin = 10 * scale;
   const float x = static_cast<float>(width) - w - 2 * margin;
   const float y = static_cast<float>(height) - h - 2 * line - 3 * margin;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();

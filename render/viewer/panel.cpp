@@ -146,6 +146,12 @@ void drawShown(Session& session) {
       state.differenceScale = static_cast<double>(scale);
   }
   ImGui::Checkbox("reference in the background", &state.usesReference);
+  const BackgroundState background = session.background();
+  if (!state.usesReference || session.height() == 0) return;
+  const float done = static_cast<float>(background.reference.rows) / static_cast<float>(session.height());
+  const std::string text = fmt::format("{:.0f} %, {:.1f} s", 100 * done, background.referenceMs / 1000);
+  ImGui::ProgressBar(done, {-1, 0}, text.c_str());
+  if (!background.problem.empty()) ImGui::TextColored({1, 0.4f, 0.3f, 1}, "%s", background.problem.c_str());
 }
 
 void drawTimes(const UiState& ui, const Published& published) {
@@ -153,22 +159,24 @@ void drawTimes(const UiState& ui, const Published& published) {
     const PublishedSide& side = published.sides[i];
     if (side.method.empty()) continue;
     ImGui::Text("%c: %.1f ms, median %.1f ms", i == 0 ? 'A' : 'B', side.traceMs, side.medianMs);
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("rays and shading of an image at full resolution; %s%s%s", side.device.c_str(),
+                        side.path.empty() ? "" : ", ", side.path.c_str());
     if (side.rays > 0 && side.traceMs > 0)
-      ImGui::Text("   %.2f M rays, %.1f M rays per second", static_cast<double>(side.rays) / 1e6,
+      ImGui::Text("   %.2f M rays, %.1f M per second", static_cast<double>(side.rays) / 1e6,
                   static_cast<double>(side.rays) / side.traceMs / 1e3);
-    ImGui::TextWrapped("   %s%s%s", side.device.c_str(), side.path.empty() ? "" : ", ", side.path.c_str());
   }
-  ImGui::Text("resolution %.0f %%", 100 * published.fraction);
-  ImGui::TextWrapped("display: %s", ui.device.c_str());
+  ImGui::Text("moving at %.0f %% of the resolution", 100 * published.fraction);
+  ImGui::TextDisabled("display: %.30s", ui.device.c_str());
   const std::vector<float> frames = ui.frames.values();
-  const std::string label = fmt::format("median {:.1f} ms", ui.frames.median());
+  const std::string label = fmt::format("window: median {:.1f} ms", ui.frames.median());
   ImGui::PlotLines("##frames", frames.data(), static_cast<int>(frames.size()), 0, label.c_str(), 0, 100,
-                   {-1, 4 * ImGui::GetFontSize()});
+                   {0.95f * ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize()});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("times of the last 200 frames of the window, 0 to 100 ms");
 }
 
-void drawPanel(Session& session, UiState& ui, const Published& published) {
-  drawSides(session, ui, published);
+void drawPanel(Session& session, UiState& ui, const Published& published, const BackgroundState& background) {
+  drawSides(session, ui, published, background);
   drawLegend(session.state, ui, session.width(), session.height());
   if (!ui.showsPanel) return;
   const auto scale = static_cast<float>(ui.scale);
@@ -185,7 +193,10 @@ void drawPanel(Session& session, UiState& ui, const Published& published) {
     if (ImGui::CollapsingHeader("Filter", ImGuiTreeNodeFlags_DefaultOpen)) drawFilter(session.state, ui);
     if (ImGui::CollapsingHeader("Shown", ImGuiTreeNodeFlags_DefaultOpen)) drawShown(session);
     if (ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) drawTimes(ui, published);
+    ui.showsProbe = ImGui::CollapsingHeader("Probe");
+    if (ui.showsProbe) drawProbe(session, ui, published, background);
     if (ImGui::CollapsingHeader("Effects")) drawEffects(session, ui);
+    if (ImGui::CollapsingHeader("Save and record")) drawFiles(session, ui);
     ImGui::PopItemWidth();
     if (!ui.message.empty()) ImGui::TextWrapped("%s", ui.message.c_str());
   }

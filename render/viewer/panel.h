@@ -7,7 +7,7 @@
 namespace malus::viewer {
 
 // Draws the panel, the labels of the sides, the divider and the legend for a window of the session's size.
-void drawPanel(Session& session, UiState& ui, const Published& published);
+void drawPanel(Session& session, UiState& ui, const Published& published, const BackgroundState& background);
 
 // The groups of the panel.
 void drawMethods(Session& session, UiState& ui, const Published& published);
@@ -15,6 +15,9 @@ void drawFilter(ViewState& state, UiState& ui);
 void drawShown(Session& session);
 void drawEffects(Session& session, UiState& ui);
 void drawTimes(const UiState& ui, const Published& published);
+void drawProbe(const Session& session, const UiState& ui, const Published& published,
+               const BackgroundState& background);
+void drawFiles(Session& session, UiState& ui);
 
 // A dial for an angle in degrees that turns by dragging; a half turn is the whole range, because 0 and 180 degrees are
 // the same polarizer. Returns whether the angle has changed.
@@ -22,6 +25,7 @@ bool drawDial(const char* name, double& degrees, double radius);
 
 // Drawn over the image: legend of the quantity, divider and labels of the sides.
 void drawLegend(const ViewState& state, const UiState& ui, std::uint32_t width, std::uint32_t height);
-void drawSides(const Session& session, const UiState& ui, const Published& published);
+void drawSides(const Session& session, const UiState& ui, const Published& published,
+               const BackgroundState& background);
 
 }  // namespace malus::viewer

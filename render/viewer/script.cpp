@@ -183,8 +183,10 @@ const std::map<std::string, Apply>& commands() {
   return kCommands;
 }
 
-const std::map<std::string, ScriptAction> kActions = {
-    {"wait", ScriptAction::wait}, {"wait-reference", ScriptAction::waitReference}, {"save", ScriptAction::save}};
+const std::map<std::string, ScriptAction> kActions = {{"wait", ScriptAction::wait},
+                                                      {"wait-reference", ScriptAction::waitReference},
+                                                      {"save", ScriptAction::save},
+                                                      {"command", ScriptAction::command}};
 
 // FRAME or FIRST-LAST.
 bool readFrames(const std::string& word, ScriptLine& line) {
@@ -241,7 +243,7 @@ std::vector<ScriptLine> readScript(const std::string& file) {
 ScriptAction applyLine(const ScriptLine& line, ViewState& state, const std::vector<pack::Effect>& needed) {
   Arguments arguments(line);
   if (const auto action = kActions.find(line.words.front()); action != kActions.end()) {
-    if (action->second == ScriptAction::save) arguments.text();
+    if (action->second == ScriptAction::save || action->second == ScriptAction::command) arguments.text();
     arguments.finish();
     return action->second;
   }

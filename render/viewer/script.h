@@ -16,7 +16,7 @@ struct ScriptLine {
 };
 
 // Actions that are not changes of the view.
-enum class ScriptAction { none, wait, waitReference, save };
+enum class ScriptAction { none, wait, waitReference, save, command };
 
 // Throws Error: a line that is not FRAME[-FRAME] COMMAND ARGUMENTS, an unknown command.
 std::vector<ScriptLine> readScript(const std::string& file);

@@ -2,12 +2,14 @@
 // run share it.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "render/viewer/background.h"
 #include "render/viewer/device_stores.h"
 #include "render/viewer/display_pass.h"
 #include "render/viewer/module.h"
@@ -30,12 +32,20 @@ class Session {
   // Error if the render thread has ended with one.
   std::uint64_t update(std::uint32_t width, std::uint32_t height);
   const RenderThread& renders() const { return renders_; }
-  DisplayInput input() const;
+  // Gives the background what the newest images need: reference, errors. Returns whether something waits for the view
+  // to be still.
+  bool updateBackground(const Published& published);
+  void probe(std::uint32_t x, std::uint32_t y);
+  BackgroundState background() const { return background_.state(); }
+  DisplayInput input(const Published& published) const;
+  const Wish& wish() const { return *wish_; }
   std::uint64_t generation() const { return wish_ ? wish_->generation : 0; }
   std::uint32_t width() const { return wish_ ? wish_->width : 0; }
   std::uint32_t height() const { return wish_ ? wish_->height : 0; }
 
   const pack::Pack& pack() const { return *request_.pack; }
+  // Name, origin and hash of the pack with the camera of the view, for the metadata of files.
+  pack::Pack viewedPack() const;
   const std::vector<pack::Effect>& effects() const { return file_.needed; }
   const ViewedFile& file() const { return file_; }
   // The command that renders what a side shows.
@@ -47,6 +57,10 @@ class Session {
   DeviceStores stores_;
   std::optional<Wish> wish_;
   RenderThread renders_;
+  Background background_;
+  std::string errorKey_;  // of the newest request, and when it changed
+  std::chrono::steady_clock::time_point errorKeyChanged_;
+  bool isErrorRequested_ = false;
 };
 
 }  // namespace malus::viewer

@@ -18,14 +18,17 @@ void drawLabel(const std::string& text, float x, float y, bool toTheLeft, float 
   draw.AddText({left + pad, y + pad}, IM_COL32_WHITE, text.c_str());
 }
 
-std::string sideText(char name, const PublishedSide& side) {
+std::string sideText(char name, const PublishedSide& side, const std::optional<SideError>& error) {
   if (side.method.empty()) return fmt::format("{}: waiting", name);
-  return fmt::format("{}: {}\n{:.1f} ms (median {:.1f})", name, side.method, side.traceMs, side.medianMs);
+  std::string text = fmt::format("{}: {}\n{:.1f} ms", name, side.method, side.medianMs);
+  if (error) text += fmt::format("\nerror {:.2g}, FLIP {:.2g}", error->relRms, error->flip);
+  return text;
 }
 
 }  // namespace
 
-void drawSides(const Session& session, const UiState& ui, const Published& published) {
+void drawSides(const Session& session, const UiState& ui, const Published& published,
+               const BackgroundState& background) {
   if (!session.state.isSplit) return;
   const auto scale = static_cast<float>(ui.scale);
   const auto width = static_cast<float>(session.width()), height = static_cast<float>(session.height());
@@ -37,8 +40,8 @@ void drawSides(const Session& session, const UiState& ui, const Published& publi
   draw.AddCircleFilled({x, height / 2}, grip, IM_COL32_WHITE, 24);
   draw.AddCircle({x, height / 2}, grip, IM_COL32(0, 0, 0, 255), 24, 1.5f * scale);
   const float margin = 8 * scale;
-  drawLabel(sideText('A', published.sides[0]), x - margin, margin, true, scale);
-  if (x < width) drawLabel(sideText('B', published.sides[1]), x + margin, margin, false, scale);
+  drawLabel(sideText('A', published.sides[0], background.errors[0]), x - margin, margin, true, scale);
+  if (x < width) drawLabel(sideText('B', published.sides[1], background.errors[1]), x + margin, margin, false, scale);
 }
 
 }  // namespace malus::viewer

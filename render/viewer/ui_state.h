@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "render/viewer/frame_times.h"
+#include "render/viewer/recorder.h"
 
 namespace malus::viewer {
 
@@ -22,6 +24,11 @@ struct UiState {
   std::array<char, 256> sceneFile{"scene.json"};
   std::array<char, 256> folder{"frames"};
   int recordedFrames = 36;
+  Recorder recorder;
+  bool asksForSave = false, asksForCopy = false;
+  std::uint32_t mouseX = 0, mouseY = 0;  // pixel of the image under the cursor
+  bool isOverImage = false;
+  bool showsProbe = false;
 };
 
 }  // namespace malus::viewer

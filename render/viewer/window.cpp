@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -11,6 +12,7 @@
 #include "meshprep/base/interrupt.h"
 #include "render/viewer/overlay.h"
 #include "render/viewer/panel.h"
+#include "render/viewer/save_image.h"
 #include "render/viewer/window_input.h"
 
 namespace malus::viewer {
@@ -80,14 +82,18 @@ class ViewerWindow {
         glfwWaitEventsTimeout(kLongestWait);
         continue;
       }
+      ui_.recorder.apply(session_.state);
       session_.update(width, height);
       const Published published = session_.renders().published();
-      if (!isActive && input_.redraws <= 0 && publishedRows(published) == shownImages) continue;
-      shownImages = publishedRows(published);
+      session_.updateBackground(published);
+      probe(width, height);
+      if (!isActive && input_.redraws <= 0 && contentKey(published) == shownImages) continue;
+      shownImages = contentKey(published);
       resize(width, height);
       drawFrame(published);
       --input_.redraws;
       ui_.frames.add(1000 * secondsSince(start));
+      writeFiles(published);
     }
     swapchain_.finish();
     if (instance_.messages() > 0)
@@ -95,14 +101,55 @@ class ViewerWindow {
   }
 
  private:
-  // Changes with every publication.
-  static std::uint64_t publishedRows(const Published& published) {
+  // Changes with every publication of the threads.
+  std::uint64_t contentKey(const Published& published) const {
     std::uint64_t sum = published.images << 32u;
     for (const PublishedSide& side : published.sides) sum += side.fine.rows + 7919 * side.problem.size();
-    return sum + published.generation;
+    const BackgroundState background = session_.background();
+    sum += background.reference.rows * 104729u + (background.truth ? 15485863u * (background.pixel.x + 1) : 0);
+    for (const std::optional<SideError>& error : background.errors) sum += error ? 1299709u : 0u;
+    return sum + published.generation + (background.flip ? 611953u : 0u);
   }
 
-  bool isAnimated() const { return ui_.turnsPolarizer || ui_.flies; }
+  void probe(std::uint32_t width, std::uint32_t height) {
+    const double x = input_.mouseX(), y = input_.mouseY();
+    ui_.isOverImage = x >= 0 && y >= 0 && x < width && y < height && !ImGui::GetIO().WantCaptureMouse;
+    if (!ui_.isOverImage) return;
+    ui_.mouseX = static_cast<std::uint32_t>(x);
+    ui_.mouseY = static_cast<std::uint32_t>(y);
+    if (ui_.showsProbe) session_.probe(ui_.mouseX, ui_.mouseY);
+  }
+
+  // Files that the last frame shows; a failure becomes the message of the panel.
+  void writeFiles(const Published& published) {
+    try {
+      if (ui_.recorder.isRecording() && published.isComplete && published.generation == session_.generation()) {
+        swapchain_.finish();
+        savePng(ui_.recorder.file(), device_, *target_);
+        ui_.message = fmt::format("saved {}", ui_.recorder.file());
+        ui_.recorder.next(session_.state);
+        input_.redraws = 3;
+      }
+      if (std::exchange(ui_.asksForSave, false)) {
+        swapchain_.finish();
+        const std::string file = ui_.saveFile.data();
+        saveImage(file, session_, device_, *target_);
+        ui_.message = fmt::format("saved {}", file);
+        input_.redraws = 3;
+      }
+    } catch (const Error& error) {
+      ui_.recorder.stop();
+      ui_.message = error.what();
+      input_.redraws = 3;
+    }
+    if (!std::exchange(ui_.asksForCopy, false)) return;
+    const std::string command = session_.command(ui_.editedSide, "view.png");
+    glfwSetClipboardString(window_.get(), command.c_str());
+    ui_.message = "copied: " + command;
+    input_.redraws = 3;
+  }
+
+  bool isAnimated() const { return ui_.turnsPolarizer || ui_.flies || ui_.recorder.isRecording(); }
 
   void animate(double seconds) {
     constexpr double kDegreesPerSecond = 45;
@@ -123,10 +170,10 @@ class ViewerWindow {
 
   void drawFrame(const Published& published) {
     overlay_->beginFrame();
-    drawPanel(session_, ui_, published);
+    drawPanel(session_, ui_, published, session_.background());
     drawHelp(input_.showsHelp);
     overlay_->endFrame();
-    const DisplayInput input = displayInput(session_.state, published, session_.width());
+    const DisplayInput input = session_.input(published);
     const bool isCurrent = swapchain_.draw(
         *target_, [&](VkCommandBuffer commands) { pass_.record(commands, input, *target_); },
         [&](VkCommandBuffer commands) { overlay_->record(commands); });

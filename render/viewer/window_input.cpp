@@ -146,8 +146,8 @@ void WindowInput::onKey(int key, int modifiers) {
   const bool shift = (modifiers & GLFW_MOD_SHIFT) != 0, control = (modifiers & GLFW_MOD_CONTROL) != 0;
   const double turn = shift ? kFineTurnDegrees : kTurnDegrees;
   if (control) {
-    if (key == GLFW_KEY_S) asksForSave = true;
-    if (key == GLFW_KEY_C) asksForCopy = true;
+    if (key == GLFW_KEY_S) ui_.asksForSave = true;
+    if (key == GLFW_KEY_C) ui_.asksForCopy = true;
     if (key == GLFW_KEY_Q) glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
     return;
   }

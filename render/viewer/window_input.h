@@ -33,7 +33,6 @@ class WindowInput {
   // Frames to draw until nothing changes; set by every event.
   std::atomic<int> redraws{3};
   bool showsHelp = false;
-  bool asksForSave = false, asksForCopy = false;
 
  private:
   enum class Drag { none, orbit, pan, look, divider };

@@ -72,6 +72,7 @@ class FakeHost final : public Host {
     if (job.method == "sp") throw Error("", "cannot be rendered");
     return {job.method, "", {}, {}};
   }
+  render::PixelTruth pixelTruth(const pack::Scene&, const render::RenderParameters&) const override { return {}; }
   bool interrupted() const override { return false; }
 };
 

@@ -21,7 +21,7 @@ struct SideError {
   double flip = 0;    // mean FLIP
 };
 
-// What the errors depend on.
+// Inputs of the errors.
 struct ErrorWish {
   std::uint64_t generation = 0;
   std::array<ImageRows, 2> sides;  // complete images; an empty one has no error

@@ -52,8 +52,8 @@ LegendText legendText(const ViewState& state) {
     case Quantity::s3:
       return {"S3 / S0", "-1", "0", "1"};
     case Quantity::difference:
-      return {fmt::format("difference to {}", against), "0",
-              fmt::format("{:.3g}", state.differenceScale / 2), fmt::format("{:.3g}", state.differenceScale)};
+      return {fmt::format("difference to {}", against), "0", fmt::format("{:.3g}", state.differenceScale / 2),
+              fmt::format("{:.3g}", state.differenceScale)};
     case Quantity::flip:
       return {fmt::format("FLIP to {}", against), "0", "0.5", "1"};
     case Quantity::colour:
@@ -68,7 +68,8 @@ void drawLegend(const ViewState& state, const UiState& ui, std::uint32_t width, 
   if (state.shown == Quantity::colour) return;
   const LegendText text = legendText(state);
   const auto scale = static_cast<float>(ui.scale);
-  const float w = std::max(260 * scale, ImGui::CalcTextSize(text.title.c_str()).x), h = 12 * scale, line = ImGui::GetFontSize(), margin = 10 * scale;
+  const float w = std::max(260 * scale, ImGui::CalcTextSize(text.title.c_str()).x), h = 12 * scale,
+              line = ImGui::GetFontSize(), margin = 10 * scale;
   const float x = static_cast<float>(width) - w - 2 * margin;
   const float y = static_cast<float>(height) - h - 2 * line - 3 * margin;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
+#include "render/viewer/exit_limit.h"
 #include "render/viewer/overlay.h"
 #include "render/viewer/panel.h"
 #include "render/viewer/save_image.h"
@@ -199,8 +201,18 @@ class ViewerWindow {
 }  // namespace
 
 void runWindow(const Request& request, const Host& host) {
-  const auto window = std::make_unique<ViewerWindow>(request, host);
-  window->run();
+  auto window = std::make_unique<ViewerWindow>(request, host);
+  std::optional<ExitLimit> limit;
+  constexpr int kInterruptedCode = 130;  // as the program's
+  try {
+    window->run();
+    limit.emplace(0);
+  } catch (const Interrupted&) {
+    limit.emplace(kInterruptedCode);
+    window.reset();
+    throw;
+  }
+  window.reset();
 }
 
 }  // namespace malus::viewer

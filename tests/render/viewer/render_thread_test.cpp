@@ -10,6 +10,7 @@
 #include "meshprep/base/error.h"
 #include "render/viewer/orbit_camera.h"
 #include "tests/render/test_scene.h"
+#include "tests/render/viewer/host_store.h"
 
 namespace malus::viewer {
 namespace {
@@ -76,23 +77,10 @@ class FakeHost final : public Host {
   bool interrupted() const override { return false; }
 };
 
-class HostStore final : public PixelStore {
- public:
-  explicit HostStore(std::size_t count) : values_(count) {}
-  std::span<float> values() override { return values_; }
-
- private:
-  std::vector<float> values_;
-};
-class HostStores final : public PixelStores {
- public:
-  std::shared_ptr<PixelStore> take(std::size_t count) override { return std::make_shared<HostStore>(count); }
-};
-
 struct Fixture {
   FakeHost host;
-  HostStores stores;
-  pack::Scene scene = test::emptyScene(1);
+  test::HostStores stores;
+  pack::Scene scene = malus::test::emptyScene(1);
   std::atomic<int> notes{0};
   RenderThread thread{host, scene, {}, stores, {}, [this] { ++notes; }};
 

@@ -1,0 +1,288 @@
+#!/usr/bin/env python3
+"""`malus view` as a person uses it, on a display without a screen: MALUS is the program, MALUS_SCENES the scenes."""
+
+import json
+import os
+import pathlib
+import random
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+
+import viewer_display
+from viewer_display import Display, Image, Viewer
+
+MALUS = os.environ["MALUS"]
+SCENES = pathlib.Path(os.environ["MALUS_SCENES"])
+FAILING_DEVICE = os.environ.get("MALUS_FAILING_DEVICE", "")
+SKIPPED = 77
+WIDTH, HEIGHT = 480, 300
+VALIDATION = {"MALUS_VALIDATION": "1"}
+# Pixels whose colours are at an edge of the tone curve's rounding.
+MOST_SHARE = 0.001
+
+
+def read_png(path):
+    """8-bit RGB without interlacing, as malus writes it."""
+    data, at, packed, size = path.read_bytes(), 8, b"", (0, 0)
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            size = struct.unpack(">II", body[:8])
+        if kind == b"IDAT":
+            packed += body
+        at += length + 12
+    width, height = size
+    raw, stride, rows, last = zlib.decompress(packed), 3 * width, [], bytearray(3 * width)
+    for y in range(height):
+        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            left, up, corner = (row[i - 3] if i >= 3 else 0), last[i], (last[i - 3] if i >= 3 else 0)
+            if kind == 1:
+                row[i] = (row[i] + left) & 255
+            elif kind == 2:
+                row[i] = (row[i] + up) & 255
+            elif kind == 3:
+                row[i] = (row[i] + (left + up) // 2) & 255
+            elif kind == 4:
+                p = left + up - corner
+                nearest = min((abs(p - left), 0, left), (abs(p - up), 1, up), (abs(p - corner), 2, corner))[2]
+                row[i] = (row[i] + nearest) & 255
+        rows.append(bytes(row))
+        last = row
+    return Image(width, height, b"".join(rows))
+
+
+class ViewerTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.pack = cls.folder / "cornell-box.pack"
+        subprocess.run([MALUS, "-q", "bake", SCENES / "cornell-box" / "scene.json", "-o", cls.pack], check=True,
+                       stdout=subprocess.DEVNULL)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def run_malus(self, *arguments, environment=None):
+        return subprocess.run([MALUS, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder,
+                              env=dict(os.environ, MALUS_DEVICE="llvmpipe", **(environment or {})))
+
+    def headless(self, script, *arguments, frames=1, environment=None):
+        (self.folder / "script.txt").write_text(script)
+        return self.run_malus("view", self.pack, "--frames", frames, "--script", "script.txt", *arguments,
+                              environment=environment)
+
+    def rendered(self, *arguments, method="stokes"):
+        file = self.folder / "rendered.png"
+        done = self.run_malus("render", self.pack, "-o", file, "--width", WIDTH, "--height", HEIGHT, "--method", method,
+                              *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return read_png(file)
+
+    def assert_same(self, a, b):
+        self.assertLess(a.share_that_differs(b), MOST_SHARE)
+
+    def assert_differ(self, a, b):
+        self.assertGreater(a.share_that_differs(b), 0.01)
+
+
+class HeadlessTest(ViewerTest):
+    def test_a_moved_view_is_what_its_command_renders(self):
+        for extra in ("", "0 wave-plate 30 70\n", "0 method importance\n0 exposure 1\n", "0 method sp\n",
+                      "0 backend vulkan\n0 depth 2\n0 samples 2\n", "0 effects metal,shadows\n0 analyser left\n",
+                      "0 backend reference\n"):
+            script = f"0 orbit 25 10\n0 pan 0.1 0\n0 zoom 1.3\n0 polarizer 35\n{extra}0 command out.png\n0 save view.png\n"
+            done = self.headless(script, "--width", 160, "--height", 100, environment=VALIDATION)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), extra)
+            command = done.stdout.splitlines()[0].replace("malus", MALUS, 1)
+            subprocess.run(command, shell=True, check=True, cwd=self.folder, capture_output=True)
+            self.assert_same(read_png(self.folder / "view.png"), read_png(self.folder / "out.png"))
+
+    def test_json_has_times_of_both_kinds_of_frames(self):
+        done = self.headless("0 wait\n1-3 turn 5\n4-6 orbit 1 0\n", "--json", "--width", 64, frames=7)
+        result = json.loads(done.stdout)
+        self.assertEqual(len(result["frames"]), 7)
+        self.assertEqual(result["rendered"]["frames"], 3)
+        self.assertEqual(result["displayOnly"]["frames"], 4)
+        self.assertEqual(result["sides"][0]["method"], "stokes")
+
+    def test_errors_of_the_sides_are_those_of_compare(self):
+        done = self.headless("0 split 0.5\n0 method b fresnel\n0 show flip\n0 wait-reference\n0 save flip.png\n", "--json",
+                             "--width", 160, "--height", 100)
+        a, b = json.loads(done.stdout)["sides"]
+        self.assertLess(a["relRms"], 1e-5)
+        self.assertGreater(b["relRms"], 1e-3)
+        self.assertGreater(b["flip"], 100 * a["flip"])
+        flip = read_png(self.folder / "flip.png")
+        lowest = bytes((68, 1, 84))  # of viridis
+        left, right = flip.columns(0, 80), flip.columns(80, 160)
+        for image, exact in ((left, True), (right, False)):
+            pixels = [image.rgb[i:i + 3] for i in range(0, len(image.rgb), 3)]
+            self.assertEqual(sum(p == lowest for p in pixels) > 0.95 * len(pixels), exact)
+
+    def test_other_quantities_are_the_images_of_render(self):
+        for shown, option in (("dolp", "--output-dolp"), ("aolp", "--output-aolp")):
+            self.headless(f"0 show {shown}\n0 save shown.png\n", "--width", WIDTH, "--height", HEIGHT)
+            self.rendered(option, self.folder / "expected.png")
+            share = read_png(self.folder / "shown.png").share_that_differs(read_png(self.folder / "expected.png"), 3)
+            self.assertLess(share, 0.01, shown)
+
+    def test_wrong_use(self):
+        for arguments, code, words in ((["--script", "x"], 2, "--frames"), (["--json"], 2, "--frames"),
+                                       (["--method", "x"], 2, "x"), (["--frames", "1", "--script", "none"], 1, "none"),
+                                       (["--view", "{}{", "--frames", "1"], 1, "--view")):
+            done = self.run_malus("view", self.pack, *arguments)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(words, done.stderr)
+        self.assertIn("script.txt:2: ", self.headless("0 wait\n0 orbit x 1\n").stderr)
+
+    def test_no_display(self):
+        done = self.run_malus("view", self.pack, environment={"DISPLAY": "", "WAYLAND_DISPLAY": ""})
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn("display", done.stderr)
+
+    def test_a_lost_device_is_a_message(self):
+        done = self.headless("0-50 orbit 1 0\n", "--width", 64, frames=50,
+                             environment={"LD_PRELOAD": FAILING_DEVICE, "MALUS_FAIL_AT": "20"})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("lost", done.stderr)
+
+
+class WindowTest(ViewerTest):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.display = self.enterContext(Display(folder.name, WIDTH, HEIGHT))
+
+    def open(self, *arguments, environment=VALIDATION):
+        viewer = self.enterContext(Viewer(self.display, MALUS, self.pack, *arguments, environment=environment))
+        self.assertIsNone(viewer.process.poll())
+        return viewer
+
+    def close(self, viewer):
+        viewer.key("ctrl+q")
+        code, messages, seconds = viewer.wait(10)
+        self.assertEqual((code, messages), (0, ""))
+        self.assertLess(seconds, 1.5)  # one second, and the time to notice the key on a loaded machine
+
+    def test_image_polarizer_and_method_are_those_of_render(self):
+        viewer = self.open("--method", "stokes")
+        viewer.display.still_screenshot()
+        viewer.key("h")  # the panel covers a part of the image
+        self.display.xdotool("mousemove", WIDTH - 1, HEIGHT - 1)
+        seen = self.display.still_screenshot()
+        self.assert_same(seen.columns(0, WIDTH - 20), self.rendered().columns(0, WIDTH - 20))
+        viewer.key("bracketright", "bracketright", "bracketright")
+        turned = self.display.still_screenshot()
+        self.assert_same(turned.columns(0, WIDTH - 20), self.rendered("--polarizer", 15).columns(0, WIDTH - 20))
+        self.assert_differ(turned, seen)
+        viewer.key("p", "shift+m")
+        linear = self.display.still_screenshot()
+        self.assert_same(linear.columns(0, WIDTH - 20),
+                         self.rendered(method="stokes-linear").columns(0, WIDTH - 20))
+        self.close(viewer)
+
+    def test_the_divider_separates_two_methods(self):
+        viewer = self.open("--compare-with", "schlick")
+        viewer.display.still_screenshot()
+        viewer.key("h")
+        viewer.drag((WIDTH // 2, HEIGHT - 20), (WIDTH // 4, HEIGHT - 20))
+        self.display.xdotool("mousemove", WIDTH - 1, HEIGHT - 1)
+        seen = self.display.still_screenshot()
+        margin, top = 12, 60  # of the divider, and of the labels
+        stokes, schlick = self.rendered(), self.rendered(method="schlick")
+
+        def below(image):
+            return Image(image.width, image.height - top, image.rgb[3 * top * image.width:])
+
+        right = (WIDTH // 4 + margin, WIDTH - 20)
+        self.assert_same(below(seen.columns(0, WIDTH // 4 - margin)), below(stokes.columns(0, WIDTH // 4 - margin)))
+        self.assert_same(below(seen.columns(*right)), below(schlick.columns(*right)))
+        self.assert_differ(below(seen.columns(*right)), below(stokes.columns(*right)))
+        self.close(viewer)
+
+    def test_closing_while_rendering(self):
+        for arguments in (["--samples", 16], ["--backend", "vulkan", "--samples", 8]):
+            viewer = self.open(*arguments, environment={})
+            time.sleep(0.7)
+            self.close(viewer)
+
+    def test_interrupt(self):
+        viewer = self.open("--samples", 8, environment={})
+        time.sleep(0.5)
+        viewer.process.send_signal(signal.SIGINT)
+        code, _, seconds = viewer.wait(10)
+        self.assertEqual(code, 130)
+        self.assertLess(seconds, 1.5)
+
+    def test_sizes_of_the_window(self):
+        viewer = self.open()
+        for size in ((1, 1), (WIDTH, 1), (1, HEIGHT), (37, 91), (WIDTH, HEIGHT)):
+            self.display.xdotool("windowsize", viewer.window, *size)
+            time.sleep(0.3)
+        self.display.xdotool("windowunmap", viewer.window)
+        time.sleep(0.3)
+        self.display.xdotool("windowmap", viewer.window)
+        viewer.display.still_screenshot()
+        viewer.key("h")
+        self.display.xdotool("mousemove", WIDTH - 1, HEIGHT - 1)
+        seen = self.display.still_screenshot()
+        self.assert_same(seen.columns(0, WIDTH - 20), self.rendered().columns(0, WIDTH - 20))
+        self.close(viewer)
+
+    def test_a_lost_device_is_a_message(self):
+        viewer = self.enterContext(Viewer(self.display, MALUS, self.pack,
+                                          environment={"LD_PRELOAD": FAILING_DEVICE, "MALUS_FAIL_AT": "6"}))
+        for i in range(20):
+            if viewer.process.poll() is None:
+                self.display.xdotool("mousemove", 100 + i, 100)
+                time.sleep(0.05)
+        code, messages, _ = viewer.wait(10)
+        self.assertEqual(code, 1)
+        self.assertIn("lost", messages)
+
+    def test_random_input(self):
+        seconds = float(os.environ.get("MALUS_SOAK_SECONDS", "12"))
+        seed = int(os.environ.get("MALUS_SOAK_SEED", "20"))
+        viewer = self.open("--compare-with", "sp", environment={})
+        generator = random.Random(seed)
+        keys = ("f w s a d p bracketleft bracketright m shift+m b x 1 2 3 4 5 6 7 8 r minus equal Home h F1").split()
+        start, resident = time.monotonic(), []
+        while time.monotonic() - start < seconds:
+            x, y = generator.randrange(WIDTH), generator.randrange(HEIGHT)
+            kind = generator.randrange(4)
+            if kind == 0:
+                viewer.key(generator.choice(keys))
+            elif kind == 1:
+                viewer.drag((x, y), (generator.randrange(WIDTH), generator.randrange(HEIGHT)),
+                            generator.choice((1, 3)))
+            elif kind == 2:
+                self.display.xdotool("mousemove", x, y, "click", generator.choice((1, 4, 5)))
+            else:
+                time.sleep(generator.random() * 0.2)
+            self.assertIsNone(viewer.process.poll(), f"seed {seed}")
+            resident.append(viewer.resident_bytes())
+        third = len(resident) // 3
+        growth = max(resident[-third:]) - max(resident[third:2 * third])
+        print(f"soak: {seconds:.0f} s, {max(resident) / 2**20:.0f} MiB, growth {growth / 2**20:.1f} MiB", file=sys.stderr)
+        if seconds >= 300:
+            self.assertLess(growth, 20 * 2**20)
+        viewer.key("ctrl+q")
+        self.assertEqual(viewer.wait(10)[:2], (0, ""))
+
+
+if __name__ == "__main__":
+    if not viewer_display.is_available():
+        print("viewer_test: Xvfb and xdotool are not installed (tools/install-deps)", file=sys.stderr)
+        sys.exit(SKIPPED)
+    unittest.main()

@@ -15,7 +15,7 @@ constexpr std::size_t kUnit = std::size_t{1} << 18u;
 DeviceStore::DeviceStore(const DisplayDevice& device, std::size_t count) : capacity_(std::max<std::size_t>(count, 64)) {
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = capacity_ * sizeof(float);
-  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  info.usage = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
   buffer_ = vulkan::create(device.get(), vkCreateBuffer, info, vkDestroyBuffer, "vkCreateBuffer (pixels)");
   VkMemoryRequirements needs{};
@@ -30,6 +30,9 @@ DeviceStore::DeviceStore(const DisplayDevice& device, std::size_t count) : capac
   void* mapped = nullptr;
   check(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped), "vkMapMemory (pixels)");
   mapped_ = static_cast<float*>(mapped);
+  VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+  address.buffer = buffer_.get();
+  address_ = vkGetBufferDeviceAddress(device.get(), &address);
 }
 
 struct DeviceStores::Pool {

@@ -15,6 +15,7 @@ class DeviceStore : public PixelStore {
 
   std::span<float> values() override { return {mapped_, capacity_}; }
   VkBuffer buffer() const { return buffer_.get(); }
+  VkDeviceAddress address() const { return address_; }
   std::size_t capacity() const { return capacity_; }
 
  private:
@@ -22,6 +23,7 @@ class DeviceStore : public PixelStore {
   vulkan::Owned<VkBuffer> buffer_;
   vulkan::Owned<VkDeviceMemory> memory_;
   float* mapped_ = nullptr;
+  VkDeviceAddress address_ = 0;
 };
 
 class DeviceStores : public PixelStores {

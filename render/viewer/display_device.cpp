@@ -41,6 +41,15 @@ bool hasSwapchains(VkPhysicalDevice device) {
   });
 }
 
+bool hasAddresses(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
+  if (properties.apiVersion < VK_API_VERSION_1_2) return false;
+  VkPhysicalDeviceVulkan12Features features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+  all.pNext = &features;
+  vkGetPhysicalDeviceFeatures2(device, &all);
+  return features.bufferDeviceAddress == VK_TRUE;
+}
+
 // Best first.
 int rank(VkPhysicalDeviceType type) {
   switch (type) {
@@ -73,8 +82,9 @@ std::vector<Candidate> findCandidates(VkInstance instance, VkSurfaceKHR surface)
   for (VkPhysicalDevice device : devices) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device, &properties);
+    // Devices with ray tracing have addresses, and so do most others.
     const std::optional<std::uint32_t> family = findFamily(device, surface);
-    if (family && (!surface || hasSwapchains(device)))
+    if (family && hasAddresses(device, properties) && (!surface || hasSwapchains(device)))
       candidates.push_back({device, *family, properties.deviceName, rank(properties.deviceType)});
   }
   std::ranges::stable_sort(candidates, {}, &Candidate::rank);
@@ -145,7 +155,10 @@ DisplayDevice::DisplayDevice(const DisplayInstance& instance, VkSurfaceKHR surfa
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
   const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+  VkPhysicalDeviceVulkan12Features features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  features.bufferDeviceAddress = VK_TRUE;
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+  info.pNext = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   info.enabledExtensionCount = surface ? 1 : 0;
@@ -169,6 +182,9 @@ vulkan::Owned<VkDeviceMemory> DisplayDevice::allocate(const VkMemoryRequirements
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
       if ((needs.memoryTypeBits >> i & 1u) == 0 || (memory.memoryTypes[i].propertyFlags & wanted) != wanted) continue;
       VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+      VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+      flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+      info.pNext = &flags;
       info.allocationSize = needs.size;
       info.memoryTypeIndex = i;
       return vulkan::create(get(), vkAllocateMemory, info, vkFreeMemory,

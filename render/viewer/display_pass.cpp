@@ -13,20 +13,14 @@ using vulkan::create;
 
 namespace {
 
-constexpr std::uint32_t kBuffers = 6;
 constexpr std::uint32_t kGroupWidth = 16, kGroupHeight = 4;  // of present.comp
 
 vulkan::Owned<VkDescriptorSetLayout> makeSetLayout(VkDevice device) {
-  std::array<VkDescriptorSetLayoutBinding, 1 + kBuffers> bindings{};
-  for (std::uint32_t i = 0; i < bindings.size(); ++i) {
-    bindings[i].binding = i;
-    bindings[i].descriptorType = i == 0 ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    bindings[i].descriptorCount = 1;
-    bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
-  }
+  const VkDescriptorSetLayoutBinding image{0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT,
+                                           nullptr};
   VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-  info.bindingCount = static_cast<std::uint32_t>(bindings.size());
-  info.pBindings = bindings.data();
+  info.bindingCount = 1;
+  info.pBindings = &image;
   return create(device, vkCreateDescriptorSetLayout, info, vkDestroyDescriptorSetLayout,
                 "vkCreateDescriptorSetLayout (display)");
 }
@@ -64,18 +58,21 @@ vulkan::Owned<VkPipeline> makePipeline(VkDevice device, VkPipelineLayout layout,
 }
 
 vulkan::Owned<VkDescriptorPool> makePool(VkDevice device) {
-  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1},
-                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBuffers}};
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = 1;
-  info.poolSizeCount = 2;
-  info.pPoolSizes = sizes;
+  info.poolSizeCount = 1;
+  info.pPoolSizes = &size;
   return create(device, vkCreateDescriptorPool, info, vkDestroyDescriptorPool, "vkCreateDescriptorPool (display)");
+}
+
+gpu::FloatBuffer address(const std::shared_ptr<PixelStore>& store) {
+  return store ? static_cast<const DeviceStore&>(*store).address() : 0;
 }
 
 gpu::DisplayImage describe(const ImageRows& image) {
   if (!image.store) return {};
-  return {image.width, image.height, image.channels, image.rows};
+  return {address(image.store), image.width | image.height << 16u, image.rows | image.channels << 16u};
 }
 
 gpu::DisplayParameters parametersFor(const DisplayInput& input, const DisplayImageTarget& target) {
@@ -87,8 +84,10 @@ gpu::DisplayParameters parametersFor(const DisplayInput& input, const DisplayIma
   }
   const ImageRows& reference = input.reference;
   const bool fits = reference.store && reference.width == target.width() && reference.height == target.height();
+  p.reference = address(reference.store);
   p.referenceRows = fits ? reference.rows : 0;
-  p.againstOther = input.againstOther ? 1 : 0;
+  p.flipValues = address(input.flip);
+  p.flags = (input.againstOther ? gpu::kDisplayAgainstOther : 0) | (input.flip ? gpu::kDisplayHasFlip : 0);
   p.divider = input.dividerColumn;
   p.gain = input.gain;
   p.differenceScale = input.differenceScale;
@@ -155,8 +154,7 @@ DisplayPass::DisplayPass(const DisplayDevice& device)
     : device_(device),
       setLayout_(makeSetLayout(device.get())),
       layout_(makeLayout(device.get(), setLayout_.get())),
-      descriptors_(makePool(device.get())),
-      empty_(std::make_shared<DeviceStore>(device, 0)) {
+      descriptors_(makePool(device.get())) {
   VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
   info.descriptorPool = descriptors_.get();
   info.descriptorSetCount = 1;
@@ -167,27 +165,13 @@ DisplayPass::DisplayPass(const DisplayDevice& device)
 
 void DisplayPass::record(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target) {
   used_ = input;
-  const std::array<std::shared_ptr<PixelStore>, kBuffers> stores = {input.coarse[0].store, input.coarse[1].store,
-                                                                    input.fine[0].store,   input.fine[1].store,
-                                                                    input.reference.store, input.flip};
-  std::array<VkDescriptorBufferInfo, kBuffers> buffers{};
-  std::array<VkWriteDescriptorSet, 1 + kBuffers> writes{};
   const VkDescriptorImageInfo image{VK_NULL_HANDLE, target.view(), VK_IMAGE_LAYOUT_GENERAL};
-  for (std::uint32_t i = 0; i < writes.size(); ++i) {
-    writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    writes[i].dstSet = set_;
-    writes[i].dstBinding = i;
-    writes[i].descriptorCount = 1;
-    writes[i].descriptorType = i == 0 ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    if (i == 0) {
-      writes[i].pImageInfo = &image;
-      continue;
-    }
-    const auto& store = static_cast<const DeviceStore&>(stores[i - 1] ? *stores[i - 1] : *empty_);
-    buffers[i - 1] = {store.buffer(), 0, VK_WHOLE_SIZE};
-    writes[i].pBufferInfo = &buffers[i - 1];
-  }
-  vkUpdateDescriptorSets(device_.get(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+  VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+  write.dstSet = set_;
+  write.descriptorCount = 1;
+  write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+  write.pImageInfo = &image;
+  vkUpdateDescriptorSets(device_.get(), 1, &write, 0, nullptr);
 
   transition(commands, target.image(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, 0,
              VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);

@@ -61,7 +61,6 @@ class DisplayPass {
   std::array<vulkan::Owned<VkPipeline>, kQuantityNames.size()> pipelines_;  // by quantity, made when shown
   vulkan::Owned<VkDescriptorPool> descriptors_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
-  std::shared_ptr<PixelStore> empty_;  // in place of an image that is missing
   DisplayInput used_;
 };
 

@@ -126,7 +126,7 @@ void drawFilter(ViewState& state, UiState& ui) {
     filter.plate.retardanceDegrees = static_cast<double>(retardance);
 }
 
-void drawShown(Session& session) {
+void drawShown(Session& session, UiState& ui) {
   ViewState& state = session.state;
   int shown = static_cast<int>(state.shown);
   const char* const names[] = {"colour", "DoLP", "AoLP", "S1 / S0", "S2 / S0", "S3 / S0", "difference", "FLIP"};
@@ -145,6 +145,7 @@ void drawShown(Session& session) {
     if (ImGui::SliderFloat("scale", &scale, 0.001f, 1, "%.3f", ImGuiSliderFlags_Logarithmic))
       state.differenceScale = static_cast<double>(scale);
   }
+  ImGui::Checkbox("probe of the pixel under the cursor", &ui.showsProbe);
   ImGui::Checkbox("reference in the background", &state.usesReference);
   const BackgroundState background = session.background();
   if (!state.usesReference || session.height() == 0) return;
@@ -175,10 +176,28 @@ void drawTimes(const UiState& ui, const Published& published) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("times of the last 200 frames of the window, 0 to 100 ms");
 }
 
+namespace {
+
+// At the right, so that it is beside the groups of the panel.
+void drawProbeWindow(const Session& session, UiState& ui, const Published& published,
+                     const BackgroundState& background) {
+  if (!ui.showsProbe) return;
+  ImGui::SetNextWindowPos({static_cast<float>(session.width()), 0}, ImGuiCond_Always, {1, 0});
+  const float width = 22 * ImGui::GetFontSize();
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, static_cast<float>(session.height())});
+  constexpr ImGuiWindowFlags kFlags =
+      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar;
+  if (ImGui::Begin("probe", nullptr, kFlags)) drawProbe(session, ui, published, background);
+  ImGui::End();
+}
+
+}  // namespace
+
 void drawPanel(Session& session, UiState& ui, const Published& published, const BackgroundState& background) {
   drawSides(session, ui, published, background);
   drawLegend(session.state, ui, session.width(), session.height());
   if (!ui.showsPanel) return;
+  drawProbeWindow(session, ui, published, background);
   const auto scale = static_cast<float>(ui.scale);
   const float width = std::min(300 * scale, static_cast<float>(session.width()));
   ImGui::SetNextWindowPos({0, 0});
@@ -191,10 +210,8 @@ void drawPanel(Session& session, UiState& ui, const Published& published, const 
     ImGui::TextDisabled("F1: keys, H: hide the panel");
     if (ImGui::CollapsingHeader("Method", ImGuiTreeNodeFlags_DefaultOpen)) drawMethods(session, ui, published);
     if (ImGui::CollapsingHeader("Filter", ImGuiTreeNodeFlags_DefaultOpen)) drawFilter(session.state, ui);
-    if (ImGui::CollapsingHeader("Shown", ImGuiTreeNodeFlags_DefaultOpen)) drawShown(session);
+    if (ImGui::CollapsingHeader("Shown", ImGuiTreeNodeFlags_DefaultOpen)) drawShown(session, ui);
     if (ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) drawTimes(ui, published);
-    ui.showsProbe = ImGui::CollapsingHeader("Probe");
-    if (ui.showsProbe) drawProbe(session, ui, published, background);
     if (ImGui::CollapsingHeader("Effects")) drawEffects(session, ui);
     if (ImGui::CollapsingHeader("Save and record")) drawFiles(session, ui);
     ImGui::PopItemWidth();

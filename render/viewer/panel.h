@@ -12,7 +12,7 @@ void drawPanel(Session& session, UiState& ui, const Published& published, const 
 // The groups of the panel.
 void drawMethods(Session& session, UiState& ui, const Published& published);
 void drawFilter(ViewState& state, UiState& ui);
-void drawShown(Session& session);
+void drawShown(Session& session, UiState& ui);
 void drawEffects(Session& session, UiState& ui);
 void drawTimes(const UiState& ui, const Published& published);
 void drawProbe(const Session& session, const UiState& ui, const Published& published,

@@ -24,7 +24,7 @@ struct PublishedSide {
   ImageRows fine;    // full resolution, in front of it
   // Of the last image: rays and shading, scaled to the full resolution [ms].
   double traceMs = 0;
-  double medianMs = 0;         // of the last 30 images, scaled to the full resolution
+  double medianMs = 0;         // of the last 30 images at full resolution
   std::uint64_t rays = 0;      // of the last complete image; 0 if they were not counted
   std::string method;          // that rendered
   std::string substitutedFor;  // as render::Job::substitutedFor()

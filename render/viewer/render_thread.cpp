@@ -143,8 +143,8 @@ void RenderThread::prepareSides(const Wish& wish) {
       continue;
     }
     const SideSettings& settings = wish.state.sides[i];
-    if (!(settings == timed_[i])) times_[i].clear();
-    timed_[i] = settings;
+    times_[i].clear();
+    areFull_[i] = false;
     side.problem.clear();
     try {
       tasks_[i] = SideTask{renderers_.prepare(jobSettings(wish.state, settings, wish.width, wish.height, needed_))};
@@ -159,9 +159,12 @@ void RenderThread::prepareSides(const Wish& wish) {
 }
 
 void RenderThread::noteSide(std::size_t side, const SideTask& task, const render::RenderResult& result, double fullMs,
-                            std::uint64_t rays) {
+                            std::uint64_t rays, bool isFull) {
   PublishedSide& published = next_.sides[side];
-  times_[side].add(fullMs);
+  // Small images are slower per pixel: they are estimates until an image is complete.
+  if (isFull && !areFull_[side]) times_[side].clear();
+  if (isFull || !areFull_[side]) times_[side].add(fullMs);
+  areFull_[side] = areFull_[side] || isFull;
   published.traceMs = fullMs;
   published.medianMs = times_[side].median();
   published.device = result.device;
@@ -188,7 +191,7 @@ void RenderThread::renderCoarse(const Wish& wish) {
     const double share = double(wish.width) * wish.height / (double(result.width) * result.height);
     task.bandRows = std::max(1.0, kBandMs / std::max(result.cost.wallMs * share, 1e-3) * wish.height);
     noteSide(i, task, result, result.cost.traceMs * share,
-             static_cast<std::uint64_t>(static_cast<double>(result.cost.rays) * share));
+             static_cast<std::uint64_t>(static_cast<double>(result.cost.rays) * share), fraction == 1);
     next_.sides[i].coarse = fraction < 1 ? image : ImageRows{};
     next_.sides[i].fine = fraction < 1 ? ImageRows{} : image;
   }
@@ -235,7 +238,7 @@ bool RenderThread::renderFineSide(const Wish& wish, std::size_t side, SideTask& 
     traceMs += band.cost.traceMs;
     rays += band.cost.rays;
     task.bandRows *= std::clamp(kBandMs / std::max(band.cost.wallMs, 1e-3), 0.5, 2.0);
-    if (row == wish.height) noteSide(side, task, band, traceMs, rays);
+    if (row == wish.height) noteSide(side, task, band, traceMs, rays, true);
     if (isHidden && row < wish.height) continue;
     published.fine = image;
     if (row < wish.height) publish(next_);

@@ -53,7 +53,7 @@ class RenderThread {
   bool renderFine(const Wish& wish);
   bool renderFineSide(const Wish& wish, std::size_t side, SideTask& task);
   void noteSide(std::size_t side, const SideTask& task, const render::RenderResult& result, double fullMs,
-                std::uint64_t rays);
+                std::uint64_t rays, bool isFull);
   void publish(const Published& next);
 
   const Host& host_;
@@ -65,7 +65,7 @@ class RenderThread {
   // Of the thread alone.
   AdaptiveResolution resolution_;
   std::array<FrameTimes, 2> times_;
-  std::array<SideSettings, 2> timed_;
+  std::array<bool, 2> areFull_{};  // whether times_ are those of complete images
   std::optional<Wish> prepared_;
   std::array<std::optional<SideTask>, 2> tasks_;  // of prepared_
   Published next_;

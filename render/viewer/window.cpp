@@ -26,6 +26,8 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 
 void drawHelp(bool& isOpen) {
   if (!isOpen) return;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
   if (ImGui::Begin("Keys", &isOpen, ImGuiWindowFlags_AlwaysAutoResize)) {
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
       for (const KeyHelp& key : keyHelp()) {

@@ -37,6 +37,7 @@ const std::vector<KeyHelp>& keyHelp() {
       {"B", "split on and off"},
       {"X", "exchange the sides"},
       {"1 to 8", "show colour, DoLP, AoLP, S1, S2, S3, difference, FLIP"},
+      {"I", "probe of the pixel under the cursor on and off"},
       {"R", "reference in the background on and off"},
       {"- =", "exposure down and up by half a stop"},
       {"Home", "camera of the scene"},
@@ -178,6 +179,9 @@ void WindowInput::onKey(int key, int modifiers) {
       break;
     case GLFW_KEY_X:
       std::swap(state.sides[0], state.sides[1]);
+      break;
+    case GLFW_KEY_I:
+      ui_.showsProbe = !ui_.showsProbe;
       break;
     case GLFW_KEY_R:
       state.usesReference = !state.usesReference;

@@ -2,22 +2,19 @@
 // by colours. No ray is traced.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
 
 #include "shaders/gpu/language.glsl"
 #include "shaders/display/tone_curve.h"
 #include "shaders/display/aolp_colour.h"
 #include "shaders/display/signed_colour.h"
+
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer FloatBuffer { float values[]; };
 #include "shaders/display/display_parameters.h"
 
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(push_constant) uniform Parameters { DisplayParameters parameters; };
 layout(binding = 0, rgba8) uniform writeonly image2D targetImage;
-layout(binding = 1) readonly buffer Coarse0 { float coarse0[]; };
-layout(binding = 2) readonly buffer Coarse1 { float coarse1[]; };
-layout(binding = 3) readonly buffer Fine0 { float fine0[]; };
-layout(binding = 4) readonly buffer Fine1 { float fine1[]; };
-layout(binding = 5) readonly buffer Reference { float referencePixels[]; };
-layout(binding = 6) readonly buffer Flip { float flipValues[]; };
 
 layout(constant_id = 0) const uint kShown = 0u;  // viewer::Quantity
 layout(constant_id = 1) const bool kInterpolates = true;
@@ -47,47 +44,36 @@ struct Light {
 };
 const bool kShowsStokes = kShown >= kDolp && kShown <= kS3;
 
-#define READER(NAME, BUFFER)                                                                           \
-  vec3 NAME##At(uint i) { return vec3(BUFFER[i], BUFFER[i + 1u], BUFFER[i + 2u]); }                    \
-  Light NAME(uint pixel, uint channels) {                                                              \
-    uint i = pixel * channels;                                                                         \
-    Light light;                                                                                       \
-    light.stokes = vec4(0.0);                                                                          \
-    light.colour = vec3(0.0);                                                                          \
-    if (kShowsStokes) {                                                                                \
-      light.stokes.x = dot(NAME##At(i), kLuminance);                                                   \
-      if (channels < kStokesChannels) return light;                                                    \
-      light.stokes.x = dot(NAME##At(i + 3u), kLuminance);                                              \
-      if (kShown != kS2 && kShown != kS3) light.stokes.y = dot(NAME##At(i + 6u), kLuminance);          \
-      if (kShown != kS1 && kShown != kS3) light.stokes.z = dot(NAME##At(i + 9u), kLuminance);          \
-      if (kShown == kS3) light.stokes.w = dot(NAME##At(i + 12u), kLuminance);                          \
-      return light;                                                                                    \
-    }                                                                                                  \
-    vec4 f = parameters.analyser;                                                                      \
-    if (channels < kStokesChannels) {                                                                  \
-      light.colour = NAME##At(i);                                                                      \
-      return light;                                                                                    \
-    }                                                                                                  \
-    light.colour = f.x * NAME##At(i + 3u);                                                             \
-    if (f.y != 0.0 || f.z != 0.0) light.colour += f.y * NAME##At(i + 6u) + f.z * NAME##At(i + 9u);      \
-    if (f.w != 0.0) light.colour += f.w * NAME##At(i + 12u);                                           \
-    light.colour = max(light.colour, vec3(0.0));                                                       \
-    return light;                                                                                      \
-  }
-READER(readCoarse0, coarse0)
-READER(readCoarse1, coarse1)
-READER(readFine0, fine0)
-READER(readFine1, fine1)
-READER(readReference, referencePixels)
+vec3 rgb(FloatBuffer pixels, uint i) { return vec3(pixels.values[i], pixels.values[i + 1u], pixels.values[i + 2u]); }
+float luminance(FloatBuffer pixels, uint i) { return dot(rgb(pixels, i), kLuminance); }
 
-Light readCoarse(uint side, uint pixel, uint channels) {
-  if (side == 0u) return readCoarse0(pixel, channels);
-  return readCoarse1(pixel, channels);
+Light readLight(FloatBuffer pixels, uint pixel, uint channels) {
+  uint i = pixel * channels;
+  Light light;
+  light.stokes = vec4(0.0);
+  light.colour = vec3(0.0);
+  bool hasStokes = channels == kStokesChannels;
+  if (kShowsStokes) {
+    light.stokes.x = luminance(pixels, hasStokes ? i + 3u : i);
+    if (!hasStokes) return light;
+    if (kShown != kS2 && kShown != kS3) light.stokes.y = luminance(pixels, i + 6u);
+    if (kShown != kS1 && kShown != kS3) light.stokes.z = luminance(pixels, i + 9u);
+    if (kShown == kS3) light.stokes.w = luminance(pixels, i + 12u);
+    return light;
+  }
+  if (!hasStokes) {
+    light.colour = rgb(pixels, i);
+    return light;
+  }
+  vec4 f = parameters.analyser;
+  light.colour = f.x * rgb(pixels, i + 3u);
+  if (f.y != 0.0 || f.z != 0.0) light.colour += f.y * rgb(pixels, i + 6u) + f.z * rgb(pixels, i + 9u);
+  if (f.w != 0.0) light.colour += f.w * rgb(pixels, i + 12u);
+  light.colour = max(light.colour, vec3(0.0));
+  return light;
 }
-Light readFine(uint side, uint pixel, uint channels) {
-  if (side == 0u) return readFine0(pixel, channels);
-  return readFine1(pixel, channels);
-}
+
+uvec2 unpack(uint packed) { return uvec2(packed & 0xffffu, packed >> 16u); }
 
 Light mixLight(Light a, Light b, float t) {
   Light light;
@@ -96,39 +82,41 @@ Light mixLight(Light a, Light b, float t) {
   return light;
 }
 
-// The coarse image at a point of the window, 0 to 1: between its four nearest pixels or, on a CPU, where reading them
-// takes as long as tracing them, the nearest.
-Light stretchCoarse(uint side, vec2 at) {
-  DisplayImage image = parameters.coarse[side];
+// A coarse image at a point of the window, 0 to 1: between its four nearest pixels or, on a CPU, where reading them takes
+// as long as tracing them, the nearest.
+Light stretchCoarse(DisplayImage image, vec2 at) {
+  uvec2 size = unpack(image.size), last = size - 1u;
+  uint channels = image.rows >> 16u;
   if (!kInterpolates) {
-    uvec2 nearest = min(uvec2(at * vec2(image.width, image.height)), uvec2(image.width, image.height) - 1u);
-    return readCoarse(side, nearest.y * image.width + nearest.x, image.channels);
+    uvec2 nearest = min(uvec2(at * vec2(size)), last);
+    return readLight(image.pixels, nearest.y * size.x + nearest.x, channels);
   }
-  vec2 last = vec2(image.width - 1u, image.height - 1u);
-  vec2 position = clamp(at * vec2(image.width, image.height) - 0.5, vec2(0.0), last);
-  uvec2 low = uvec2(position), high = min(low + 1u, uvec2(last));
+  vec2 position = clamp(at * vec2(size) - 0.5, vec2(0.0), vec2(last));
+  uvec2 low = uvec2(position), high = min(low + 1u, last);
   vec2 t = position - vec2(low);
-  uint c = image.channels, w = image.width;
-  Light upper = mixLight(readCoarse(side, low.y * w + low.x, c), readCoarse(side, low.y * w + high.x, c), t.x);
-  Light lower = mixLight(readCoarse(side, high.y * w + low.x, c), readCoarse(side, high.y * w + high.x, c), t.x);
+  Light upper = mixLight(readLight(image.pixels, low.y * size.x + low.x, channels),
+                         readLight(image.pixels, low.y * size.x + high.x, channels), t.x);
+  Light lower = mixLight(readLight(image.pixels, high.y * size.x + low.x, channels),
+                         readLight(image.pixels, high.y * size.x + high.x, channels), t.x);
   return mixLight(upper, lower, t.y);
 }
 
-// Light of a side at a pixel of the window. Returns false if there is no image.
-bool readSide(uint side, uvec2 pixel, vec2 at, out Light light) {
+// Light of a side at a point of the window. Returns false if there is no image.
+bool readSide(uint side, vec2 at, out Light light) {
   DisplayImage image = parameters.fine[side];
+  uint rows = image.rows & 0xffffu;
   light.colour = vec3(0.0);
   light.stokes = vec4(0.0);
-  if (image.rows > 0u) {
+  if (rows > 0u) {
     // Of the size of the window, except just after a change of that size.
-    uvec2 nearest = min(uvec2(at * vec2(image.width, image.height)), uvec2(image.width, image.height) - 1u);
-    if (nearest.y < image.rows) {
-      light = readFine(side, nearest.y * image.width + nearest.x, image.channels);
+    uvec2 size = unpack(image.size), nearest = min(uvec2(at * vec2(size)), size - 1u);
+    if (nearest.y < rows) {
+      light = readLight(image.pixels, nearest.y * size.x + nearest.x, image.rows >> 16u);
       return true;
     }
   }
-  if (parameters.coarse[side].rows == 0u) return false;
-  light = stretchCoarse(side, at);
+  if ((parameters.coarse[side].rows & 0xffffu) == 0u) return false;
+  light = stretchCoarse(parameters.coarse[side], at);
   return true;
 }
 
@@ -148,11 +136,12 @@ vec3 aolpColour(vec4 s) {
 // Difference of a side to the other side or to the reference.
 vec3 differenceColour(uint side, Light light, uvec2 pixel, vec2 at) {
   Light other;
-  if (parameters.againstOther == 1u) {
-    if (!readSide(1u - side, pixel, at, other)) return kNone;
+  if ((parameters.flags & kDisplayAgainstOther) != 0u) {
+    if (!readSide(1u - side, at, other)) return kNone;
   } else {
     if (pixel.y >= parameters.referenceRows) return kNone;
-    other = readReference(pixel.y * (parameters.target & 0xffffu) + pixel.x, kStokesChannels);
+    uint width = parameters.target & 0xffffu;
+    other = readLight(parameters.reference, pixel.y * width + pixel.x, kStokesChannels);
   }
   vec3 d = abs(light.colour - other.colour) * parameters.gain / parameters.differenceScale;
   return viridis(max(d.x, max(d.y, d.z)));
@@ -160,7 +149,7 @@ vec3 differenceColour(uint side, Light light, uvec2 pixel, vec2 at) {
 
 vec3 shownColour(uint side, uvec2 pixel, vec2 at) {
   Light light;
-  if (!readSide(side, pixel, at, light)) return kNone;
+  if (!readSide(side, at, light)) return kNone;
   switch (kShown) {
     case kDolp: return viridis(degreeOfLinearPolarization(light.stokes));
     case kAolp: return aolpColour(light.stokes);
@@ -169,16 +158,16 @@ vec3 shownColour(uint side, uvec2 pixel, vec2 at) {
     case kS3: return signedColour(light.stokes.x > 0.0 ? light.stokes.w / light.stokes.x : 0.0);
     case kDifference: return differenceColour(side, light, pixel, at);
     case kFlip: {
-      uvec2 size = uvec2(parameters.target & 0xffffu, parameters.target >> 16u);
-      if (uint(flipValues.length()) < 2u * size.x * size.y) return kNone;
-      return viridis(flipValues[(side * size.y + pixel.y) * size.x + pixel.x]);
+      if ((parameters.flags & kDisplayHasFlip) == 0u) return kNone;
+      uvec2 size = unpack(parameters.target);
+      return viridis(parameters.flipValues.values[(side * size.y + pixel.y) * size.x + pixel.x]);
     }
     default: return displayed(light.colour);
   }
 }
 
 void main() {
-  uvec2 size = uvec2(parameters.target & 0xffffu, parameters.target >> 16u), pixel = gl_GlobalInvocationID.xy;
+  uvec2 size = unpack(parameters.target), pixel = gl_GlobalInvocationID.xy;
   if (pixel.x >= size.x || pixel.y >= size.y) return;
   vec2 centre = vec2(pixel) + 0.5;
   uint side = centre.x < parameters.divider ? 0u : 1u;

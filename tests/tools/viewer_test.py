@@ -20,6 +20,7 @@ from viewer_display import Display, Image, Viewer
 MALUS = os.environ["MALUS"]
 SCENES = pathlib.Path(os.environ["MALUS_SCENES"])
 FAILING_DEVICE = os.environ.get("MALUS_FAILING_DEVICE", "")
+LEAK_SANITIZER = os.environ.get("MALUS_LEAK_SANITIZER", "")
 SKIPPED = 77
 WIDTH, HEIGHT = 480, 300
 VALIDATION = {"MALUS_VALIDATION": "1"}
@@ -136,6 +137,17 @@ class HeadlessTest(ViewerTest):
             share = read_png(self.folder / "shown.png").share_that_differs(read_png(self.folder / "expected.png"), 3)
             self.assertLess(share, 0.01, shown)
 
+    def test_an_image_above_the_limit_of_storage_buffers(self):
+        # 2.4 million pixels of 60 bytes: more than 128 MiB, the limit of lavapipe.
+        done = self.headless("0 orbit 1 0\n0 command out.png\n0 save large.png\n", "--width", 2400, "--height", 1000,
+                             environment=VALIDATION)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        command = done.stdout.splitlines()[0].replace("malus", MALUS, 1)
+        subprocess.run(command, shell=True, check=True, cwd=self.folder, capture_output=True)
+        # 1/255 of a bright sRGB value is below 0.01 in linear light.
+        compared = self.run_malus("compare-images", "large.png", "out.png", "--threshold", 0.01, "--max-outliers", 2400)
+        self.assertEqual(compared.returncode, 0, compared.stdout)
+
     def test_wrong_use(self):
         for arguments, code, words in ((["--script", "x"], 2, "--frames"), (["--json"], 2, "--frames"),
                                        (["--method", "x"], 2, "x"), (["--frames", "1", "--script", "none"], 1, "none"),
@@ -250,6 +262,18 @@ class WindowTest(ViewerTest):
         code, messages, _ = viewer.wait(10)
         self.assertEqual(code, 1)
         self.assertIn("lost", messages)
+
+    @unittest.skipUnless(LEAK_SANITIZER, "no LeakSanitizer")
+    def test_no_leak_at_exit(self):
+        viewer = self.open("--compare-with", "fresnel", environment={"LD_PRELOAD": LEAK_SANITIZER})
+        self.display.xdotool("mousemove", WIDTH - 60, HEIGHT // 2)
+        viewer.key("r", "i", "8")  # reference, probe and FLIP
+        self.display.still_screenshot()
+        viewer.key("ctrl+q")
+        code, messages, _ = viewer.wait(30)
+        if "LeakSanitizer has encountered a fatal error" in messages:
+            self.skipTest("LeakSanitizer cannot stop the threads here")
+        self.assertEqual((code, messages), (0, ""))
 
     def test_random_input(self):
         seconds = float(os.environ.get("MALUS_SOAK_SECONDS", "12"))

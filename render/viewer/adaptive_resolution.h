@@ -1,6 +1,8 @@
 // The share of the resolution at which a moving image keeps its frame rate. Pure: it sees measured times only.
 #pragma once
 
+#include <algorithm>
+
 namespace malus::viewer {
 
 class AdaptiveResolution {
@@ -17,9 +19,13 @@ class AdaptiveResolution {
   // that one fast frame does not cause a slow one.
   void add(double fraction, double ms);
 
+  // Time that the display takes of each frame [ms].
+  void setDisplayMs(double ms) { displayMs_ = ms; }
+
  private:
-  // The goal is below the limit, because times vary and the display needs its part.
-  static constexpr double kGoalMs = 0.55 * kLongestFrameMs;
+  // Below the limit, because times vary; at least a part of it for the image, however slow the display is.
+  double goalMs() const { return std::max(0.85 * kLongestFrameMs - displayMs_, 0.2 * kLongestFrameMs); }
+  double displayMs_ = 0.3 * kLongestFrameMs;
   double fraction_ = 0.25;
 };
 

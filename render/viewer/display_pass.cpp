@@ -75,7 +75,9 @@ gpu::DisplayImage describe(const ImageRows& image) {
   return {address(image.store), image.width | image.height << 16u, image.rows | image.channels << 16u};
 }
 
-gpu::DisplayParameters parametersFor(const DisplayInput& input, const DisplayImageTarget& target) {
+// width, height: that are written.
+gpu::DisplayParameters parametersFor(const DisplayInput& input, const DisplayImageTarget& target, std::uint32_t width,
+                                     std::uint32_t height) {
   gpu::DisplayParameters p{};
   p.analyser = input.analyser;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -88,10 +90,10 @@ gpu::DisplayParameters parametersFor(const DisplayInput& input, const DisplayIma
   p.referenceRows = fits ? reference.rows : 0;
   p.flipValues = address(input.flip);
   p.flags = (input.againstOther ? gpu::kDisplayAgainstOther : 0) | (input.flip ? gpu::kDisplayHasFlip : 0);
-  p.divider = input.dividerColumn;
+  p.divider = input.dividerColumn * static_cast<float>(width) / static_cast<float>(target.width());
   p.gain = input.gain;
   p.differenceScale = input.differenceScale;
-  p.target = target.width() | target.height() << 16u;
+  p.target = width | height << 16u;
   return p;
 }
 
@@ -119,7 +121,7 @@ DisplayImageTarget::DisplayImageTarget(const DisplayDevice& device, std::uint32_
   info.mipLevels = info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   image_ = create(device.get(), vkCreateImage, info, vkDestroyImage, "vkCreateImage (display)");
   VkMemoryRequirements needs{};
@@ -163,8 +165,49 @@ DisplayPass::DisplayPass(const DisplayDevice& device)
   check(vkAllocateDescriptorSets(device.get(), &info, &set_), "vkAllocateDescriptorSets (display)");
 }
 
+namespace {
+
+// The image of a moving view that can be shown at its size and then stretched; null: none.
+const ImageRows* coarseAlone(const DisplayInput& input, const DisplayImageTarget& target) {
+  const ImageRows& image = input.coarse[0];
+  const bool comparesWithWindow =
+      input.shown == Quantity::flip || (input.shown == Quantity::difference && !input.againstOther);
+  if (!image.store || comparesWithWindow || image.width > target.width() || image.height > target.height())
+    return nullptr;
+  const bool hasSecond = input.dividerColumn < static_cast<float>(target.width());
+  const ImageRows& second = input.coarse[1];
+  if (hasSecond && (second.width != image.width || second.height != image.height)) return nullptr;
+  return input.fine[0].rows == 0 && (!hasSecond || input.fine[1].rows == 0) ? &image : nullptr;
+}
+
+}  // namespace
+
 void DisplayPass::record(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target) {
   used_ = input;
+  const ImageRows* const coarse = coarseAlone(input, target);
+  if (!coarse) {
+    dispatch(commands, input, target, target.width(), target.height());
+    return;
+  }
+  if (!small_ || small_->width() != target.width() || small_->height() != target.height())
+    small_ = std::make_unique<DisplayImageTarget>(device_, target.width(), target.height());
+  dispatch(commands, input, *small_, coarse->width, coarse->height);
+  transition(commands, target.image(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0,
+             VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT);
+  VkImageBlit blit{};
+  blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  blit.srcOffsets[1] = {static_cast<std::int32_t>(coarse->width), static_cast<std::int32_t>(coarse->height), 1};
+  blit.dstOffsets[1] = {static_cast<std::int32_t>(target.width()), static_cast<std::int32_t>(target.height()), 1};
+  vkCmdBlitImage(commands, small_->image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image(),
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_LINEAR);
+  transition(commands, target.image(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+             VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+             VK_PIPELINE_STAGE_TRANSFER_BIT);
+}
+
+// Leaves the target in the layout TRANSFER_SRC_OPTIMAL.
+void DisplayPass::dispatch(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target,
+                           std::uint32_t width, std::uint32_t height) {
   const VkDescriptorImageInfo image{VK_NULL_HANDLE, target.view(), VK_IMAGE_LAYOUT_GENERAL};
   VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
   write.dstSet = set_;
@@ -179,10 +222,9 @@ void DisplayPass::record(VkCommandBuffer commands, const DisplayInput& input, co
   if (!pipeline) pipeline = makePipeline(device_.get(), layout_.get(), input.shown, !device_.isCpu());
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
   vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &set_, 0, nullptr);
-  const gpu::DisplayParameters parameters = parametersFor(input, target);
+  const gpu::DisplayParameters parameters = parametersFor(input, target, width, height);
   vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof parameters, &parameters);
-  vkCmdDispatch(commands, (target.width() + kGroupWidth - 1) / kGroupWidth,
-                (target.height() + kGroupHeight - 1) / kGroupHeight, 1);
+  vkCmdDispatch(commands, (width + kGroupWidth - 1) / kGroupWidth, (height + kGroupHeight - 1) / kGroupHeight, 1);
   transition(commands, target.image(), VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
              VK_ACCESS_SHADER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
              VK_PIPELINE_STAGE_TRANSFER_BIT);

@@ -55,7 +55,11 @@ class DisplayPass {
   void record(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target);
 
  private:
+  void dispatch(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target,
+                std::uint32_t width, std::uint32_t height);
+
   const DisplayDevice& device_;
+  std::unique_ptr<DisplayImageTarget> small_;  // of the size of the window; takes a coarse image in its corner
   vulkan::Owned<VkDescriptorSetLayout> setLayout_;
   vulkan::Owned<VkPipelineLayout> layout_;
   std::array<vulkan::Owned<VkPipeline>, kQuantityNames.size()> pipelines_;  // by quantity, made when shown

@@ -113,7 +113,9 @@ class HeadlessRun {
   void show() {
     session_.update(request_.width, request_.height);
     const DisplayInput input = session_.input(session_.renders().published());
+    const auto start = Clock::now();
     device_.submit("display", [&](VkCommandBuffer commands) { pass_.record(commands, input, target_); });
+    session_.addDisplayMs(elapsedMs(start));
   }
 
   std::vector<double> times(bool rendered) const {

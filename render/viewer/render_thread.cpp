@@ -195,6 +195,7 @@ void RenderThread::renderCoarse(const Wish& wish) {
     next_.sides[i].coarse = fraction < 1 ? image : ImageRows{};
     next_.sides[i].fine = fraction < 1 ? ImageRows{} : image;
   }
+  if (displayMs_ > 0) resolution_.setDisplayMs(displayMs_);
   resolution_.add(fraction, elapsedMs(start));
   next_.fraction = fraction;
   next_.isComplete = fraction == 1;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -31,6 +32,8 @@ class RenderThread {
 
   // Replaces the wish that waits. Never blocks for longer than a copy.
   void submit(const Wish& wish);
+  // Time that the display takes of each frame [ms]: the adaptive resolution leaves it free.
+  void setDisplayMs(double ms) { displayMs_ = ms; }
   // The newest images.
   Published published() const;
   // Waits until the wish of this generation or of a later one is shown; complete: at full resolution. Returns false
@@ -70,6 +73,7 @@ class RenderThread {
   std::array<std::optional<SideTask>, 2> tasks_;  // of prepared_
   Published next_;
 
+  std::atomic<double> displayMs_{0};  // 0: unknown
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::optional<Wish> waiting_;

@@ -32,6 +32,11 @@ class Session {
   // Error if the render thread has ended with one.
   std::uint64_t update(std::uint32_t width, std::uint32_t height);
   const RenderThread& renders() const { return renders_; }
+  // Time of the display pass of a frame [ms].
+  void addDisplayMs(double ms) {
+    displayTimes_.add(ms);
+    renders_.setDisplayMs(displayTimes_.median());
+  }
   // Gives the background what the newest images need: reference, errors. Returns whether something waits for the view
   // to be still.
   bool updateBackground(const Published& published);
@@ -58,6 +63,7 @@ class Session {
   std::optional<Wish> wish_;
   RenderThread renders_;
   Background background_;
+  FrameTimes displayTimes_;
   std::string errorKey_;  // of the newest request, and when it changed
   std::chrono::steady_clock::time_point errorKeyChanged_;
   bool isErrorRequested_ = false;

@@ -178,9 +178,11 @@ class ViewerWindow {
     drawHelp(input_.showsHelp);
     overlay_->endFrame();
     const DisplayInput input = session_.input(published);
+    const auto start = Clock::now();
     const bool isCurrent = swapchain_.draw(
         *target_, [&](VkCommandBuffer commands) { pass_.record(commands, input, *target_); },
         [&](VkCommandBuffer commands) { overlay_->record(commands); });
+    session_.addDisplayMs(1000 * secondsSince(start));
     if (!isCurrent) input_.redraws = std::max<int>(input_.redraws, 1) + 1;
   }
 

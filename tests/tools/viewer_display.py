@@ -45,7 +45,7 @@ class Display:
         read, write = os.pipe()
         screen = f"{self.size[0]}x{self.size[1]}x24"
         self.process = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", screen, "-nolisten", "tcp",
-                                         "-fbdir", str(self.folder)], pass_fds=[write], stderr=subprocess.DEVNULL)
+                                         "-noreset", "-fbdir", str(self.folder)], pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as numbers:
             self.name = ":" + numbers.readline().strip()

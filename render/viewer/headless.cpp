@@ -43,7 +43,12 @@ class HeadlessRun {
         pass_(device_),
         target_(device_, request.width, request.height),
         session_(request, host, device_, [] {}) {
-    if (!request.script.empty()) lines_ = readScript(request.script);
+    if (request.script.empty()) return;
+    lines_ = readScript(request.script);
+    checkScript(lines_, session_.state, session_.effects());
+    for (const ScriptLine& line : lines_)
+      if (line.first >= request.frames)
+        console::warn(fmt::format("{}: is behind the last frame, {} (--frames)", line.where, request.frames - 1));
   }
 
   void run() {

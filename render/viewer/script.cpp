@@ -1,6 +1,7 @@
 #include "render/viewer/script.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -257,6 +258,19 @@ ScriptAction applyLine(const ScriptLine& line, ViewState& state, const std::vect
   }
   arguments.finish();
   return ScriptAction::none;
+}
+
+void checkScript(const std::vector<ScriptLine>& lines, ViewState state, const std::vector<pack::Effect>& needed) {
+  for (const ScriptLine& line : lines) {
+    if (applyLine(line, state, needed) != ScriptAction::save) continue;
+    const std::filesystem::path file = line.words[1];
+    const std::string extension = file.extension().string();
+    if (extension != ".exr" && extension != ".png")
+      throw Error(line.where, fmt::format("'{}' has an unknown image format", file.string()), ".exr or .png");
+    std::error_code ignored;
+    if (file.has_parent_path() && !std::filesystem::is_directory(file.parent_path(), ignored))
+      throw Error(line.where, fmt::format("'{}' is not a folder", file.parent_path().string()), "an existing folder");
+  }
 }
 
 }  // namespace malus::viewer

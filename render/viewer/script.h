@@ -25,4 +25,8 @@ std::vector<ScriptLine> parseScript(const std::string& text, const std::string& 
 // Applies the line to the view once. needed: effects of the scene. Throws Error for wrong arguments.
 ScriptAction applyLine(const ScriptLine& line, ViewState& state, const std::vector<pack::Effect>& needed);
 
+// Applies every line to a copy of the view, so that a wrong one is found before the first image. Throws Error as
+// applyLine(), and for a file to save with another extension than .exr and .png or in no folder.
+void checkScript(const std::vector<ScriptLine>& lines, ViewState state, const std::vector<pack::Effect>& needed);
+
 }  // namespace malus::viewer

@@ -75,6 +75,14 @@ TEST(ViewScript, ErrorsNameTheLine) {
   expectError("0 zoom 0", "path.txt:1: ", "positive");
 }
 
+TEST(ViewScript, WrongLinesAreFoundBeforeTheFirstImage) {
+  const auto check = [](const std::string& text) { checkScript(parseScript(text, "path.txt"), {}, kEffects); };
+  EXPECT_NO_THROW(check("0 wait\n0 save a.png\n9 save ./a.exr\n3 command a.png\n"));
+  for (const char* line :
+       {"5 save", "5 command", "5 save a.jpg", "5 save a", "5 save no-such-folder/a.png", "5 turn x"})
+    EXPECT_THROW(check(std::string("0 wait\n") + line), Error) << line;
+}
+
 TEST(ViewState, EffectSwitchesAreTheEffectsOption) {
   EXPECT_EQ(effectsOption({}, kEffects), "auto");
   EXPECT_EQ(effectsOption({{"metal", EffectSwitch::automatic}}, kEffects), "auto");

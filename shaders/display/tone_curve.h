@@ -7,6 +7,4 @@ FN real toneCurve(real x) {
 }
 
 // The sRGB curve (IEC 61966-2-1). x: 0 to 1.
-FN real srgbCurve(real x) {
-  return x <= R(0.0031308) ? R(12.92) * x : R(1.055) * pow(x, 1 / R(2.4)) - R(0.055);
-}
+FN real srgbCurve(real x) { return x <= R(0.0031308) ? R(12.92) * x : R(1.055) * pow(x, 1 / R(2.4)) - R(0.055); }

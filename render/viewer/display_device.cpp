@@ -8,6 +8,7 @@
 
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
+#include "render/vulkan/physical_device.h"
 
 namespace malus::viewer {
 using vulkan::check;
@@ -50,27 +51,11 @@ bool hasAddresses(VkPhysicalDevice device, const VkPhysicalDeviceProperties& pro
   return features.bufferDeviceAddress == VK_TRUE;
 }
 
-// Best first.
-int rank(VkPhysicalDeviceType type) {
-  switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-      return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-      return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-      return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-      return 3;
-    default:
-      return 4;
-  }
-}
-
 struct Candidate {
   VkPhysicalDevice device = VK_NULL_HANDLE;
   std::uint32_t family = 0;
   std::string name;
-  int rank = 0;
+  VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
 };
 
 std::vector<Candidate> findCandidates(VkInstance instance, VkSurfaceKHR surface) {
@@ -85,9 +70,9 @@ std::vector<Candidate> findCandidates(VkInstance instance, VkSurfaceKHR surface)
     // Devices with ray tracing have addresses, and so do most others.
     const std::optional<std::uint32_t> family = findFamily(device, surface);
     if (family && hasAddresses(device, properties) && (!surface || hasSwapchains(device)))
-      candidates.push_back({device, *family, properties.deviceName, rank(properties.deviceType)});
+      candidates.push_back({device, *family, properties.deviceName, properties.deviceType});
   }
-  std::ranges::stable_sort(candidates, {}, &Candidate::rank);
+  std::ranges::stable_sort(candidates, {}, [](const Candidate& c) { return vulkan::typeRank(c.type); });
   return candidates;
 }
 
@@ -147,7 +132,7 @@ DisplayDevice::DisplayDevice(const DisplayInstance& instance, VkSurfaceKHR surfa
   physical_ = chosen->device;
   family_ = chosen->family;
   name_ = chosen->name;
-  isCpu_ = chosen->rank == rank(VK_PHYSICAL_DEVICE_TYPE_CPU);
+  isCpu_ = chosen->type == VK_PHYSICAL_DEVICE_TYPE_CPU;
 
   const float priority = 1;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};

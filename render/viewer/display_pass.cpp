@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/viewer/device_stores.h"
+#include "render/viewer/image_transition.h"
 #include "shaders/display/display_parameters.h"
 #include "shaders/display/present_spirv.h"
 
@@ -95,19 +96,6 @@ gpu::DisplayParameters parametersFor(const DisplayInput& input, const DisplayIma
   p.differenceScale = input.differenceScale;
   p.target = width | height << 16u;
   return p;
-}
-
-void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags before,
-                VkAccessFlags after, VkPipelineStageFlags stageBefore, VkPipelineStageFlags stageAfter) {
-  VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
-  barrier.srcAccessMask = before;
-  barrier.dstAccessMask = after;
-  barrier.oldLayout = from;
-  barrier.newLayout = to;
-  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = image;
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  vkCmdPipelineBarrier(commands, stageBefore, stageAfter, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "meshprep/base/error.h"
+#include "render/viewer/image_transition.h"
 
 namespace malus::viewer {
 using vulkan::check;
@@ -46,19 +47,6 @@ vulkan::Owned<VkRenderPass> makeRenderPass(VkDevice device, VkFormat format) {
   info.subpassCount = 1;
   info.pSubpasses = &subpass;
   return create(device, vkCreateRenderPass, info, vkDestroyRenderPass, "vkCreateRenderPass (panel)");
-}
-
-void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags before,
-                VkAccessFlags after, VkPipelineStageFlags stageAfter) {
-  VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
-  barrier.srcAccessMask = before;
-  barrier.dstAccessMask = after;
-  barrier.oldLayout = from;
-  barrier.newLayout = to;
-  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = image;
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, stageAfter, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
 }  // namespace
@@ -148,7 +136,7 @@ void Swapchain::recordFrame(VkCommandBuffer commands, std::uint32_t index, const
                             const std::function<void(VkCommandBuffer)>& recordOverlay) const {
   const VkImage target = images_[index];
   transition(commands, target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0,
-             VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT);
+             VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT);
   VkImageBlit blit{};
   blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   blit.srcOffsets[1] = {static_cast<std::int32_t>(image.width()), static_cast<std::int32_t>(image.height()), 1};
@@ -157,7 +145,7 @@ void Swapchain::recordFrame(VkCommandBuffer commands, std::uint32_t index, const
                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
   transition(commands, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
              VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-             VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT);
+             VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT);
   VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
   pass.renderPass = renderPass_.get();
   pass.framebuffer = framebuffers_[index].get();

@@ -35,20 +35,6 @@ std::string findProblem(const Capabilities& device) {
   return {};
 }
 
-// Smaller is preferred.
-int rank(VkPhysicalDeviceType type) {
-  switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-      return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-      return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-      return 2;
-    default:
-      return 3;
-  }
-}
-
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -79,11 +65,24 @@ const PhysicalDevice* findRequested(const std::vector<PhysicalDevice>& devices, 
 
 const PhysicalDevice& findBest(const std::vector<PhysicalDevice>& devices) {
   return *std::min_element(devices.begin(), devices.end(), [](const PhysicalDevice& a, const PhysicalDevice& b) {
-    return std::pair(!a.problem.empty(), rank(a.type)) < std::pair(!b.problem.empty(), rank(b.type));
+    return std::pair(!a.problem.empty(), typeRank(a.type)) < std::pair(!b.problem.empty(), typeRank(b.type));
   });
 }
 
 }  // namespace
+
+int typeRank(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    default:
+      return 3;
+  }
+}
 
 const std::vector<const char*>& requiredExtensions() {
   static const std::vector<const char*> kExtensions = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,

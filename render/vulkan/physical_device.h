@@ -30,6 +30,9 @@ PhysicalDevice choosePhysicalDevice(const Instance& instance, const std::string&
 // The usable device of the list that is chosen without --device; null: none, or MALUS_DEVICE names another.
 const PhysicalDevice* findDefaultDevice(const std::vector<PhysicalDevice>& devices);
 
+// The order of preference of types of devices: the smallest is the best.
+int typeRank(VkPhysicalDeviceType type);
+
 // Extensions that every device must have.
 const std::vector<const char*>& requiredExtensions();
 

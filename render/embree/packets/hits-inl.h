@@ -286,6 +286,16 @@ void cameraRays(const embree::TileInput& tile, std::uint32_t column, std::uint32
   }
 }
 
+// Stores kGroup channels from `first` on next to each other, for each lane.
+template <std::size_t kGroup>
+static void storeInterleaved(const real3* values, std::size_t first, float* to) {
+  const auto channel = [&](std::size_t i) HWY_ATTR { return getField(values[(first + i) / 3], (first + i) % 3).v; };
+  if constexpr (kGroup == 3)
+    hn::StoreInterleaved3(channel(0), channel(1), channel(2), Floats(), to);
+  else
+    hn::StoreInterleaved4(channel(0), channel(1), channel(2), channel(3), Floats(), to);
+}
+
 // Writes kChannels floats per pixel, three per value, for the pixels of a tile from index `at` on.
 template <std::size_t kChannels>
 static void writePixels(const embree::TileInput& tile, std::uint32_t at, const real3* values) {
@@ -297,11 +307,15 @@ static void writePixels(const embree::TileInput& tile, std::uint32_t at, const r
     hn::StoreInterleaved3(values->x.v, values->y.v, values->z.v, Floats(), pixel);
     return;
   }
-  HWY_ALIGN_MAX float lanes[kChannels / 3][kLanes * 3];
-  for (std::size_t i = 0; i < kChannels / 3; ++i)
-    hn::StoreInterleaved3(values[i].x.v, values[i].y.v, values[i].z.v, Floats(), lanes[i]);
+  // Channels are written by fours where there are as many; the last four may repeat some of those before.
+  constexpr std::size_t kGroup = kChannels < 4 ? 3 : 4;
+  constexpr std::size_t kGroups = (kChannels + kGroup - 1) / kGroup;
+  const auto first = [](std::size_t group) { return std::min(group * kGroup, kChannels - kGroup); };
+  HWY_ALIGN_MAX float lanes[kGroups][kLanes * kGroup];
+  for (std::size_t i = 0; i < kGroups; ++i) storeInterleaved<kGroup>(values, first(i), lanes[i]);
   for (std::uint32_t lane = 0; lane < kLanes && at + lane < count; ++lane) {
-    for (std::size_t i = 0; i < kChannels / 3; ++i) std::memcpy(pixel + 3 * i, lanes[i] + 3 * lane, 3 * sizeof(float));
+    for (std::size_t i = 0; i < kGroups; ++i)
+      std::memcpy(pixel + first(i), lanes[i] + kGroup * lane, kGroup * sizeof(float));
     pixel += kChannels;
     if (++x < width) continue;
     x = 0;

@@ -21,6 +21,7 @@
 #include "render/ablation/results.h"
 #include "render/compare/devices_table.h"
 #include "render/compare/results.h"
+#include "render/compare/time_limit.h"
 #include "render/method_option.h"
 #include "render/options.h"
 #include "render/pack_input.h"
@@ -32,13 +33,6 @@ namespace malus::render {
 namespace fs = std::filesystem;
 
 namespace {
-
-// ComparisonSettings::compileMinutes by --minutes: a quarter of the whole time, because a method that has been started
-// may take as long again.
-double compileMinutes(const std::optional<double>& minutes) {
-  constexpr double kDefault = 5, kShare = 0.25;
-  return minutes ? std::min(kDefault, kShare * *minutes) : kDefault;
-}
 
 struct Arguments {
   std::vector<std::string> inputs, shown;

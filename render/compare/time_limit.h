@@ -2,10 +2,19 @@
 // rest.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <optional>
 
 namespace malus::render {
+
+// ComparisonSettings::compileMinutes by --minutes: a quarter of the whole time, because a method that has been started
+// may take as long again; at most 5 minutes. 0, for no limit, if there is none for the whole.
+inline double compileMinutes(const std::optional<double>& minutes) {
+  constexpr double kMost = 5, kShare = 0.25;
+  return minutes ? std::min(kMost, kShare * *minutes) : kMost;
+}
 
 class TimeLimit {
  public:

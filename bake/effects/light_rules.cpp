@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cstddef>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,6 +17,18 @@ namespace {
 // Returns one of two constant reasons.
 std::function<std::string(const EffectQuery&, bool)> either(const char* on, const char* off) {
   return [on, off](const EffectQuery&, bool isOn) { return isOn ? on : off; };
+}
+
+// "2 point lights, 1 directional light"
+std::string countLights(const std::vector<pack::LightSource>& lights) {
+  std::string text;
+  for (std::size_t kind = 0; kind < pack::kLightKindNames.size(); ++kind) {
+    const auto count = std::ranges::count(lights, static_cast<pack::LightKind>(kind), &pack::LightSource::kind);
+    if (count == 0) continue;
+    text += fmt::format("{}{} {} light{}", text.empty() ? "" : ", ", count, pack::kLightKindNames[kind],
+                        count == 1 ? "" : "s");
+  }
+  return text;
 }
 
 std::string areaLightReason(const EffectQuery& q, bool on) {
@@ -37,8 +52,9 @@ std::vector<EffectRule> lightRules() {
   return {
       {Effect::kPointLights, [](const EffectQuery& q) { return q.isLitByPointLights(); },
        [](const EffectQuery& q, bool on) {
-         if (on) return fmt::format("{} point lights", q.scene.lights.size());
-         return std::string(q.scene.lights.empty() ? "no point light" : "no diffuse or glossy surface");
+         if (on) return countLights(q.scene.lights);
+         return std::string(q.scene.lights.empty() ? "no point, spot or directional light"
+                                                   : "no diffuse or glossy surface");
        },
        [](pack::Scene& scene) { scene.lights.clear(); }},
       {Effect::kShadows,
@@ -46,7 +62,7 @@ std::vector<EffectRule> lightRules() {
        either("lights on diffuse or glossy surfaces", "no surface is lit by lights"),
        {}},
       {Effect::kHighlights, [](const EffectQuery& q) { return q.hasHighlights(); },
-       either("glossy materials and point lights", "no glossy material with a point light"),
+       either("glossy materials and lights", "no glossy material with a light"),
        [](pack::Scene& scene) {
          for (Material& m : scene.materials) m.highlightStrength = 0;
        }},

@@ -29,6 +29,26 @@ TEST(Effects, PointLights) {
   EXPECT_FALSE(on.at("highlights"));
 }
 
+// The reason of an effect of a scene with one diffuse surface.
+std::string lightReason(const std::string& name, const std::vector<pack::LightSource>& lights) {
+  pack::Scene scene = makeScene({material(MaterialKind::lambert, 0.5)}, 0);
+  scene.lights = lights;
+  for (const pack::Effect& e : findEffects(scene))
+    if (e.name == name) return e.reason;
+  return "no such effect";
+}
+
+TEST(Effects, LightsAreNamedByTheirKinds) {
+  pack::LightSource point, spot, sun;
+  spot.kind = pack::LightKind::spot;
+  sun.kind = pack::LightKind::directional;
+  EXPECT_EQ(lightReason("point-lights", {point}), "1 point light");
+  EXPECT_EQ(lightReason("point-lights", {sun}), "1 directional light");
+  EXPECT_EQ(lightReason("point-lights", {sun, point, spot, point}),
+            "2 point lights, 1 spot light, 1 directional light");
+  EXPECT_EQ(lightReason("point-lights", {}), "no point, spot or directional light");
+}
+
 TEST(Effects, Environment) {
   pack::Scene scene = makeScene({}, 1);
   EXPECT_FALSE(effectStates(scene).at("environment"));

@@ -217,10 +217,10 @@ std::vector<Backend> inOrder(const ComparisonSettings& settings) {
 // Warns of the rows that are left out because the time for compiling is over.
 void warnLeftOut(const RowGroup& group, Backend backend, std::size_t rows, const Share& share) {
   if (!share.compiling || !share.compiling->isOver()) return;
-  console::warn(fmt::format(
-      "{}: {} left out {} rows, because a CPU compiles each of them for minutes; use --minutes 0 to render all, "
-      "or --backends embree to leave out Vulkan",
-      groupTitle(group), backendInfo(backend).name, rows));
+  console::warn(
+      fmt::format("{}: {} left out {} row{}, because a CPU compiles a row for minutes; use --minutes 0 to render all, "
+                  "or --backends embree to leave out Vulkan",
+                  groupTitle(group), backendInfo(backend).name, rows, rows == 1 ? "" : "s"));
 }
 
 // Renders every method on one backend.

@@ -1,6 +1,7 @@
 #include "meshprep/cli.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -68,15 +69,17 @@ void requireCertificate(const Arguments& arguments, const Report& report) {
       fmt::format("a repair: {}", first.repair));
 }
 
-// Returns the source vertex and face of each compressed vertex and triangle, as JSON.
-std::string mapJson(const Mesh& mesh, const compress::Encoded& encoded) {
+// Returns the source vertex and face of each compressed vertex and triangle, as JSON. vertices, faces: sources of the
+// mesh that was encoded.
+std::string mapJson(const std::vector<std::uint32_t>& vertices, const std::vector<std::uint32_t>& faces,
+                    const compress::Encoded& encoded) {
   const auto mapIndices = [](const std::vector<std::uint32_t>& order, const std::vector<std::uint32_t>& source) {
     nlohmann::json list = nlohmann::json::array();
     for (const std::uint32_t i : order) list.push_back(source.empty() ? i : source[i]);
     return list;
   };
-  return nlohmann::json{{"vertices", mapIndices(encoded.sourceVertices, mesh.sourceVertices)},
-                        {"triangles", mapIndices(encoded.sourceTriangles, mesh.sourceFaces)}}
+  return nlohmann::json{{"vertices", mapIndices(encoded.sourceVertices, vertices)},
+                        {"triangles", mapIndices(encoded.sourceTriangles, faces)}}
              .dump() +
          "\n";
 }
@@ -149,10 +152,8 @@ compress::RoundedTextures roundTextures(const Arguments& arguments, const Mesh& 
   return rounded;
 }
 
-void runPrep(const Arguments& arguments) {
-  checkFiles(arguments);
-  // Clean.
-  Report report;
+// Cleans and certifies the mesh of the file.
+Mesh prepareInput(const Arguments& arguments, Report& report) {
   Options options = arguments.options;
   for (const auto& [name, step] : kCleaningSteps)
     if (skips(arguments, name)) options.steps.*step = false;
@@ -160,30 +161,53 @@ void runPrep(const Arguments& arguments) {
   options.findIntersections = !skips(arguments, kIntersections);
   options.certifyGlass = arguments.certify == "glass";
   options.keepTextures = arguments.bounds.uvErrorTexels.has_value();
-  const Mesh mesh = prepare(arguments.input, options, report);
+  Mesh mesh = prepare(arguments.input, options, report);
   requireCertificate(arguments, report);
+  return mesh;
+}
 
-  // Compress on a grid around the mesh.
+// Rounds the mesh, measures the error and copies what the encoder needs.
+std::unique_ptr<compress::Encoder> makeEncoder(const Arguments& arguments, const Mesh& mesh, Report& report,
+                                               compress::Settings& settings, compress::TextureGrids& textureGrids) {
   const compress::MeshView view(mesh.positions, mesh.normals, mesh.triangles);
   const compress::RoundedMesh rounded =
       std::move(compress::roundMeshes({&view, 1}, arguments.bounds, compress::Precision::doubles,
                                       certificateInspection(arguments, mesh))
                     .front());
-  const compress::Settings settings{rounded.grid, rounded.normalBits};
+  settings = {rounded.grid, rounded.normalBits};
   std::vector<std::string> textureWarnings;
   const compress::RoundedTextures textures = roundTextures(arguments, mesh, report, textureWarnings);
-  const compress::Encoded encoded = compress::encode(view, rounded.positions, settings, textures);
+  textureGrids = textures.grids;
+  auto encoder = std::make_unique<compress::Encoder>(view, rounded.positions, settings, textures);
   const bool glass = arguments.certify == "glass";
   report.compression.warnings =
-      compress::checkBounds(encoded.deviation, settings, arguments.bounds, glass, arguments.input);
+      compress::checkBounds(encoder->deviation(), settings, arguments.bounds, glass, arguments.input);
   report.compression.warnings.insert(report.compression.warnings.end(), textureWarnings.begin(), textureWarnings.end());
-  setErrors(encoded.deviation, report);
+  setErrors(encoder->deviation(), report);
+  return encoder;
+}
+
+void runPrep(const Arguments& arguments) {
+  checkFiles(arguments);
+  Report report;
+  Mesh mesh = prepareInput(arguments, report);
+  const bool hasNormals = !mesh.normals.empty();
+
+  // Compress on a grid around the mesh, which is freed first.
+  compress::Settings settings;
+  compress::TextureGrids textureGrids;
+  const std::unique_ptr<compress::Encoder> encoder = makeEncoder(arguments, mesh, report, settings, textureGrids);
+  std::vector<std::uint32_t> sourceVertices, sourceFaces;
+  if (!arguments.mapFile.empty())
+    sourceVertices = std::move(mesh.sourceVertices), sourceFaces = std::move(mesh.sourceFaces);
+  mesh = {};
+  const compress::Encoded encoded = encoder->encode();
   report.compression.method = encoded.method;
-  const std::vector<std::byte> file = compress::meshFileBytes(encoded.bytes, settings.grid, textures.grids);
+  const std::vector<std::byte> file = compress::meshFileBytes(encoded.bytes, settings.grid, textureGrids);
   report.compression.bytes = file.size();
   report.compression.sequentialReason = encoded.sequentialReason;
   report.compression.positionBits = settings.grid.positionBits;
-  report.compression.normalBits = mesh.normals.empty() ? 0 : settings.normalBits;
+  report.compression.normalBits = hasNormals ? settings.normalBits : 0;
   report.compression.origin = settings.grid.origin;
   report.compression.step = settings.grid.step;
   report.compression.encodeMs = encoded.encodeMs;
@@ -191,7 +215,8 @@ void runPrep(const Arguments& arguments) {
 
   // Write the files, then print the report.
   writeFile(arguments.output, file);
-  if (!arguments.mapFile.empty()) writeFile(arguments.mapFile, std::string_view(mapJson(mesh, encoded)));
+  if (!arguments.mapFile.empty())
+    writeFile(arguments.mapFile, std::string_view(mapJson(sourceVertices, sourceFaces, encoded)));
   printReport(arguments, report);
 }
 

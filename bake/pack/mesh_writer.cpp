@@ -165,7 +165,7 @@ EncodedMeshes encodeMeshes(const Scene& scene, const WriteSettings& settings, co
     } else {
       encoded = encodeMesh(mesh, rounded[i], textures, codec, encoding, report);
       encoding.inputHash = hash;
-      result = {encoded.bytes, encoded.decoded.positions.size(), encoded.decoded.triangles.size(), {}, {}};
+      result = {encoded.bytes, mesh.positions.size(), mesh.triangles.size(), {}, {}};
       if (settings.keepMap) {
         result.sourceVertices = composed(encoded.sourceVertices, mesh.sourceVertices);
         result.sourceFaces = composed(encoded.sourceTriangles, mesh.sourceFaces);

@@ -17,6 +17,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/compress/draco_header.h"
 #include "meshprep/compress/draco_mesh.h"
+#include "meshprep/compress/draco_read.h"
 #include "meshprep/compress/draco_write.h"
 
 namespace malus::compress {
@@ -120,7 +121,7 @@ std::vector<Vector> attributeValues(const draco::PointAttribute& attribute, std:
       const draco::AttributeValueIndex index = attribute.mapped_index(draco::PointIndex(i));
       if (index.value() >= attribute.size() || index.value() >= available)
         throw Error(where, fmt::format("{} of vertex {} is missing", what, i), kExpected);
-      attribute.GetValue(index, &values[i]);
+      std::memcpy(&values[i], attribute.GetAddress(index), sizeof(Vector));
     }
   }
   return values;
@@ -231,23 +232,8 @@ void checkCounts(const DracoHeader& header, std::size_t size, const Limits& limi
 // grid: of integer positions; nullptr: positions are floats.
 TriangleMesh decodeMesh(std::span<const std::byte> bytes, const Limits& limits, const Grid* grid,
                         const TextureGrids& textures, std::string_view where) {
-  const DracoHeader header = parseHeader(bytes, where);
-  checkCounts(header, bytes.size(), limits, where);
-
-  // Decode.
-  const ExpectedAttributes expected{grid != nullptr ? draco::DT_INT32 : draco::DT_FLOAT32, textures};
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Mesh mesh;
-  if (header.method == Method::kSequential) {
-    runDecoder<draco::MeshSequentialDecoder>(buffer, limits, expected, mesh, where);
-  } else {
-    runDecoder<draco::MeshEdgebreakerDecoder>(buffer, limits, expected, mesh, where);
-  }
-  if (mesh.num_points() != limits.vertices || mesh.num_faces() != limits.triangles)
-    throw Error(where, "Draco data decodes to unexpected counts",
-                fmt::format("{} vertices and {} triangles", limits.vertices, limits.triangles),
-                fmt::format("{} and {}", mesh.num_points(), mesh.num_faces()));
+  readDraco(bytes, limits, grid != nullptr ? draco::DT_INT32 : draco::DT_FLOAT32, textures, where, mesh);
 
   // Copy and check all values.
   TriangleMesh result;
@@ -272,14 +258,35 @@ TriangleMesh decodeMesh(std::span<const std::byte> bytes, const Limits& limits, 
   for (std::uint32_t i = 0; i < limits.triangles; ++i) {
     const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
     result.triangles[i] = {face[0].value(), face[1].value(), face[2].value()};
-    if (std::max({face[0].value(), face[1].value(), face[2].value()}) >= limits.vertices)
-      throw Error(where, fmt::format("invalid vertex index in triangle {}", i),
-                  fmt::format("an index below {}", limits.vertices));
   }
   return result;
 }
 
 }  // namespace
+
+void readDraco(std::span<const std::byte> bytes, const Limits& limits, draco::DataType positionType,
+               const TextureGrids& textures, std::string_view where, draco::Mesh& mesh) {
+  const DracoHeader header = parseHeader(bytes, where);
+  checkCounts(header, bytes.size(), limits, where);
+  const ExpectedAttributes expected{positionType, textures};
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (header.method == Method::kSequential) {
+    runDecoder<draco::MeshSequentialDecoder>(buffer, limits, expected, mesh, where);
+  } else {
+    runDecoder<draco::MeshEdgebreakerDecoder>(buffer, limits, expected, mesh, where);
+  }
+  if (mesh.num_points() != limits.vertices || mesh.num_faces() != limits.triangles)
+    throw Error(where, "Draco data decodes to unexpected counts",
+                fmt::format("{} vertices and {} triangles", limits.vertices, limits.triangles),
+                fmt::format("{} and {}", mesh.num_points(), mesh.num_faces()));
+  for (std::uint32_t i = 0; i < limits.triangles; ++i) {
+    const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
+    if (std::max({face[0].value(), face[1].value(), face[2].value()}) >= limits.vertices)
+      throw Error(where, fmt::format("invalid vertex index in triangle {}", i),
+                  fmt::format("an index below {}", limits.vertices));
+  }
+}
 
 Limits declaredCounts(std::span<const std::byte> bytes, std::string_view where) {
   const DracoHeader header = parseHeader(bytes, where);

@@ -1,14 +1,14 @@
-// Encoding with verification. The sequential result is compared with the input, the edgebreaker result with the
-// sequential one, which has the same quantized values.
+// Encoding with verification: the result of decoding is compared with the integers and normals of the input.
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <functional>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_invoke.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -16,6 +16,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/compress/deviation.h"
 #include "meshprep/compress/draco_mesh.h"
+#include "meshprep/compress/draco_read.h"
 #include "meshprep/compress/draco_write.h"
 #include "meshprep/compress/grid_rounding.h"
 #include "meshprep/compress/reordering.h"
@@ -28,10 +29,6 @@ constexpr std::string_view kLocation = "mesh to compress";
 
 bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-// Returns an upper bound of the error of octahedral quantization in degrees: twice the measured 0.90 degrees at 8 bits,
-// halved by each further bit, and 0.05 degrees for rounding to float.
-double normalTolerance(int normalBits) { return 2.0 * 0.9 * std::pow(2.0, 8 - normalBits) + 0.05; }
 
 void checkInput(const MeshView& mesh, const Settings& settings) {
   // Check the settings.
@@ -60,61 +57,7 @@ void checkInput(const MeshView& mesh, const Settings& settings) {
   }
 }
 
-// Returns the integers of positions on the grid. Throws Error if one is not on it.
-std::vector<glm::ivec3> gridIntegers(std::span<const glm::dvec3> rounded, const Grid& grid) {
-  const double most = std::ldexp(1.0, grid.positionBits) - 1;
-  std::vector<glm::ivec3> integers;
-  integers.reserve(rounded.size());
-  for (std::size_t i = 0; i < rounded.size(); ++i) {
-    const glm::dvec3 p = rounded[i];
-    if (!isFinite(p)) throw Error(kLocation, fmt::format("position {} is not finite", i));
-    const glm::dvec3 k = (p - grid.origin) / grid.step;
-    if (k != glm::round(k) || glm::any(glm::lessThan(k, glm::dvec3(0))) ||
-        glm::any(glm::greaterThan(k, glm::dvec3(most))))
-      throw Error(kLocation, fmt::format("position {} is outside of the grid", i),
-                  fmt::format("0 to {} steps of {:g} m from ({:g}, {:g}, {:g})", most, grid.step, grid.origin.x,
-                              grid.origin.y, grid.origin.z),
-                  fmt::format("({:.17g}, {:.17g}, {:.17g})", p.x, p.y, p.z));
-    integers.emplace_back(k);
-  }
-  return integers;
-}
-
-// Requires the decoded attributes of textures to be the rounded ones.
-void compareTextures(const RoundedTextures& textures, const TriangleMesh& decoded) {
-  bool isEqual = decoded.tangents.size() == textures.tangents.size();
-  for (std::size_t i = 0; isEqual && i < textures.tangents.size(); ++i)
-    isEqual = decoded.tangents[i] == decodedTangent(textures.tangents[i], textures.grids.tangentBits);
-  for (std::size_t set = 0; set < textures.coordinates.size(); ++set) {
-    const std::vector<glm::ivec2>& integers = textures.coordinates[set];
-    const std::vector<glm::vec2>& found = decoded.textureCoordinates[set];
-    isEqual = isEqual && found.size() == integers.size();
-    for (std::size_t i = 0; isEqual && i < integers.size(); ++i)
-      isEqual = found[i] == decodedCoordinate(textures.grids.sets[set], integers[i]);
-  }
-  if (!isEqual) throw Error(kLocation, "Draco changed texture coordinates or tangents", "the integers of the input");
-}
-
-// Requires the sequential result to have the triangles and the rounded positions of the input, and measures it.
-void compareWithSource(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings,
-                       const RoundedTextures& textures, Encoded& encoded) {
-  const TriangleMesh& decoded = encoded.decoded;
-  if (!std::equal(decoded.triangles.begin(), decoded.triangles.end(), mesh.triangles.begin(), mesh.triangles.end()) ||
-      decoded.positions.size() != mesh.positions.size() || decoded.normals.size() != mesh.normals.size())
-    throw Error(kLocation, "Draco changed the triangles", "the indices of the input");
-  for (std::size_t i = 0; i < rounded.size(); ++i)
-    if (decoded.positions[i] != rounded[i])
-      throw Error(kLocation, fmt::format("Draco moved position {}", i), "the integers of the input",
-                  fmt::format("{:g} m", glm::distance(decoded.positions[i], rounded[i])));
-  compareTextures(textures, decoded);
-  encoded.deviation = measureDeviation(mesh, decoded.positions, decoded.normals, settings.leastCross);
-  if (!(encoded.deviation.normalMaxDegrees <= normalTolerance(settings.normalBits)))
-    throw Error(kLocation, "Draco rotated a normal too far",
-                fmt::format("at most {} degrees", normalTolerance(settings.normalBits)),
-                fmt::format("{}", encoded.deviation.normalMaxDegrees));
-}
-
-// Processor time of the calling thread: the encodings run at the same time.
+// Processor time of the calling thread: meshes may be encoded at the same time.
 double threadMs() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -127,75 +70,113 @@ std::vector<std::uint32_t> identity(std::size_t size) {
   return numbers;
 }
 
-// Encodes sequentially and compares with the input.
-Encoded encodeSequentially(const MeshView& mesh, std::span<const glm::dvec3> rounded,
-                           std::span<const glm::ivec3> integers, const Settings& settings,
-                           const RoundedTextures& textures, const Limits& limits) {
-  Encoded encoded;
-  const double start = threadMs();
-  std::optional<std::vector<std::byte>> bytes =
-      encodeDraco(Method::kSequential, mesh, integers, settings.normalBits, textures);
-  encoded.encodeMs = threadMs() - start;
-  if (!bytes) throw Error(kLocation, "Draco cannot encode the mesh");
-  encoded.bytes = std::move(*bytes);
-  encoded.method = "sequential";
-  const double decoding = threadMs();
-  encoded.decoded = decode(encoded.bytes, limits, settings.grid, kLocation, textures.grids);
-  encoded.decodeMs = threadMs() - decoding;
-  compareWithSource(mesh, rounded, settings, textures, encoded);
-  return encoded;
-}
-
-// The edgebreaker encoding; without bytes or mesh where Draco refuses.
-struct Edgebreaker {
-  std::optional<std::vector<std::byte>> bytes;
-  std::optional<TriangleMesh> decoded;
-  double encodeMs = 0, decodeMs = 0;
-};
-
-Edgebreaker encodeByEdgebreaker(const MeshView& mesh, std::span<const glm::ivec3> integers, const Settings& settings,
-                                const RoundedTextures& textures, const Limits& limits) {
-  Edgebreaker result;
-  const double start = threadMs();
-  result.bytes = encodeDraco(Method::kEdgebreaker, mesh, integers, settings.normalBits, textures);
-  result.encodeMs = threadMs() - start;
-  if (!result.bytes) return result;
-  const double decoding = threadMs();
-  try {
-    result.decoded = decode(*result.bytes, limits, settings.grid, kLocation, textures.grids);
-  } catch (const Error&) {  // see preferEdgebreaker
+// Returns the source vertex of each decoded vertex, or nothing if Draco's order is not a permutation.
+std::optional<std::vector<std::uint32_t>> sourceVertices(std::span<const std::uint32_t> vertexOfValue,
+                                                         const draco::Mesh& decoded) {
+  const draco::PointAttribute& values = *decoded.GetNamedAttribute(draco::GeometryAttribute::POSITION);
+  std::vector<std::uint32_t> vertices(decoded.num_points());
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    const std::uint32_t value = values.mapped_index(draco::PointIndex(i)).value();
+    if (value >= vertexOfValue.size()) return std::nullopt;
+    vertices[i] = vertexOfValue[value];
   }
-  result.decodeMs = threadMs() - decoding;
-  return result;
-}
-
-// Replaces the sequential encoding by the edgebreaker one if that is smaller and equivalent: the decoded mesh is a
-// permutation of the sequential result. Otherwise returns the reason.
-std::string preferEdgebreaker(Edgebreaker&& candidate, const MeshView& mesh, std::span<const glm::ivec3> integers,
-                              const RoundedTextures& textures, const Limits& limits, Encoded& encoded) {
-  auto& [bytes, decoded, encodeMs, decodeMs] = candidate;
-  if (!bytes) return "edgebreaker refuses the mesh";
-  if (bytes->size() >= encoded.bytes.size()) return "edgebreaker is not smaller";
-  if (std::max(limits.vertices, limits.triangles) > kMaxPerByte * bytes->size())
-    return "edgebreaker makes the mesh smaller than a reader trusts";
-  if (!decoded) return "edgebreaker changes the counts: faces that are degenerate or not manifold, or loose vertices";
-  std::optional<std::vector<std::uint32_t>> vertices = matchVertices(encoded.decoded, *decoded);
-  if (!vertices) vertices = edgebreakerOrder(mesh, integers, textures);  // several vertices have equal values
-  if (!vertices) return "edgebreaker gives an unknown order of vertices";
-  std::optional<std::vector<std::uint32_t>> triangles = sourceTriangles(encoded.decoded, *decoded, *vertices);
-  if (!triangles) return "edgebreaker changes the triangles";
-
-  encoded.bytes = std::move(*bytes);
-  encoded.method = "edgebreaker";
-  encoded.decoded = std::move(*decoded);
-  encoded.sourceVertices = std::move(*vertices);
-  encoded.sourceTriangles = std::move(*triangles);
-  encoded.encodeMs = encodeMs;
-  encoded.decodeMs = decodeMs;
-  return {};
+  if (!isPermutation(vertices)) return std::nullopt;
+  return vertices;
 }
 
 }  // namespace
+
+struct Encoder::Input {
+  std::unique_ptr<draco::Mesh> mesh;
+  Limits limits;
+  Settings settings;
+  TextureGrids textures;
+
+  // Decodes and compares with the input. Returns the reason if the bytes are not equivalent, and the map if they are.
+  std::string verify(const DracoBytes& candidate, Encoded& result) const {
+    const double start = threadMs();
+    draco::Mesh decoded;
+    try {
+      readDraco(candidate.bytes, limits, draco::DT_INT32, textures, kLocation, decoded);
+    } catch (const Error&) {
+      return "changes the counts: faces that are degenerate or not manifold, or loose vertices";
+    }
+    result.decodeMs = threadMs() - start;
+    std::optional<std::vector<std::uint32_t>> vertices = sourceVertices(candidate.vertexOfValue, decoded);
+    if (!vertices) return "gives an unknown order of vertices";
+    if (!haveEqualValues(*mesh, decoded, *vertices, settings.normalBits)) return "changes the values";
+    std::optional<std::vector<std::uint32_t>> triangles = matchTriangles(faces(*mesh), faces(decoded), *vertices);
+    if (!triangles) return "changes the triangles";
+    result.sourceVertices = std::move(*vertices);
+    result.sourceTriangles = std::move(*triangles);
+    return {};
+  }
+
+  // Encodes by edgebreaker. Returns the reason if the result is not equivalent or not smaller. sequential: encodes
+  // sequentially, once.
+  std::string tryEdgebreaker(const std::function<const DracoBytes&()>& sequential, Encoded& result) const {
+    const double start = threadMs();
+    std::optional<DracoBytes> candidate = writeDraco(Method::kEdgebreaker, *mesh, settings.normalBits);
+    result.encodeMs = threadMs() - start;
+    if (!candidate) return "edgebreaker refuses the mesh";
+    const std::size_t size = candidate->bytes.size();
+    if (size >= leastSequentialBytes(*mesh) && size >= sequential().bytes.size()) return "edgebreaker is not smaller";
+    if (std::max(limits.vertices, limits.triangles) > kMaxPerByte * size)
+      return "edgebreaker makes the mesh smaller than a reader trusts";
+    if (const std::string reason = verify(*candidate, result); !reason.empty()) return "edgebreaker " + reason;
+    result.method = "edgebreaker";
+    result.bytes = std::move(candidate->bytes);
+    return {};
+  }
+};
+
+Encoder::Encoder(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings,
+                 const RoundedTextures& textures) {
+  checkInput(mesh, settings);
+  requireValid(textures.grids, kLocation);
+  for (const std::size_t size :
+       {textures.coordinates[0].size(), textures.coordinates[1].size(), textures.tangents.size()})
+    if (size != 0 && size != mesh.positions.size())
+      throw Error(kLocation, "wrong number of texture coordinates or tangents", fmt::to_string(mesh.positions.size()),
+                  fmt::to_string(size));
+  if (rounded.size() != mesh.positions.size()) throw Error(kLocation, "wrong number of rounded positions");
+  const Limits limits{static_cast<std::uint32_t>(mesh.positions.size()),
+                      static_cast<std::uint32_t>(mesh.triangles.size())};
+  input_ = std::make_unique<Input>(
+      Input{makeDracoMesh(mesh, rounded, settings.grid, textures), limits, settings, textures.grids});
+  deviation_ = measureDeviation(mesh, rounded, roundNormals(mesh.normals, settings.normalBits), settings.leastCross);
+}
+
+Encoder::~Encoder() = default;
+
+Encoded Encoder::encode() const {
+  std::optional<DracoBytes> sequential;
+  double sequentialMs = 0;
+  const auto encodeSequentially = [&]() -> const DracoBytes& {
+    if (sequential) return *sequential;
+    const double start = threadMs();
+    sequential = writeDraco(Method::kSequential, *input_->mesh, input_->settings.normalBits);
+    sequentialMs = threadMs() - start;
+    if (!sequential) throw Error(kLocation, "Draco cannot encode the mesh");
+    return *sequential;
+  };
+  Encoded result;
+  result.deviation = deviation_;
+  result.sequentialReason = input_->tryEdgebreaker(encodeSequentially, result);
+  if (result.sequentialReason.empty()) return result;
+
+  // Use the sequential encoding, which keeps all orders.
+  encodeSequentially();
+  sequential->vertexOfValue = identity(input_->limits.vertices);
+  result.encodeMs = sequentialMs;
+  if (const std::string reason = input_->verify(*sequential, result); !reason.empty())
+    throw Error(kLocation, "Draco's sequential encoding " + reason, "the values of the input");
+  if (result.sourceTriangles != identity(input_->limits.triangles))
+    throw Error(kLocation, "Draco changed the order of the triangles", "that of the input");
+  result.method = "sequential";
+  result.bytes = std::move(sequential->bytes);
+  return result;
+}
 
 void requireValid(const Grid& grid, std::string_view where) {
   if (grid.positionBits < 1 || grid.positionBits > kMaxPositionBits)
@@ -258,29 +239,7 @@ Encoded encode(const MeshView& mesh, const Settings& settings) {
 
 Encoded encode(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings,
                const RoundedTextures& textures) {
-  checkInput(mesh, settings);
-  requireValid(textures.grids, kLocation);
-  for (const std::size_t size :
-       {textures.coordinates[0].size(), textures.coordinates[1].size(), textures.tangents.size()})
-    if (size != 0 && size != mesh.positions.size())
-      throw Error(kLocation, "wrong number of texture coordinates or tangents", fmt::to_string(mesh.positions.size()),
-                  fmt::to_string(size));
-  if (rounded.size() != mesh.positions.size()) throw Error(kLocation, "wrong number of rounded positions");
-  const std::vector<glm::ivec3> integers = gridIntegers(rounded, settings.grid);
-  const Limits limits{static_cast<std::uint32_t>(mesh.positions.size()),
-                      static_cast<std::uint32_t>(mesh.triangles.size())};
-
-  Encoded encoded;
-  Edgebreaker candidate;
-  oneapi::tbb::parallel_invoke(
-      [&] { encoded = encodeSequentially(mesh, rounded, integers, settings, textures, limits); },
-      [&] { candidate = encodeByEdgebreaker(mesh, integers, settings, textures, limits); });
-  encoded.sequentialReason = preferEdgebreaker(std::move(candidate), mesh, integers, textures, limits, encoded);
-  if (!encoded.sequentialReason.empty()) {
-    encoded.sourceVertices = identity(mesh.positions.size());
-    encoded.sourceTriangles = identity(mesh.triangles.size());
-  }
-  return encoded;
+  return Encoder(mesh, rounded, settings, textures).encode();
 }
 
 }  // namespace malus::compress

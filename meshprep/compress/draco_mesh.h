@@ -6,10 +6,12 @@
 // agree on all points that they share. Normals are unit vectors, encoded in octahedral coordinates. Triangles are
 // counter-clockwise seen from outside and keep their orientation.
 //
-// There are two encodings. Sequential encoding keeps counts and order, and its result is compared with the input.
-// Edgebreaker is smaller, but may reorder vertices and triangles, and silently changes non-manifold or degenerate
-// connectivity. It is used only if it decodes to a permutation of the sequential result: every vertex and every
-// oriented triangle once. bounds.h and rounding.h choose the grid and the numbers of bits.
+// There are two encodings. Sequential encoding keeps counts and order. Edgebreaker is smaller, but may reorder vertices
+// and triangles, and silently changes non-manifold or degenerate connectivity. It is used only if it is smaller than
+// the sequential encoding, which is encoded only where the size of its indices does not decide that, and if it decodes
+// to a permutation of the input: every vertex and every oriented triangle once. Both are compared with the input: the
+// integers of the grid and the rounded normals are equal. bounds.h and rounding.h choose the grid and the numbers of
+// bits.
 //
 // The bytes are a plain Draco file (bitstream 2.2, no metadata), which draco_decoder reads: its positions are the
 // integers. Equal meshes and settings give equal bytes.
@@ -21,6 +23,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -125,7 +128,6 @@ struct Encoded {
   std::vector<std::byte> bytes;
   std::string method;            // "edgebreaker" or "sequential"
   std::string sequentialReason;  // reason against edgebreaker; empty if it is used. Stored in packs
-  TriangleMesh decoded;          // result of decode(bytes)
 
   // Map to the source: source vertex of each decoded vertex, source triangle of each decoded triangle. Permutations.
   std::vector<std::uint32_t> sourceVertices;
@@ -133,6 +135,28 @@ struct Encoded {
 
   Deviation deviation;
   double encodeMs = 0, decodeMs = 0;  // processor time of the chosen encoding
+};
+
+// Encoder of one mesh. It has a copy of what Draco needs, so that the caller may free the mesh before encode(), which
+// takes most memory: some 80 bytes per triangle.
+class Encoder {
+ public:
+  // As encode() below.
+  Encoder(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Settings& settings,
+          const RoundedTextures& textures = {});
+  ~Encoder();
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+
+  // Deviation of the rounded mesh, and of the decoded one: encode() throws unless they are equal.
+  const Deviation& deviation() const { return deviation_; }
+
+  Encoded encode() const;
+
+ private:
+  struct Input;
+  std::unique_ptr<Input> input_;
+  Deviation deviation_;
 };
 
 // Rounds the positions to the grid. Throws Error: settings out of range, positions outside of the grid, values that are

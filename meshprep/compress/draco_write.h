@@ -1,12 +1,14 @@
-// Draco encoding without verification, and the vertex order of edgebreaker.
+// Draco meshes and their encoding, without verification.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include <draco/mesh/mesh.h>
 #include <glm/vec3.hpp>
 
 #include "meshprep/compress/draco_header.h"
@@ -23,19 +25,23 @@ inline constexpr int kLowBits = 10;
 // 2^kLowBits, then the rests. Tangents are a generic attribute of two integers.
 inline constexpr int kTangentComponents = 2;
 
-// positions: integers of the grid, one per vertex of the mesh, whose own positions are not read. Returns nothing if
-// Draco fails. Mesh and settings must be valid inputs of encode().
-std::optional<std::vector<std::byte>> encodeDraco(Method method, const MeshView& mesh,
-                                                  std::span<const glm::ivec3> positions, int normalBits,
-                                                  const RoundedTextures& textures);
+// Returns the input of Draco: one point per vertex of the mesh in its order, with the integers of the rounded positions
+// on the grid, its normals and the integers of the textures. The positions of the mesh are not read. Throws
+// Error if a position is not on the grid.
+std::unique_ptr<draco::Mesh> makeDracoMesh(const MeshView& mesh, std::span<const glm::dvec3> rounded, const Grid& grid,
+                                           const RoundedTextures& textures);
 
-// Returns true if integers of the grid are split.
-bool areSplit(std::span<const glm::ivec3> positions);
+struct DracoBytes {
+  std::vector<std::byte> bytes;
 
-// Returns the source vertex of each vertex that edgebreaker decodes, or nothing if Draco fails. The mesh is encoded
-// again with vertex numbers in place of positions, on which the order does not depend. The caller must verify the
-// result.
-std::optional<std::vector<std::uint32_t>> edgebreakerOrder(const MeshView& mesh, std::span<const glm::ivec3> positions,
-                                                           const RoundedTextures& textures);
+  // Edgebreaker: the vertex of the mesh whose values are the k-th ones of each attribute in the file.
+  std::vector<std::uint32_t> vertexOfValue;
+};
+
+// Encodes a mesh of makeDracoMesh(). Returns nothing if Draco fails.
+std::optional<DracoBytes> writeDraco(Method method, const draco::Mesh& mesh, int normalBits);
+
+// Returns a lower bound of the bytes that sequential encoding takes: those of its indices, which it does not compress.
+std::size_t leastSequentialBytes(const draco::Mesh& mesh);
 
 }  // namespace malus::compress

@@ -1,171 +1,161 @@
 #include "meshprep/compress/reordering.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
+#include <cstring>
 #include <numeric>
 #include <tuple>
+
+#include <draco/compression/attributes/normal_compression_utils.h>
 
 namespace malus::compress {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+// A triangle with the numbers of its corners, from the smallest one on, in their cyclic order.
+struct Corners {
+  std::uint32_t first, second, third;
+};
 
-// Rotates the triangle cyclically to its smallest corner, so that the orientation is kept.
-glm::uvec3 canonical(const glm::uvec3& t) {
-  if (t.y < t.x && t.y <= t.z) return {t.y, t.z, t.x};
-  if (t.z < t.x && t.z < t.y) return {t.z, t.x, t.y};
-  return t;
+Corners canonical(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  if (b < a && b <= c) return {b, c, a};
+  if (c < a && c < b) return {c, a, b};
+  return {a, b, c};
 }
 
-bool isLess(const glm::uvec3& a, const glm::uvec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+Corners canonical(const draco::Mesh::Face& face) {
+  return canonical(face[0].value(), face[1].value(), face[2].value());
+}
 
-// Numbers of triangles, sorted by their canonical corners, then by number.
+// Triangles sorted by their canonical corners, then by number.
 class SortedTriangles {
  public:
-  SortedTriangles(std::span<const glm::uvec3> triangles, std::size_t vertices)
-      : triangles_(triangles), first_(vertices + 1), numbers_(triangles.size()) {
+  SortedTriangles(std::span<const draco::Mesh::Face> triangles, std::size_t vertices)
+      : first_(vertices + 1), entries_(triangles.size()) {
     // Sort by the first corner: count, then place.
-    for (const glm::uvec3& t : triangles) ++first_[canonical(t).x + 1];
+    for (const draco::Mesh::Face& face : triangles) ++first_[canonical(face).first + 1];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-      numbers_[next[canonical(triangles[i]).x]++] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const Corners corners = canonical(triangles[i]);
+      entries_[next[corners.first]++] = {corners.second, corners.third, static_cast<std::uint32_t>(i)};
+    }
 
     // Sort the triangles of each first corner.
     for (std::size_t v = 0; v < vertices; ++v)
-      std::sort(numbers_.begin() + first_[v], numbers_.begin() + first_[v + 1], [&](std::uint32_t a, std::uint32_t b) {
-        const glm::uvec3 cornersA = canonical(triangles[a]), cornersB = canonical(triangles[b]);
-        return isLess(cornersA, cornersB) || (cornersA == cornersB && a < b);
+      std::sort(entries_.begin() + first_[v], entries_.begin() + first_[v + 1], [](const Entry& a, const Entry& b) {
+        return std::tie(a.second, a.third, a.number) < std::tie(b.second, b.third, b.number);
       });
   }
 
-  // Returns the position of the first triangle with these canonical corners in the sorted list, or its size.
-  std::size_t find(const glm::uvec3& corners) const {
-    const auto end = numbers_.begin() + first_[corners.x + 1];
-    const auto found =
-        std::lower_bound(numbers_.begin() + first_[corners.x], end, corners,
-                         [&](std::uint32_t a, const glm::uvec3& b) { return isLess(canonical(triangles_[a]), b); });
-    return found == end ? numbers_.size() : static_cast<std::size_t>(found - numbers_.begin());
+  // Returns the position of the first triangle with these corners in the sorted list, or its size.
+  std::size_t find(const Corners& corners) const {
+    const auto end = entries_.begin() + first_[corners.first + 1];
+    const auto found = std::lower_bound(
+        entries_.begin() + first_[corners.first], end, corners,
+        [](const Entry& a, const Corners& b) { return std::tie(a.second, a.third) < std::tie(b.second, b.third); });
+    return found == end ? entries_.size() : static_cast<std::size_t>(found - entries_.begin());
   }
-  bool hasAt(std::size_t position, const glm::uvec3& corners) const {
-    return position < numbers_.size() && canonical(triangles_[numbers_[position]]) == corners;
+
+  bool hasAt(std::size_t position, const Corners& corners) const {
+    return position < first_[corners.first + 1] && entries_[position].second == corners.second &&
+           entries_[position].third == corners.third;
   }
-  std::uint32_t numberAt(std::size_t position) const { return numbers_[position]; }
+  std::uint32_t numberAt(std::size_t position) const { return entries_[position].number; }
 
  private:
-  std::span<const glm::uvec3> triangles_;
-  std::vector<std::uint32_t> first_;  // of each first corner in numbers_
-  std::vector<std::uint32_t> numbers_;
+  struct Entry {
+    std::uint32_t second, third;  // corners
+    std::uint32_t number;
+  };
+  std::vector<std::uint32_t> first_;  // position of the triangles of each first corner
+  std::vector<Entry> entries_;
 };
 
-// Mixes 64 bits into a hash. Source: the finalizer of MurmurHash3, A. Appleby, public domain.
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t bits) {
-  hash ^= bits;
-  hash = (hash ^ hash >> 33u) * 0xff51afd7ed558ccdu;
-  hash = (hash ^ hash >> 33u) * 0xc4ceb9fe1a85ec53u;
-  return hash ^ hash >> 33u;
-}
-
-// Mixes the attributes of textures of a vertex into a hash.
-std::uint64_t mixedTextures(std::uint64_t hash, const TriangleMesh& mesh, std::size_t v) {
-  const auto add = [&](float value) { hash = mixed(hash, std::bit_cast<std::uint32_t>(value + 0.0f)); };
-  for (const std::vector<glm::vec2>& set : mesh.textureCoordinates)
-    if (!set.empty()) add(set[v].x), add(set[v].y);
-  if (!mesh.tangents.empty())
-    for (int i = 0; i < 4; ++i) add(mesh.tangents[v][i]);
-  return hash;
-}
-
-// Compares all values of two vertices of meshes with the same attributes.
-bool areEqual(const TriangleMesh& a, std::size_t i, const TriangleMesh& b, std::size_t j) {
-  if (a.positions[i] != b.positions[j] || (!a.normals.empty() && a.normals[i] != b.normals[j])) return false;
-  for (std::size_t set = 0; set < a.textureCoordinates.size(); ++set)
-    if (!a.textureCoordinates[set].empty() && a.textureCoordinates[set][i] != b.textureCoordinates[set][j])
+// Compares the integers of an attribute.
+bool haveEqualIntegers(const draco::PointAttribute& source, const draco::PointAttribute& decoded,
+                       std::span<const std::uint32_t> vertices) {
+  const auto bytes = static_cast<std::size_t>(source.byte_stride());
+  if (decoded.byte_stride() != source.byte_stride()) return false;
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    const draco::AttributeValueIndex value = decoded.mapped_index(draco::PointIndex(i));
+    if (value.value() >= decoded.size() ||
+        std::memcmp(source.GetAddress(draco::AttributeValueIndex(vertices[i])), decoded.GetAddress(value), bytes) != 0)
       return false;
-  return a.tangents.empty() || a.tangents[i] == b.tangents[j];
-}
-
-bool haveEqualSizes(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.positions.size() == b.positions.size() && a.normals.size() == b.normals.size() &&
-         a.textureCoordinates[0].size() == b.textureCoordinates[0].size() &&
-         a.textureCoordinates[1].size() == b.textureCoordinates[1].size() && a.tangents.size() == b.tangents.size();
-}
-
-// Hash table of the vertices of a mesh by their values.
-class VertexTable {
- public:
-  explicit VertexTable(const TriangleMesh& mesh)
-      : mesh_(mesh), slots_(std::bit_ceil(2 * mesh.positions.size() + 1), kNone) {}
-
-  // Returns the slot of the vertex of the table with the values of vertex v of a mesh, or the free slot for it.
-  std::uint32_t& find(const TriangleMesh& mesh, std::size_t v) {
-    const glm::dvec3& p = mesh.positions[v];
-    std::uint64_t hash = 0;
-    for (int axis = 0; axis < 3; ++axis) hash = mixed(hash, std::bit_cast<std::uint64_t>(p[axis] + 0.0));  // -0 is 0
-    if (!mesh.normals.empty())
-      for (int axis = 0; axis < 3; ++axis)
-        hash = mixed(hash, std::bit_cast<std::uint32_t>(mesh.normals[v][axis] + 0.0f));
-    for (std::size_t slot = mixedTextures(hash, mesh, v);; ++slot) {
-      std::uint32_t& number = slots_[slot & (slots_.size() - 1)];
-      if (number == kNone || areEqual(mesh_, number, mesh, v)) return number;
-    }
   }
+  return true;
+}
 
- private:
-  const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> slots_;  // numbers of vertices; kNone: free
-};
+// Compares decoded normals with those of the source as Draco rounds them.
+bool haveEqualNormals(const draco::PointAttribute& source, const draco::PointAttribute& decoded,
+                      std::span<const std::uint32_t> vertices, int bits) {
+  draco::OctahedronToolBox octahedron;
+  octahedron.SetQuantizationBits(bits);
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    const draco::AttributeValueIndex value = decoded.mapped_index(draco::PointIndex(i));
+    if (value.value() >= decoded.size()) return false;
+    std::array<float, 3> normal{}, expected{}, found{};
+    source.GetValue(draco::AttributeValueIndex(vertices[i]), &normal);
+    decoded.GetValue(value, &found);
+    std::int32_t s = 0, t = 0;
+    octahedron.FloatVectorToQuantizedOctahedralCoords(normal.data(), &s, &t);
+    octahedron.QuantizedOctahedralCoordsToUnitVector(s, t, expected.data());
+    if (found != expected) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
-std::optional<std::vector<std::uint32_t>> matchVertices(const TriangleMesh& source, const TriangleMesh& decoded) {
-  if (!haveEqualSizes(source, decoded)) return std::nullopt;
-  VertexTable table(source);
-  for (std::size_t v = 0; v < source.positions.size(); ++v) {
-    std::uint32_t& number = table.find(source, v);
-    if (number != kNone) return std::nullopt;
-    number = static_cast<std::uint32_t>(v);
-  }
-  std::vector<std::uint32_t> vertices(decoded.positions.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    vertices[i] = table.find(decoded, i);
-    if (vertices[i] == kNone) return std::nullopt;
-  }
-  return vertices;
+std::span<const draco::Mesh::Face> faces(const draco::Mesh& mesh) {
+  if (mesh.num_faces() == 0) return {};
+  return {&mesh.face(draco::FaceIndex(0)), mesh.num_faces()};
 }
 
-std::optional<std::vector<std::uint32_t>> sourceTriangles(const TriangleMesh& source, const TriangleMesh& decoded,
-                                                          std::span<const std::uint32_t> vertices) {
-  // Compare counts.
-  const std::size_t count = source.positions.size();
-  if (!haveEqualSizes(source, decoded) || vertices.size() != count ||
-      decoded.triangles.size() != source.triangles.size())
-    return std::nullopt;
-
-  // Require each vertex once, with equal values.
-  std::vector<bool> used(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t v = vertices[i];
-    if (v >= count || used[v] || !areEqual(source, v, decoded, i)) return std::nullopt;
-    used[v] = true;
+bool isPermutation(std::span<const std::uint32_t> numbers) {
+  std::vector<bool> used(numbers.size());
+  for (const std::uint32_t i : numbers) {
+    if (i >= used.size() || used[i]) return false;
+    used[i] = true;
   }
+  return true;
+}
 
-  // Require each triangle once, with equal orientation; the k-th of equal ones is the k-th of the source.
-  const SortedTriangles sorted(source.triangles, count);
-  std::vector<std::uint32_t> taken(source.triangles.size(), 0);  // of equal triangles, at the position of the first
-  std::vector<std::uint32_t> triangles(source.triangles.size());
+std::optional<std::vector<std::uint32_t>> matchTriangles(std::span<const draco::Mesh::Face> source,
+                                                         std::span<const draco::Mesh::Face> decoded,
+                                                         std::span<const std::uint32_t> vertices) {
+  if (source.size() != decoded.size()) return std::nullopt;
+  const SortedTriangles sorted(source, vertices.size());
+  std::vector<std::uint32_t> taken(source.size(), 0);  // of equal triangles, at the position of the first
+  std::vector<std::uint32_t> triangles(source.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const glm::uvec3& t = decoded.triangles[i];
-    const glm::uvec3 corners = canonical({vertices[t.x], vertices[t.y], vertices[t.z]});
+    const draco::Mesh::Face& face = decoded[i];
+    const Corners corners = canonical(vertices[face[0].value()], vertices[face[1].value()], vertices[face[2].value()]);
     const std::size_t first = sorted.find(corners);
     if (!sorted.hasAt(first, corners)) return std::nullopt;
-    const std::size_t position = first + taken[first]++;
+    const std::size_t position = first + taken[first]++;  // the k-th of equal ones is the k-th of the source
     if (!sorted.hasAt(position, corners)) return std::nullopt;
     triangles[i] = sorted.numberAt(position);
   }
   return triangles;
+}
+
+bool haveEqualValues(const draco::Mesh& source, const draco::Mesh& decoded, std::span<const std::uint32_t> vertices,
+                     int normalBits) {
+  if (source.num_points() != vertices.size() || decoded.num_points() != vertices.size() ||
+      source.num_attributes() != decoded.num_attributes())
+    return false;
+  for (int i = 0; i < source.num_attributes(); ++i) {
+    const draco::PointAttribute &before = *source.attribute(i), &after = *decoded.attribute(i);
+    if (before.attribute_type() != after.attribute_type() || before.num_components() != after.num_components() ||
+        before.data_type() != after.data_type())
+      return false;
+    const bool isEqual = before.attribute_type() == draco::GeometryAttribute::NORMAL
+                             ? haveEqualNormals(before, after, vertices, normalBits)
+                             : haveEqualIntegers(before, after, vertices);
+    if (!isEqual) return false;
+  }
+  return true;
 }
 
 }  // namespace malus::compress

@@ -10,11 +10,13 @@
 #include <glm/geometric.hpp>
 
 #include "meshprep/compress/deviation.h"
+#include "meshprep/compress/draco_read.h"
 #include "meshprep/compress/draco_write.h"
 #include "meshprep/compress/grid_rounding.h"
 #include "meshprep/compress/reordering.h"
 #include "meshprep/compress/rounding.h"
 #include "meshprep/normals/crease_normals.h"
+#include "tests/meshprep/compress/round_trip.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::compress {
@@ -22,6 +24,8 @@ namespace {
 
 using prep::test::contains;
 using prep::test::errorMessage;
+using test::roundTrip;
+using test::RoundTrip;
 
 TriangleMesh makeMesh(prep::Mesh source, bool normals = true) {
   if (normals) prep::addCreaseNormals(source, 40);
@@ -230,7 +234,7 @@ TEST(GridRounding, PredictsDecodedValues) {
   const TriangleMesh mesh = makeMesh(prep::test::sphere(15, 32));
   for (const int bits : {3, 12, 20, 24, 30}) {
     Settings settings{gridFor(mesh.positions, bits), std::min(bits, 16)};
-    const Encoded encoded = encode(mesh, settings);
+    const RoundTrip encoded = roundTrip(mesh, settings);
     const std::vector<glm::dvec3> positions = roundPositions(mesh.positions, settings.grid.step);
     const std::vector<glm::vec3> normals = roundNormals(mesh.normals, settings.normalBits);
     for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -241,7 +245,7 @@ TEST(GridRounding, PredictsDecodedValues) {
 }
 
 // Expects a permutation under which every decoded triangle has the corners of its source.
-void expectMap(const TriangleMesh& mesh, const Encoded& encoded) {
+void expectMap(const TriangleMesh& mesh, const RoundTrip& encoded) {
   std::vector<std::uint32_t> vertices = encoded.sourceVertices, triangles = encoded.sourceTriangles;
   ASSERT_EQ(vertices.size(), mesh.positions.size());
   ASSERT_EQ(triangles.size(), mesh.triangles.size());
@@ -269,12 +273,12 @@ TEST(SourceMap, IsAPermutation) {
                                 prep::test::joined(prep::test::sphere(7, 9), prep::test::cube(1, {5, 5, 5})),
                                 prep::test::joined(prep::test::cube(), prep::test::cube())}) {  // every position twice
       const TriangleMesh mesh = makeMesh(m, normals);
-      const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
+      const RoundTrip encoded = roundTrip(mesh, {gridFor(mesh.positions, 20), 12});
       EXPECT_EQ(encoded.sequentialReason.empty(), encoded.method == "edgebreaker");
       expectMap(mesh, encoded);
     }
   const TriangleMesh sphere = makeMesh(prep::test::sphere(15, 32));
-  const Encoded encoded = encode(sphere, {gridFor(sphere.positions, 20), 12});
+  const RoundTrip encoded = roundTrip(sphere, {gridFor(sphere.positions, 20), 12});
   EXPECT_EQ(encoded.method, "edgebreaker");
   EXPECT_NE(encoded.decoded.triangles, sphere.triangles);  // the map is not the identity
 }
@@ -296,58 +300,92 @@ TEST(SourceMap, CoversOpenSurfacesWithAndWithoutNormals) {
   }
   for (const bool normals : {false, true}) {
     const TriangleMesh mesh = makeMesh(open, normals);
-    const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
+    const RoundTrip encoded = roundTrip(mesh, {gridFor(mesh.positions, 20), 12});
     EXPECT_EQ(encoded.method, "edgebreaker") << encoded.sequentialReason;
     expectMap(mesh, encoded);
   }
 }
 
-TEST(SourceMap, RefusesAnotherMesh) {
-  const TriangleMesh mesh = makeMesh(prep::test::cube());
-  const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
-  std::vector<std::uint32_t> identity(mesh.positions.size());
-  for (std::uint32_t i = 0; i < identity.size(); ++i) identity[i] = i;
-  EXPECT_TRUE(sourceTriangles(mesh, mesh, identity).has_value());
-  TriangleMesh changed = mesh;
-  std::swap(changed.triangles[3].x, changed.triangles[3].y);  // flipped
-  EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
-  changed = mesh;
-  changed.triangles[3] = changed.triangles[4];  // one triangle twice, one missing
-  EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
-  changed = mesh;
-  changed.positions[5].x += 1e-6f;
-  EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
-  changed = mesh;
-  changed.normals[5] = -changed.normals[5];
-  EXPECT_FALSE(sourceTriangles(mesh, changed, identity).has_value());
-  identity[2] = 1;  // not a permutation
-  EXPECT_FALSE(sourceTriangles(mesh, mesh, identity).has_value());
+// As the encoder's input.
+std::unique_ptr<draco::Mesh> dracoMesh(const TriangleMesh& mesh) {
+  const Grid grid = gridFor(mesh.positions, 20);
+  return makeDracoMesh(mesh, roundPositions(mesh.positions, grid.step), grid, {});
 }
 
-TEST(SourceMap, MatchesVerticesByTheirValues) {
+std::vector<std::uint32_t> identity(std::size_t size) {
+  std::vector<std::uint32_t> numbers(size);
+  for (std::uint32_t i = 0; i < size; ++i) numbers[i] = i;
+  return numbers;
+}
+
+TEST(SourceMap, RefusesOtherTriangles) {
+  const TriangleMesh mesh = makeMesh(prep::test::sphere(15, 32));
+  const auto source = dracoMesh(mesh);
+  const auto match = [&](const TriangleMesh& other) {
+    return matchTriangles(faces(*source), faces(*dracoMesh(other)), identity(mesh.positions.size()));
+  };
+  EXPECT_EQ(match(mesh), identity(mesh.triangles.size()));
+  TriangleMesh changed = mesh;
+  std::swap(changed.triangles[3].x, changed.triangles[3].y);  // flipped
+  EXPECT_FALSE(match(changed).has_value());
+  changed = mesh;
+  changed.triangles[3] = changed.triangles[4];  // one triangle twice, one missing
+  EXPECT_FALSE(match(changed).has_value());
+  changed.triangles = mesh.triangles;
+  changed.triangles.pop_back();
+  EXPECT_FALSE(match(changed).has_value());
+
+  // The corners of a triangle begin anywhere, and the k-th of equal triangles is the k-th of the source.
+  changed = mesh;
+  for (glm::uvec3& t : changed.triangles) t = {t.y, t.z, t.x};
+  EXPECT_EQ(match(changed), identity(mesh.triangles.size()));
+  TriangleMesh twice = mesh;
+  twice.triangles.insert(twice.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+  EXPECT_EQ(matchTriangles(faces(*dracoMesh(twice)), faces(*dracoMesh(twice)), identity(mesh.positions.size())),
+            identity(twice.triangles.size()));
+}
+
+TEST(SourceMap, MapsVertices) {
   const TriangleMesh mesh = makeMesh(prep::test::sphere(15, 32));
   const auto count = static_cast<std::uint32_t>(mesh.positions.size());
   TriangleMesh reversed = mesh;
-  std::reverse(reversed.positions.begin(), reversed.positions.end());
-  std::reverse(reversed.normals.begin(), reversed.normals.end());
   for (glm::uvec3& t : reversed.triangles) t = glm::uvec3(count - 1) - t;
-  const auto vertices = matchVertices(mesh, reversed);
-  ASSERT_TRUE(vertices.has_value());
-  for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ((*vertices)[i], count - 1 - i);
-  EXPECT_TRUE(sourceTriangles(mesh, reversed, *vertices).has_value());
+  std::vector<std::uint32_t> vertices = identity(count);
+  std::reverse(vertices.begin(), vertices.end());
+  EXPECT_EQ(matchTriangles(faces(*dracoMesh(mesh)), faces(*dracoMesh(reversed)), vertices),
+            identity(mesh.triangles.size()));
+  EXPECT_TRUE(isPermutation(vertices));
+  vertices[2] = vertices[3];
+  EXPECT_FALSE(isPermutation(vertices));
+  vertices[2] = count;
+  EXPECT_FALSE(isPermutation(vertices));
+}
 
-  // Zeros are equal whatever their sign; equal positions with different normals are different.
-  TriangleMesh crease = mesh;
-  crease.positions[4] = crease.positions[5] = glm::dvec3(0.0);
-  TriangleMesh negative = crease;
-  negative.positions[4] = negative.positions[5] = glm::dvec3(-0.0);
-  ASSERT_TRUE(matchVertices(crease, negative).has_value());
-  EXPECT_EQ(matchVertices(crease, negative)->at(5), 5u);
-  crease.normals[4] = crease.normals[5];
-  EXPECT_FALSE(matchVertices(crease, crease).has_value());  // two vertices with equal values
-  TriangleMesh moved = mesh;
-  moved.positions[7].x += 1e-6;
-  EXPECT_FALSE(matchVertices(mesh, moved).has_value());
+TEST(SourceMap, RefusesOtherValues) {
+  constexpr int kNormalBits = 12;
+  for (const bool normals : {false, true}) {
+    const TriangleMesh mesh = makeMesh(prep::test::sphere(15, 32), normals);
+    const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto source = dracoMesh(mesh);
+    const std::optional<DracoBytes> bytes = writeDraco(Method::kSequential, *source, kNormalBits);
+    ASSERT_TRUE(bytes.has_value());
+    draco::Mesh decoded;
+    readDraco(bytes->bytes, {count, static_cast<std::uint32_t>(mesh.triangles.size())}, draco::DT_INT32, {}, "test",
+              decoded);
+    std::vector<std::uint32_t> vertices = identity(count);
+    EXPECT_TRUE(haveEqualValues(*source, decoded, vertices, kNormalBits));
+    std::swap(vertices[5], vertices[90]);
+    EXPECT_FALSE(haveEqualValues(*source, decoded, vertices, kNormalBits));
+    vertices = identity(count);
+    TriangleMesh changed = mesh;
+    changed.positions[7].x += 1e-4;
+    EXPECT_FALSE(haveEqualValues(*dracoMesh(changed), decoded, vertices, kNormalBits));
+    changed = mesh;
+    if (normals) changed.normals[5] = -changed.normals[5];
+    EXPECT_EQ(haveEqualValues(*dracoMesh(changed), decoded, vertices, kNormalBits), !normals);
+    changed.normals.assign(normals ? 0 : count, glm::vec3(0, 0, 1));
+    EXPECT_FALSE(haveEqualValues(*dracoMesh(changed), decoded, vertices, kNormalBits));
+  }
 }
 
 // Two vertices of equal positions, and two equal triangles: the order is that of the encoder.
@@ -358,7 +396,7 @@ TEST(SourceMap, IsKnownForEqualVertices) {
   pair.positions.insert(pair.positions.end(), pair.positions.begin(), pair.positions.begin() + count);
   for (const glm::uvec3& t : triangles) pair.triangles.push_back(t + count);
   const TriangleMesh mesh = makeMesh(pair, false);
-  const Encoded encoded = encode(mesh, {gridFor(mesh.positions, 20), 12});
+  const RoundTrip encoded = roundTrip(mesh, {gridFor(mesh.positions, 20), 12});
   EXPECT_EQ(encoded.method, "edgebreaker") << encoded.sequentialReason;
   expectMap(mesh, encoded);
 }

@@ -11,10 +11,13 @@
 #include "meshprep/compress/bounds.h"
 #include "meshprep/compress/draco_mesh.h"
 #include "meshprep/compress/mesh_file.h"
+#include "tests/meshprep/compress/round_trip.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::compress {
 namespace {
+
+using test::RoundTrip;
 
 using prep::test::errorMessage;
 
@@ -63,12 +66,12 @@ Textured randomMesh(std::uint32_t seed, double range, bool hasSeams) {
 
 Settings settingsFor(const TriangleMesh& mesh) { return {gridFor(mesh.positions, 16), 12}; }
 
-Encoded encodeTextured(const Textured& source, const RoundedTextures& rounded) {
+RoundTrip encodeTextured(const Textured& source, const RoundedTextures& rounded) {
   const Settings settings = settingsFor(source.mesh);
   std::vector<glm::dvec3> positions;
   for (const glm::dvec3& p : source.mesh.positions)
     positions.push_back(glm::round(p / settings.grid.step) * settings.grid.step);
-  return encode(source.mesh, positions, settings, rounded);
+  return test::decoded(encode(source.mesh, positions, settings, rounded), source.mesh, settings, rounded.grids);
 }
 
 // Requires that each decoded vertex has the rounded attributes of its source.
@@ -101,11 +104,8 @@ TEST(TextureRounding, RandomMeshesKeepTheirBound) {
         // The step is the largest power of two whose half is within the bound.
         EXPECT_LE(rounded.grids.sets[0].step / 2, bound / texels);
         EXPECT_GT(rounded.grids.sets[0].step, bound / texels);
-        const Encoded encoded = encodeTextured(source, rounded);
-        const Limits limits{static_cast<std::uint32_t>(source.mesh.positions.size()),
-                            static_cast<std::uint32_t>(source.mesh.triangles.size())};
-        const TriangleMesh decoded = decode(encoded.bytes, limits, settingsFor(source.mesh).grid, "x", rounded.grids);
-        ASSERT_NO_FATAL_FAILURE(expectAttributes(decoded, encoded, source, bound / texels, 0.05)) << seed;
+        const RoundTrip encoded = encodeTextured(source, rounded);
+        ASSERT_NO_FATAL_FAILURE(expectAttributes(encoded.decoded, encoded, source, bound / texels, 0.05)) << seed;
       }
 }
 
@@ -118,7 +118,7 @@ TEST(TextureRounding, BothEncodingsHaveThem) {
       source.sets[0][i] = source.sets[1][i] = glm::vec2(source.mesh.positions[i]);
       source.tangents[i] = {1, 0, 0, 1};
     }
-    const Encoded encoded = encodeTextured(source, roundTextures(source.view(), 4096, 0.25, 1, "x"));
+    const RoundTrip encoded = encodeTextured(source, roundTextures(source.view(), 4096, 0.25, 1, "x"));
     (encoded.method == "edgebreaker" ? edgebreaker : sequential) = true;
     ASSERT_NO_FATAL_FAILURE(expectAttributes(encoded.decoded, encoded, source, 0.25 / 4096, 1));
   }
@@ -134,7 +134,7 @@ TEST(TextureRounding, SubsetsOfTheAttributes) {
     if ((subset & 4) == 0) source.tangents.clear();
     const RoundedTextures rounded = roundTextures(source.view(), 8192, 1.0 / 16, 0.05, "x");
     EXPECT_EQ(rounded.grids.any(), subset > 0);
-    const Encoded encoded = encodeTextured(source, rounded);
+    const RoundTrip encoded = encodeTextured(source, rounded);
     EXPECT_EQ(encoded.decoded.textureCoordinates[0].size(), source.sets[0].size());
     EXPECT_EQ(encoded.decoded.textureCoordinates[1].size(), source.sets[1].size());
     EXPECT_EQ(encoded.decoded.tangents.size(), source.tangents.size());

@@ -1,9 +1,14 @@
 #include "meshprep/compress/deviation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -64,6 +69,109 @@ std::optional<glm::dvec3> faceNormal(std::span<const glm::dvec3> positions, cons
   return faceNormal(positions[t.x], positions[t.y], positions[t.z]);
 }
 
+// Comparison of faces without division and roots, which decides most of them.
+class ClearFace {
+ public:
+  ClearFace(std::span<const glm::dvec3> positions, const glm::uvec3& t) {
+    const glm::dvec3& a = positions[t.x];
+    const glm::dvec3 u = positions[t.y] - a, v = positions[t.z] - a, w = v - u;
+    cross_ = glm::cross(u, v);
+    squared_ = glm::dot(cross_, cross_);
+    longest_ = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
+  }
+
+  // Returns true if the doubled area certainly exceeds leastCross and the direction of the normal has an error below
+  // 1e-12, because the height is not small; and if products of four lengths are in the range of double.
+  bool isClear(double leastCross = 0) const {
+    constexpr double kLeastHeight = 1e-3;  // of the longest edge
+    constexpr double kLeast = 1e-140, kMost = 1e140;
+    return squared_ > kLeastHeight * kLeastHeight * longest_ * longest_ && squared_ > 2 * leastCross * leastCross &&
+           squared_ > kLeast && squared_ < kMost;
+  }
+
+  // Squared tangent of the angle between the normals, which are clear; infinity if it is a right angle or more.
+  double tangentSquared(const ClearFace& other) const {
+    const double dot = glm::dot(cross_, other.cross_);
+    if (!(dot > 0)) return std::numeric_limits<double>::infinity();
+    const glm::dvec3 cross = glm::cross(cross_, other.cross_);
+    return glm::dot(cross, cross) / (dot * dot);
+  }
+
+ private:
+  glm::dvec3 cross_;
+  double squared_, longest_;
+};
+
+// Squared tangents below this share of a limit are certainly below it, if the limit is at least kLeastTangentSquared:
+// the errors of clear normals are below 1e-12.
+constexpr double kCertain = 1 - 1e-6, kLeastTangentSquared = 1e-10;
+
+// Calls add(first, last, list) for blocks of the numbers 0 to count - 1 in parallel and returns the lists in order. The
+// blocks do not depend on the number of threads.
+template <class Add>
+std::vector<std::uint32_t> collect(std::size_t count, Add add) {
+  constexpr std::size_t kBlock = 1u << 14u;
+  std::vector<std::vector<std::uint32_t>> lists((count + kBlock - 1) / kBlock);
+  tbb::parallel_for(std::size_t{0}, lists.size(),
+                    [&](std::size_t i) { add(i * kBlock, std::min(count, (i + 1) * kBlock), lists[i]); });
+  std::vector<std::uint32_t> all;
+  for (const std::vector<std::uint32_t>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+// Returns the faces in order without those that certainly have area and are tilted by less than the default and less
+// than an earlier face.
+std::vector<std::uint32_t> facesToMeasure(const MeshView& source, std::span<const glm::dvec3> positions,
+                                          double leastCross) {
+  const double tangent = std::tan(glm::radians(kDefaultTiltDegrees));
+  return collect(source.triangles.size(), [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
+    double most = 0;  // squared tangent, of the faces in the list
+    for (std::size_t i = first; i < last; ++i) {
+      const ClearFace before(source.positions, source.triangles[i]), after(positions, source.triangles[i]);
+      if (before.isClear() && after.isClear(leastCross)) {
+        const double tilt = before.tangentSquared(after);
+        if (most >= kLeastTangentSquared && tilt <= kCertain * most) continue;
+        most = std::min(std::max(most, tilt), tangent * tangent);
+      }
+      list.push_back(static_cast<std::uint32_t>(i));
+    }
+  });
+}
+
+double farthest(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) {
+  double squared = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const glm::dvec3 d = a[i] - b[i];
+    squared = std::max(squared, glm::dot(d, d));
+  }
+  return std::sqrt(squared);
+}
+
+// Whether a face is within the limits.
+bool faceWithin(const MeshView& source, std::span<const glm::dvec3> positions, const glm::uvec3& t,
+                const DeviationLimits& limits, double cosine) {
+  const std::optional<glm::dvec3> before = faceNormal(source.positions, t);
+  if (!before) return true;
+  const std::optional<glm::dvec3> after = faceNormal(positions, t, limits.leastCross);
+  if (!after) return limits.newDegenerate;
+  // Accept clear cases by the cosine, which cannot resolve small angles.
+  const double dot = glm::dot(*before, *after);
+  const double lengths = std::sqrt(glm::dot(*before, *before) * glm::dot(*after, *after));
+  return dot >= lengths * (cosine + 1e-9) || degreesBetween(*before, *after) <= limits.tiltDegrees;
+}
+
+// Returns true if isWithin(first, last) is true for all blocks of the numbers 0 to count - 1. Stops at the first that
+// is not.
+template <class IsWithin>
+bool allWithin(std::size_t count, IsWithin isWithin) {
+  std::atomic<bool> all{true};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t i = range.begin(); i < range.end() && all.load(std::memory_order_relaxed); ++i)
+      if (!isWithin(i)) all.store(false, std::memory_order_relaxed);
+  });
+  return all;
+}
+
 }  // namespace
 
 bool hasArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { return faceNormal(a, b, c).has_value(); }
@@ -73,62 +181,61 @@ Deviation measureDeviation(const MeshView& source, std::span<const glm::dvec3> p
   Deviation deviation;
 
   // Compare vertices.
-  double farthest = 0;
   LargestAngle normalAngle;
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    farthest = std::max(farthest, glm::distance(positions[i], source.positions[i]));
   for (std::size_t i = 0; i < normals.size(); ++i) normalAngle.add(source.normals[i], normals[i]);
 
   // Compare the faces that have area.
   const double tangent = std::tan(glm::radians(kDefaultTiltDegrees));
   LargestAngle tilt;
-  for (std::size_t i = 0; i < source.triangles.size(); ++i) {
+  const std::vector<std::uint32_t> faces = facesToMeasure(source, positions, leastCross);
+  deviation.faces = source.triangles.size() - faces.size();
+  for (const std::uint32_t i : faces) {
     const std::optional<glm::dvec3> before = faceNormal(source.positions, source.triangles[i]);
     if (!before) continue;
     ++deviation.faces;
     const std::optional<glm::dvec3> after = faceNormal(positions, source.triangles[i], leastCross);
     if (!after) {
-      if (deviation.newDegenerate++ == 0) deviation.degenerateFace = static_cast<std::uint32_t>(i);
+      if (deviation.newDegenerate++ == 0) deviation.degenerateFace = i;
       deviation.degenerateArea += area(source.positions, source.triangles[i]);
       continue;
     }
-    if (tilt.add(*before, *after)) deviation.tiltFace = static_cast<std::uint32_t>(i);
+    if (tilt.add(*before, *after)) deviation.tiltFace = i;
     const glm::dvec3 cross = glm::cross(*before, *after);
     const double dot = glm::dot(*before, *after);
     if (dot > 0 && glm::dot(cross, cross) <= tangent * tangent * dot * dot) continue;
     ++deviation.tilted;
     deviation.tiltedArea += area(source.positions, source.triangles[i]);
-    if (dot < 0 && deviation.flipped++ == 0) deviation.flippedFace = static_cast<std::uint32_t>(i);
+    if (dot < 0 && deviation.flipped++ == 0) deviation.flippedFace = i;
   }
-  deviation.positionMax = farthest;
+  deviation.positionMax = farthest(positions, source.positions);
   deviation.normalMaxDegrees = normalAngle.degrees();
   deviation.tiltMaxDegrees = tilt.degrees();
   return deviation;
 }
 
 bool positionsWithin(const MeshView& source, std::span<const glm::dvec3> positions, const DeviationLimits& limits) {
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    if (glm::distance(positions[i], source.positions[i]) > limits.position) return false;
-  const double cosine = std::cos(glm::radians(limits.tiltDegrees));
-  for (const glm::uvec3& t : source.triangles) {
-    const std::optional<glm::dvec3> before = faceNormal(source.positions, t);
-    if (!before) continue;
-    const std::optional<glm::dvec3> after = faceNormal(positions, t, limits.leastCross);
-    if (!after && !limits.newDegenerate) return false;
-    if (!after) continue;
-    // Accept clear cases by the cosine, which cannot resolve small angles.
-    const double dot = glm::dot(*before, *after);
-    const double lengths = std::sqrt(glm::dot(*before, *before) * glm::dot(*after, *after));
-    if (dot >= lengths * (cosine + 1e-9)) continue;
-    if (degreesBetween(*before, *after) > limits.tiltDegrees) return false;
-  }
-  return true;
+  if (std::isfinite(limits.position) && farthest(positions, source.positions) > limits.position) return false;
+  constexpr double kMostQuickDegrees = 45;
+  const double cosine = std::cos(glm::radians(limits.tiltDegrees)),
+               tangent = std::tan(glm::radians(std::min(limits.tiltDegrees, kMostQuickDegrees))),
+               certain = kCertain * tangent * tangent;
+  return allWithin(source.triangles.size(), [&](std::size_t i) {
+    const glm::uvec3& t = source.triangles[i];
+    const ClearFace before(source.positions, t), after(positions, t);
+    return (certain >= kLeastTangentSquared && before.isClear() && after.isClear(limits.leastCross) &&
+            before.tangentSquared(after) <= certain) ||
+           faceWithin(source, positions, t, limits, cosine);
+  });
 }
 
 bool normalsWithin(const MeshView& source, std::span<const glm::vec3> normals, const DeviationLimits& limits) {
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    if (degreesBetween(source.normals[i], normals[i]) > limits.normalDegrees) return false;
-  return true;
+  const double cosine = std::cos(glm::radians(limits.normalDegrees));
+  return allWithin(normals.size(), [&](std::size_t i) {
+    // Accept clear cases by the cosine, as faces.
+    const glm::dvec3 a(source.normals[i]), b(normals[i]);
+    const double lengths = std::sqrt(glm::dot(a, a) * glm::dot(b, b));
+    return glm::dot(a, b) >= lengths * (cosine + 1e-9) || degreesBetween(a, b) <= limits.normalDegrees;
+  });
 }
 
 }  // namespace malus::compress

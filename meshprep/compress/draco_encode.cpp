@@ -227,7 +227,7 @@ Grid gridFor(std::span<const glm::dvec3> positions, int positionBits, std::strin
   requireAcceptedSize(positions, where);
   if (positions.empty()) return {glm::dvec3(0), 1, positionBits};
   Grid grid;
-  grid.step = std::ldexp(1.0, stepExponent(positions, positionBits));
+  grid.step = std::ldexp(1.0, stepExponent(findExtent(positions), positionBits));
   grid.origin = roundToStep(findExtent(positions).low, grid.step);
   grid.positionBits = positionBits;
   return grid;

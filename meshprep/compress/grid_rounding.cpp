@@ -3,22 +3,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include <draco/compression/attributes/normal_compression_utils.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace malus::compress {
+
+namespace {
+
+constexpr std::size_t kGrain = 4096;  // values per task
+
+}  // namespace
 
 glm::dvec3 roundToStep(const glm::dvec3& p, double step) {
   return {std::nearbyint(p.x / step) * step, std::nearbyint(p.y / step) * step, std::nearbyint(p.z / step) * step};
 }
 
 std::vector<glm::dvec3> roundPositions(std::span<const glm::dvec3> positions, double step) {
-  std::vector<glm::dvec3> rounded;
-  rounded.reserve(positions.size());
-  for (const glm::dvec3& p : positions) rounded.push_back(roundToStep(p, step));
+  std::vector<glm::dvec3> rounded(positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rounded.size(), kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        rounded[i] = roundToStep(positions[i], step);
+                    });
   return rounded;
 }
 
@@ -49,8 +61,7 @@ Extent findExtent(std::span<const glm::dvec3> positions) {
   return extent;
 }
 
-int stepExponent(std::span<const glm::dvec3> positions, int bits) {
-  const Extent extent = findExtent(positions);
+int stepExponent(const Extent& extent, int bits) {
   const double largest = extent.largest(), farthest = extent.farthest();
   if (farthest == 0) return 0;
   // One exponent below the quotient of extent and steps, or the least that kMaxSteps permits; then raise it until it
@@ -66,18 +77,21 @@ int stepExponent(std::span<const glm::dvec3> positions, int bits) {
 }
 
 std::vector<glm::vec3> roundNormals(std::span<const glm::vec3> normals, int bits) {
-  draco::OctahedronToolBox octahedron;
-  octahedron.SetQuantizationBits(bits);
   std::vector<glm::vec3> rounded(normals.size());
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const std::array<float, 3> normal{normals[i].x, normals[i].y, normals[i].z};
-    std::array<float, 3> decoded{};
-    std::int32_t s = 0, t = 0;
-    octahedron.FloatVectorToQuantizedOctahedralCoords(normal.data(), &s, &t);
-    octahedron.QuantizedOctahedralCoordsToUnitVector(s, t, decoded.data());
-    const glm::vec3 unit(decoded[0], decoded[1], decoded[2]);
-    rounded[i] = unit / glm::length(unit);  // normalize as decode() does
-  }
+  const auto roundRange = [&](const tbb::blocked_range<std::size_t>& range) {
+    draco::OctahedronToolBox octahedron;
+    octahedron.SetQuantizationBits(bits);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const std::array<float, 3> normal{normals[i].x, normals[i].y, normals[i].z};
+      std::array<float, 3> decoded{};
+      std::int32_t s = 0, t = 0;
+      octahedron.FloatVectorToQuantizedOctahedralCoords(normal.data(), &s, &t);
+      octahedron.QuantizedOctahedralCoordsToUnitVector(s, t, decoded.data());
+      const glm::vec3 unit(decoded[0], decoded[1], decoded[2]);
+      rounded[i] = unit / glm::length(unit);  // normalize as decode() does
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, normals.size(), kGrain), roundRange);
   return rounded;
 }
 

@@ -28,10 +28,6 @@ inline bool isFloat(const glm::dvec3& p) {
           kLowBits29) == 0;
 }
 
-// Returns the exponent of the smallest power of two with which the rounded positions span at most 2^bits - 1 steps, at
-// most kMaxSteps from zero. Positions must be finite.
-int stepExponent(std::span<const glm::dvec3> positions, int bits);
-
 // Bounding box of positions that are not empty, and its largest extent.
 struct Extent {
   glm::dvec3 low, high;
@@ -39,6 +35,10 @@ struct Extent {
   double farthest() const;  // largest absolute coordinate
 };
 Extent findExtent(std::span<const glm::dvec3> positions);
+
+// Returns the exponent of the smallest power of two with which the rounded positions span at most 2^bits - 1 steps, at
+// most kMaxSteps from zero. The extent is that of the positions, which must be finite.
+int stepExponent(const Extent& extent, int bits);
 
 // Rounds unit normals to octahedral coordinates with `bits` bits (kMinNormalBits to kMaxNormalBits), and normalizes.
 std::vector<glm::vec3> roundNormals(std::span<const glm::vec3> normals, int bits);

@@ -59,32 +59,31 @@ class Rounder {
   }
 
   void chooseFirstSteps() {
-    // Find the bounding box of the scene.
+    // Find the bounding boxes of the meshes and of the scene.
     std::vector<glm::dvec3> corners;
     for (const MeshView& mesh : meshes_) {
-      if (mesh.positions.empty()) continue;
-      const Extent extent = findExtent(mesh.positions);
-      corners.insert(corners.end(), {extent.low, extent.high});
+      extents_.push_back(mesh.positions.empty() ? Extent{} : findExtent(mesh.positions));
+      if (!mesh.positions.empty()) corners.insert(corners.end(), {extents_.back().low, extents_.back().high});
     }
-    const int sceneStep = corners.empty() ? 0 : stepExponent(corners, kFirstPositionBits);
+    const Extent scene = corners.empty() ? Extent{} : findExtent(corners);
+    const int sceneStep = corners.empty() ? 0 : stepExponent(scene, kFirstPositionBits);
 
     // Choose the first and the finest step of each mesh.
-    for (const MeshView& mesh : meshes_) {
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
       int first = 0, finest = 0;
-      if (!mesh.positions.empty()) {
-        finest = stepExponent(mesh.positions, bounds_.positionBits.value_or(kMaxPositionBits));
+      if (!meshes_[i].positions.empty()) {
+        finest = stepExponent(extents_[i], bounds_.positionBits.value_or(kMaxPositionBits));
         first = bounds_.positionBits    ? finest
-                : bounds_.positionError ? stepExponent(mesh.positions, 1)
-                                        : std::min(sceneStep - std::ilogb(mesh.magnification.largest),
-                                                   stepExponent(mesh.positions, kFirstMeshBits));
+                : bounds_.positionError ? stepExponent(extents_[i], 1)
+                                        : std::min(sceneStep - std::ilogb(meshes_[i].magnification.largest),
+                                                   stepExponent(extents_[i], kFirstMeshBits));
       }
       finest_.push_back(finest);
       steps_.push_back(std::max(first, finest));
     }
 
     // Group the meshes that share positions.
-    const double farthest = corners.empty() ? 0 : findExtent(corners).farthest();
-    shared_ = findSharedPositions(meshes_, farthest * kSharedTolerance);
+    shared_ = findSharedPositions(meshes_, (corners.empty() ? 0 : scene.farthest()) * kSharedTolerance);
     groups_.resize(meshes_.size());
     for (std::uint32_t i = 0; i < meshes_.size(); ++i) groups_[shared_.groupOf[i]].push_back(i);
     rounded_.resize(meshes_.size());
@@ -132,7 +131,7 @@ class Rounder {
       if (meshes_[i].positions.empty()) continue;
       finest = std::min(finest, steps_[i]);
       coarsest = std::max(coarsest, steps_[i]);
-      farthest = std::max(farthest, findExtent(meshes_[i].positions).farthest());
+      farthest = std::max(farthest, extents_[i].farthest());
     }
     // Transforms would round positions far from the mesh, so that the origin of a mesh with instances is near it.
     const bool isPlaced =
@@ -194,12 +193,21 @@ class Rounder {
     } while (refineAll(failing));
   }
 
+  // Rounds the normals in blocks until one exceeds the limit.
+  bool areNormalsWithin(const MeshView& mesh, int bits) const {
+    constexpr std::size_t kBlock = 1u << 16u;
+    const DeviationLimits limits = limitsBefore(mesh.magnification, limits_);
+    for (std::size_t first = 0; first < mesh.normals.size(); first += kBlock) {
+      const auto block = mesh.normals.subspan(first, std::min(kBlock, mesh.normals.size() - first));
+      if (!normalsWithin(MeshView({}, block, {}), roundNormals(block, bits), limits)) return false;
+    }
+    return true;
+  }
+
   void chooseNormalBits() {
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
       int bits = bounds_.normalErrorDegrees ? kMinNormalBits : kFirstNormalBits;
-      const auto& normals = meshes_[i].normals;
-      const DeviationLimits limits = limitsBefore(meshes_[i].magnification, limits_);
-      while (bits < kMaxNormalBits && !normalsWithin(meshes_[i], roundNormals(normals, bits), limits)) ++bits;
+      while (bits < kMaxNormalBits && !areNormalsWithin(meshes_[i], bits)) ++bits;
       rounded_[i].normalBits = bounds_.normalBits.value_or(bits);
     }
   }
@@ -208,6 +216,7 @@ class Rounder {
   const Bounds& bounds_;
   Precision precision_;
   DeviationLimits limits_;
+  std::vector<Extent> extents_;      // per mesh
   std::vector<int> steps_, finest_;  // exponents, per mesh
   SharedPositions shared_;
   std::vector<std::vector<std::uint32_t>> groups_;  // meshes, at the index of the first one

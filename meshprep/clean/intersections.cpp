@@ -196,6 +196,11 @@ class Search {
     std::vector<Box> boxesOfA, boxesOfB;
     if (b.size() < boxes_.size()) boxesOfB = take(b);
     const std::span<const Box> inB = boxesOfB.empty() ? boxes_ : boxesOfB;
+    if (hub == kNoSource && a.size() == b.size()) {
+      const auto testPair = [&](std::uint32_t k, std::uint32_t l) { return test(b[k], b[l]); };
+      result_.complete = forOverlappingPairs(inB, mostCost(a.size() + b.size()), testPair);
+      return;
+    }
     if (hub != kNoSource) boxesOfA = take(a);
     const std::span<const Box> inA = hub == kNoSource ? inB.last(a.size()) : boxesOfA;
     result_.complete = forOverlappingBoxes(inA, inB, mostCost(a.size() + b.size()),
@@ -224,10 +229,8 @@ class Search {
       const double chord = glm::distance(from, to);
       arcs.push_back(makeBox(from, to, 1 - std::sqrt(std::max(0.0, 1 - chord * chord / 4)) + kArcMargin));
     }
-    result_.complete =
-        forOverlappingBoxes(arcs, arcs, mostCost(arcs.size()), [&](std::uint32_t k, std::uint32_t l) -> std::uint32_t {
-          return l >= k ? 0 : test(triangles[k], triangles[l]);
-        });
+    const auto testPair = [&](std::uint32_t k, std::uint32_t l) { return test(triangles[k], triangles[l]); };
+    result_.complete = forOverlappingPairs(arcs, mostCost(arcs.size()), testPair);
   }
 
   std::vector<Corners> corners_;

@@ -3,7 +3,7 @@
 //
 // Triangles that share corners (by position) must not touch elsewhere. The tests are exact for the double coordinates:
 // floating point with error bounds (separation.h) decides most pairs, CGAL's kernel with exact predicates the others.
-// An R-tree of bounding boxes (box_pairs.h) finds the pairs to test, and around a vertex of many triangles one of
+// A hierarchy of bounding boxes (box_pairs.h) finds the pairs to test, and around a vertex of many triangles one of
 // directions.
 #pragma once
 

@@ -18,6 +18,7 @@
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/output_files.h"
+#include "meshprep/certify/rounded_contacts.h"
 #include "meshprep/clean/intersections.h"
 #include "meshprep/compress/bounds.h"
 #include "meshprep/compress/draco_mesh.h"
@@ -112,14 +113,15 @@ void setErrors(const compress::Deviation& deviation, Report& report) {
 // Inspects the rounded mesh if a certificate of a closed body is requested: rounding must not make faces touch.
 compress::Inspection certificateInspection(const Arguments& arguments, const Mesh& mesh) {
   if (arguments.certify != "glass" || arguments.options.openSurface) return {};
-  const auto contacts = [&mesh](const compress::RoundedMesh& rounded) {
+  const auto search = std::make_shared<RoundedContacts>(mesh);
+  const auto contacts = [&mesh, search](const compress::RoundedMesh& rounded) {
     Mesh delivered;
+    const std::vector<Intersections::Pair> pairs = search->find(rounded.positions);
+    if (pairs.empty()) return Findings{};
     delivered.positions = rounded.positions;
     delivered.triangles = mesh.triangles;
     delivered.sourceFaces = mesh.sourceFaces;
-    Intersections found = findIntersections(delivered);
-    found.crossing.insert(found.crossing.end(), found.coincident.begin(), found.coincident.end());
-    return describePairs(delivered, found.crossing);
+    return describePairs(delivered, pairs);
   };
   compress::Inspection inspection;
   inspection.find = [contacts](std::span<const compress::RoundedMesh> rounded) {

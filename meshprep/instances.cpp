@@ -199,7 +199,12 @@ class InstancePreparation {
     report_.source = source_;
     report_.notes = notesOfMeshes(scene_);
     report_.certificate.checked = options_.certifyGlass;
+    std::map<const Piece*, std::uint32_t> originals;
     for (const PlacedPiece& placed : placed_) {
+      const auto number = static_cast<std::uint32_t>(mesh.pieces.size());
+      mesh.pieces.push_back(
+          {static_cast<std::uint32_t>(mesh.positions.size()), static_cast<std::uint32_t>(mesh.triangles.size()),
+           originals.try_emplace(placed.piece, number).first->second, placed.linear, placed.translation, placed.scale});
       if (!appendMesh(placed, mesh)) return false;
       appendReport(placed);
     }

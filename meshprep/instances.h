@@ -15,7 +15,7 @@ namespace malus::prep {
 
 // As prepare() of mergeInstances(scene), with the same sources: vertices and faces are numbered through the instances.
 // Errors are those of the merged polygons. If the result was prepared in pieces, its vertices and triangles are ordered
-// by piece, and sourceCorners, flipped and the attributes of triangles are empty.
+// by piece, in mesh.pieces, and sourceCorners, flipped and the attributes of triangles are empty.
 Mesh prepareInstances(const SourceScene& scene, const std::string& source, const Options& options, Report& report);
 
 }  // namespace malus::prep

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -18,6 +19,19 @@ struct CornerTexture {
   std::array<glm::vec2, 2> coordinates{};
   glm::vec4 tangent{0, 0, 0, 1};
   bool isMissing = false;  // of a corner that cleaning added
+};
+
+// Part of a mesh that was prepared in pieces (instances.h): vertices and triangles from the first ones to those of the
+// next piece.
+struct MeshPiece {
+  std::uint32_t firstVertex = 0, firstTriangle = 0;
+
+  // Placed = linear * p + translation maps the vertices of the piece `original`, in order, to those of this one, apart
+  // from rounding errors of double: a similarity with this scale. The corners of triangles may be mirrored.
+  std::uint32_t original = 0;  // itself, or an earlier piece
+  glm::dmat3 linear{1.0};
+  glm::dvec3 translation{0};
+  double scale = 1;
 };
 
 struct Mesh {
@@ -43,6 +57,8 @@ struct Mesh {
   std::vector<CornerTexture> cornerTextures;   // three per triangle
   std::array<bool, 2> hasCoordinates{};        // sets of texture coordinates that cornerTextures has
   bool hasTangents = false;
+
+  std::vector<MeshPiece> pieces;  // whose boxes do not touch; empty for one piece
 };
 
 }  // namespace malus::prep

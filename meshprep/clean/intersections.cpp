@@ -12,6 +12,7 @@
 #define CGAL_DO_NOT_USE_MPZF
 #endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -65,10 +66,12 @@ TrianglePair makePair(const Corners& first, const Corners& second) {
 Kernel::Point_3 point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 Kernel::Triangle_3 triangle(const TriangleCorners& t) { return {point(t[0]), point(t[1]), point(t[2])}; }
 
-// Floating-point test: true if they certainly do not touch outside of shared corners.
-bool areCertainlySeparate(const TrianglePair& pair) {
-  if (pair.shared == 0) return areSeparate(pair.a, pair.b);
-  return pair.shared == 1 ? areSeparateBesideCorner(pair.a, pair.b) : areSeparateBesideEdge(pair.a, pair.b);
+// Floating-point test: true if they certainly do not touch outside of shared corners, also if corners move by at most
+// this distance.
+bool areCertainlySeparate(const TrianglePair& pair, double distance = 0) {
+  if (pair.shared == 0) return areSeparate(pair.a, pair.b, distance);
+  return pair.shared == 1 ? areSeparateBesideCorner(pair.a, pair.b, distance)
+                          : areSeparateBesideEdge(pair.a, pair.b, distance);
 }
 
 // Exact test: true if they touch outside of shared corners.
@@ -85,20 +88,39 @@ bool touchExactly(const TrianglePair& pair) {
   return CGAL::do_intersect(triangle(a), triangle(b));
 }
 
+// Returns true if the triangle has no area.
+bool isFlat(const TriangleCorners& a) {
+  return !certainlyHasArea(a) && CGAL::collinear(point(a[0]), point(a[1]), point(a[2]));
+}
+
 // Collects the corners, and marks triangles without area.
 std::vector<Corners> collectCorners(const Mesh& mesh) {
   std::vector<Corners> corners(mesh.triangles.size());
   const std::vector<std::uint32_t> ids = positionIds(mesh);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  const auto collect = [&](std::size_t i) {
     Corners& c = corners[i];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.triangles[i][static_cast<int>(k)];
       c.points[k] = mesh.positions[v];
       c.ids[k] = ids[v];
     }
-    c.flat = !certainlyHasArea(c.points) && CGAL::collinear(point(c.points[0]), point(c.points[1]), point(c.points[2]));
-  }
+    c.flat = isFlat(c.points);
+  };
+  tbb::parallel_for(std::size_t{0}, corners.size(), collect);
   return corners;
+}
+
+enum class Relation { separate, crossing, coincident };
+
+// Exact relation of two triangles of which floating point does not decide that they are separate.
+Relation relateExactly(const TrianglePair& pair) {
+  if (pair.shared == 3) return Relation::coincident;
+  return touchExactly(pair) ? Relation::crossing : Relation::separate;
+}
+
+Box boundingBox(const Corners& c) {
+  return {glm::min(c.points[0], glm::min(c.points[1], c.points[2])),
+          glm::max(c.points[0], glm::max(c.points[1], c.points[2]))};
 }
 
 Box makeBox(const glm::dvec3& a, const glm::dvec3& b, double margin) {
@@ -112,9 +134,7 @@ class Search {
  public:
   Search(const Mesh& mesh, std::size_t first) : corners_(collectCorners(mesh)), first_(first) {
     boxes_.reserve(corners_.size());
-    for (const Corners& c : corners_)
-      boxes_.push_back({glm::min(c.points[0], glm::min(c.points[1], c.points[2])),
-                        glm::max(c.points[0], glm::max(c.points[1], c.points[2]))});
+    for (const Corners& c : corners_) boxes_.push_back(boundingBox(c));
     if (first == 0) findHubs(mesh.positions.size());
   }
 
@@ -173,9 +193,11 @@ class Search {
     const TrianglePair pair = makePair(corners_[i], corners_[j]);
     if (pair.shared < 3 && areCertainlySeparate(pair)) return kCostOfTest;
     exactTests_.fetch_add(1, std::memory_order_relaxed);
-    if (pair.shared < 3 && !touchExactly(pair)) return kCostOfExactTest;
+    const Relation relation = relateExactly(pair);
+    if (relation == Relation::separate) return kCostOfExactTest;
     const std::lock_guard guard(lock_);
-    (pair.shared < 3 ? result_.crossing : result_.coincident).emplace_back(std::min(i, j), std::max(i, j));
+    (relation == Relation::crossing ? result_.crossing : result_.coincident)
+        .emplace_back(std::min(i, j), std::max(i, j));
     return kCostOfExactTest;
   }
 
@@ -245,6 +267,57 @@ class Search {
 }  // namespace
 
 Intersections findIntersections(const Mesh& mesh, std::size_t first) { return Search(mesh, first).run(); }
+
+Intersections testPairs(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
+                        std::span<const Intersections::Pair> pairs) {
+  Intersections result;
+  for (const auto& [first, second] : pairs) {
+    // Number the corners by their positions. A pair that is certainly separate needs no test for area.
+    std::array<Corners, 2> sides;
+    std::array<glm::dvec3, 6> points{};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i] = positions[triangles[i < 3 ? first : second][static_cast<int>(i % 3)]];
+      sides[i / 3].points[i % 3] = points[i];
+      sides[i / 3].ids[i % 3] =
+          static_cast<std::uint32_t>(std::find(points.begin(), points.end(), points[i]) - points.begin());
+    }
+    const TrianglePair pair = makePair(sides[0], sides[1]);
+    if (pair.shared < 3 && areCertainlySeparate(pair)) continue;
+    if (isFlat(sides[0].points) || isFlat(sides[1].points)) continue;
+    ++result.exactTests;
+    const Relation relation = relateExactly(pair);
+    if (relation == Relation::separate) continue;
+    (relation == Relation::crossing ? result.crossing : result.coincident).emplace_back(first, second);
+  }
+  for (auto* list : {&result.crossing, &result.coincident}) std::sort(list->begin(), list->end());
+  return result;
+}
+
+std::optional<std::vector<Intersections::Pair>> findClosePairs(const Mesh& mesh, double distance) {
+  const std::vector<Corners> corners = collectCorners(mesh);
+  std::vector<std::uint32_t> uses(mesh.positions.size(), 0);
+  std::vector<Box> boxes;
+  boxes.reserve(corners.size());
+  for (const Corners& c : corners) {
+    for (const std::uint32_t id : c.ids)
+      if (++uses[id] > kMinHubTriangles) return std::nullopt;
+    const Box box = boundingBox(c);
+    boxes.push_back({box.low - distance, box.high + distance});
+  }
+  std::vector<Intersections::Pair> pairs;
+  std::mutex lock;
+  const auto test = [&](std::uint32_t i, std::uint32_t j) {
+    const TrianglePair pair = makePair(corners[i], corners[j]);
+    if (!corners[i].flat && !corners[j].flat && pair.shared < 3 && areCertainlySeparate(pair, distance))
+      return kCostOfTest;
+    const std::lock_guard guard(lock);
+    pairs.emplace_back(j, i);
+    return kCostOfExactTest;
+  };
+  if (!forOverlappingPairs(boxes, kCostPerTriangle * boxes.size() + kMinCost, test)) return std::nullopt;
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
 
 Findings describePairs(const Mesh& mesh, const std::vector<Intersections::Pair>& pairs) {
   Findings findings;

@@ -8,8 +8,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "meshprep/findings.h"
 
@@ -26,6 +30,15 @@ struct Intersections {
 
 // Ignores triangles without area. Finds the pairs with at least one triangle from `first` on.
 Intersections findIntersections(const Mesh& mesh, std::size_t first = 0);
+
+// The same for some pairs of triangles.
+Intersections testPairs(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
+                        std::span<const Intersections::Pair> pairs);
+
+// Returns the pairs, sorted, that may be in the result of findIntersections() if every vertex moves by at most this
+// distance, and vertices at one position together. Nothing if there are too many pairs to test, or a vertex of many
+// triangles.
+std::optional<std::vector<Intersections::Pair>> findClosePairs(const Mesh& mesh, double distance);
 
 // Returns a finding per pair, halfway between the triangles.
 Findings describePairs(const Mesh& mesh, const std::vector<Intersections::Pair>& pairs);

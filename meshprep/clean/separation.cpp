@@ -20,11 +20,28 @@ struct Bounded {
   double size, error;
 };
 
+// Difference of two points.
 Bounded difference(const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 v = a - b;
   const double size = largest(v);
   return {v, size, 2 * kUnit * size};
 }
+
+// Differences of two points, each of which may move by at most a distance.
+class Differences {
+ public:
+  explicit Differences(double distance) : distance_(distance) {}
+  Bounded operator()(const glm::dvec3& a, const glm::dvec3& b) const {
+    Bounded result = difference(a, b);
+    if (distance_ == 0) return result;
+    result.error += 2 * distance_;
+    result.size += result.error;  // products of errors count, too
+    return result;
+  }
+
+ private:
+  double distance_;
+};
 
 // Each component is a difference of two products.
 Bounded cross(const Bounded& a, const Bounded& b) {
@@ -67,12 +84,13 @@ bool certainlyHasArea(const TriangleCorners& a) {
   return largest(normal.v) > normal.error;
 }
 
-bool areSeparate(const TriangleCorners& a, const TriangleCorners& b) {
+bool areSeparate(const TriangleCorners& a, const TriangleCorners& b, double distance) {
+  const Differences subtract(distance);
   const glm::dvec3& origin = a[0];
-  const std::array<Bounded, 3> p = {difference(a[0], origin), difference(a[1], origin), difference(a[2], origin)};
-  const std::array<Bounded, 3> q = {difference(b[0], origin), difference(b[1], origin), difference(b[2], origin)};
-  const std::array<Bounded, 3> edgesA = {p[1], difference(a[2], a[1]), p[2]};
-  const std::array<Bounded, 3> edgesB = {difference(b[1], b[0]), difference(b[2], b[1]), difference(b[2], b[0])};
+  const std::array<Bounded, 3> p = {Bounded{glm::dvec3(0), 0, 0}, subtract(a[1], origin), subtract(a[2], origin)};
+  const std::array<Bounded, 3> q = {subtract(b[0], origin), subtract(b[1], origin), subtract(b[2], origin)};
+  const std::array<Bounded, 3> edgesA = {p[1], subtract(a[2], a[1]), p[2]};
+  const std::array<Bounded, 3> edgesB = {subtract(b[1], b[0]), subtract(b[2], b[1]), subtract(b[2], b[0])};
 
   // Try the planes of the triangles, then planes along an edge that are perpendicular to these.
   const Bounded normalA = cross(edgesA[0], edgesA[2]), normalB = cross(edgesB[0], edgesB[2]);
@@ -87,9 +105,10 @@ bool areSeparate(const TriangleCorners& a, const TriangleCorners& b) {
   return false;
 }
 
-bool areSeparateBesideCorner(const TriangleCorners& a, const TriangleCorners& b) {
-  const std::array<Bounded, 2> p = {difference(a[1], a[0]), difference(a[2], a[0])};
-  const std::array<Bounded, 2> q = {difference(b[1], b[0]), difference(b[2], b[0])};
+bool areSeparateBesideCorner(const TriangleCorners& a, const TriangleCorners& b, double distance) {
+  const Differences subtract(distance);
+  const std::array<Bounded, 2> p = {subtract(a[1], a[0]), subtract(a[2], a[0])};
+  const std::array<Bounded, 2> q = {subtract(b[1], b[0]), subtract(b[2], b[0])};
 
   // The other triangle is on one side of a triangle's plane.
   const Bounded normalA = cross(p[0], p[1]), normalB = cross(q[0], q[1]);
@@ -115,9 +134,10 @@ bool areSeparateBesideCorner(const TriangleCorners& a, const TriangleCorners& b)
   return false;
 }
 
-bool areSeparateBesideEdge(const TriangleCorners& a, const TriangleCorners& b) {
+bool areSeparateBesideEdge(const TriangleCorners& a, const TriangleCorners& b, double distance) {
+  const Differences subtract(distance);
   // They touch beside the edge only if they are coplanar and on the same side of it.
-  const Bounded edge = difference(a[1], a[0]), p = difference(a[2], a[0]), q = difference(b[2], b[0]);
+  const Bounded edge = subtract(a[1], a[0]), p = subtract(a[2], a[0]), q = subtract(b[2], b[0]);
   const Bounded normalA = cross(edge, p), normalB = cross(edge, q);
   const Projection height = dot(normalA, q);
   return height.isPositive() || height.isNegative() || dot(normalA, normalB).isNegative();

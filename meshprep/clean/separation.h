@@ -21,9 +21,10 @@ using TriangleCorners = std::array<glm::dvec3, 3>;  // finite, of magnitudes fro
 bool certainlyHasArea(const TriangleCorners& a);
 
 // Return true if the triangles certainly do not touch; with one or two shared corners, not outside of these. The shared
-// corners are the first of both, in the same order. The triangles must have an area.
-bool areSeparate(const TriangleCorners& a, const TriangleCorners& b);
-bool areSeparateBesideCorner(const TriangleCorners& a, const TriangleCorners& b);
-bool areSeparateBesideEdge(const TriangleCorners& a, const TriangleCorners& b);
+// corners are the first of both, in the same order. The triangles must have an area. distance: also if every corner
+// moves by at most this distance, shared corners together; then triangles without area certainly do not touch either.
+bool areSeparate(const TriangleCorners& a, const TriangleCorners& b, double distance = 0);
+bool areSeparateBesideCorner(const TriangleCorners& a, const TriangleCorners& b, double distance = 0);
+bool areSeparateBesideEdge(const TriangleCorners& a, const TriangleCorners& b, double distance = 0);
 
 }  // namespace malus::prep

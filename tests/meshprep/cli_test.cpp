@@ -11,6 +11,7 @@
 #include "meshprep/clean/intersections.h"
 #include "meshprep/compress/mesh_file.h"
 #include "meshprep/prepare.h"
+#include "tests/meshprep/read/gltf_files.h"
 #include "tests/meshprep/shapes.h"
 
 namespace malus::prep {
@@ -208,6 +209,39 @@ TEST_F(PrepCommand, RefusesWhatRoundingCloses) {
                          run({nested.path().string(), "-o", output_.string(), "--certify", "glass"});
                        }),
                        "solid inside a solid"));
+}
+
+// The same for instances, mirrored ones included: a pair is kept apart or refused, whatever else the file places.
+TEST_F(PrepCommand, CertifiesInstancesAsDelivered) {
+  const auto file = [](double gap) {
+    test::GltfFile gltf;
+    gltf.addMesh(test::cube(), "cube");
+    for (const double z : {0.0, 3.0, 6.0, 9.0}) gltf.addNode({{"mesh", 0}, {"translation", {0, 0, z}}});
+    gltf.addNode({{"mesh", 0}, {"translation", {1 + gap, 0, 0}}});
+    gltf.addNode({{"mesh", 0}, {"translation", {2 + gap, 0, 9}}, {"scale", {-1, 1, 1}}});
+    return gltf;
+  };
+  const TemporaryFile apart(".glb", file(1e-6).glb());  // a step of 20 bits is 8e-6 m
+  run({apart.path().string(), "-o", output_.string(), "--certify", "glass", "--flat"});
+  const compress::TriangleMesh delivered = compress::decodeMeshFile(readFile(output_), "file");
+  Mesh check;
+  check.positions = delivered.positions;
+  check.triangles = delivered.triangles;
+  EXPECT_EQ(delivered.triangles.size(), 6 * 12u);
+  EXPECT_TRUE(findIntersections(check).crossing.empty());
+  EXPECT_TRUE(findIntersections(check).coincident.empty());
+  EXPECT_NEAR(volume(delivered), 6, 1e-4);
+
+  std::filesystem::remove(output_);
+  const std::vector<std::string> coarse = {
+      apart.path().string(), "-o", output_.string(), "--certify", "glass", "--flat", "--position-bits", "16"};
+  EXPECT_CONTAINS(errorMessage([&] { run(coarse); }), "touch");
+  EXPECT_FALSE(std::filesystem::exists(output_));
+  const TemporaryFile touching(".glb", file(0).glb());  // positions in common
+  EXPECT_CONTAINS(errorMessage([&] {
+                    run({touching.path().string(), "-o", output_.string(), "--certify", "glass"});
+                  }),
+                  "certified");
 }
 
 TEST_F(PrepCommand, IsDeterministic) {

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace malus::prep {
 
 namespace {
+
+constexpr std::uint32_t kEmpty = 0xffffffffu;
 
 // Mixes the bits of a number (finalizer of MurmurHash3, A. Appleby, public domain).
 std::uint64_t mixed(std::uint64_t h) {
@@ -51,21 +54,41 @@ bool hasRepetition(std::span<const glm::dvec3> positions) {
 
 }  // namespace
 
+void RepeatedPolygons::reserve(std::size_t polygons) {
+  first_.reserve(polygons + 1);
+  hashes_.reserve(polygons);
+  const std::size_t slots = std::bit_ceil(2 * polygons + 1);
+  if (slots <= table_.size()) return;
+  const std::vector<std::uint32_t> before = std::exchange(table_, std::vector<std::uint32_t>(slots, kEmpty));
+  used_ = 0;
+  for (const std::uint32_t number : before)
+    if (number != kEmpty) insert(number);
+}
+
+void RepeatedPolygons::insert(std::size_t number) {
+  if (2 * (used_ + 1) > table_.size()) reserve(used_ + 1);
+  std::size_t slot = hashes_[number];
+  while (table_[slot & (table_.size() - 1)] != kEmpty) ++slot;
+  table_[slot & (table_.size() - 1)] = static_cast<std::uint32_t>(number);
+  ++used_;
+}
+
 std::optional<RepeatedPolygons::Match> RepeatedPolygons::add(std::span<const glm::dvec3> positions) {
-  const std::size_t number = first_.size() - 1;
+  const std::size_t number = hashes_.size();
+  const std::uint64_t hash = hashCorners(positions);
   positions_.insert(positions_.end(), positions.begin(), positions.end());
   first_.push_back(positions_.size());
-  const std::uint64_t hash = hashCorners(positions);
-  const auto [begin, end] = byHash_.equal_range(hash);
+  hashes_.push_back(hash);
   std::optional<Match> match;
-  for (auto candidate = begin; candidate != end; ++candidate) {
-    if (match && match->polygon < candidate->second) continue;
+  for (std::size_t slot = hash; !table_.empty() && table_[slot & (table_.size() - 1)] != kEmpty; ++slot) {
+    const std::size_t candidate = table_[slot & (table_.size() - 1)];
+    if (hashes_[candidate] != hash || (match && match->polygon < candidate)) continue;
     for (const bool reversed : {false, true})
-      if (auto corners = matchCorners(polygon(candidate->second), positions, reversed); corners)
-        match = Match{candidate->second, std::move(*corners), reversed};
+      if (auto corners = matchCorners(polygon(candidate), positions, reversed); corners)
+        match = Match{candidate, std::move(*corners), reversed};
   }
   if (match && hasRepetition(positions)) return std::nullopt;
-  if (!match) byHash_.emplace(hash, number);
+  if (!match) insert(number);
   return match;
 }
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -24,6 +23,9 @@ class RepeatedPolygons {
     bool reversed;  // the order of the corners is opposite
   };
 
+  // Reserves memory for this number of polygons.
+  void reserve(std::size_t polygons);
+
   // Adds a polygon of at least three corners. Returns the earliest one with the same positions in the same or the
   // opposite cyclic order. Polygons that visit a position twice are not compared.
   std::optional<Match> add(std::span<const glm::dvec3> positions);
@@ -33,9 +35,16 @@ class RepeatedPolygons {
     return std::span(positions_).subspan(first_[i], first_[i + 1] - first_[i]);
   }
 
+  void insert(std::size_t number);
+
   std::vector<glm::dvec3> positions_;
   std::vector<std::size_t> first_ = {0};
-  std::unordered_multimap<std::uint64_t, std::size_t> byHash_;  // without the copies
+  std::vector<std::uint64_t> hashes_;  // of the polygons
+
+  // Table with open addressing of the polygons without the copies, of which several may have equal hashes. A node per
+  // polygon, as std::unordered_multimap has, takes several times longer.
+  std::vector<std::uint32_t> table_;
+  std::size_t used_ = 0;  // slots
 };
 
 }  // namespace malus::prep

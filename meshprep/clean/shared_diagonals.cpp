@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include <tbb/parallel_sort.h>
+
 #include "meshprep/clean/flat_polygon.h"
 #include "meshprep/clean/position_ids.h"
 #include "meshprep/clean/triangulate.h"
@@ -74,8 +76,9 @@ class Recutter {
     for (std::size_t face = 0; face < polygons_.faceCount(); ++face)
       if (triangleCount(face) > 1)
         forDiagonals(face, [&](EdgeKey key) { diagonals_.push_back({key, static_cast<std::uint32_t>(face)}); });
-    std::sort(diagonals_.begin(), diagonals_.end(),
-              [](const Diagonal& a, const Diagonal& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
+    tbb::parallel_sort(diagonals_.begin(), diagonals_.end(), [](const Diagonal& a, const Diagonal& b) {
+      return a.key != b.key ? a.key < b.key : a.face < b.face;
+    });
   }
 
   // Calls visit(key) for the edges of a face of the file.

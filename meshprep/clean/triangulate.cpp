@@ -81,9 +81,12 @@ class Triangulation {
 
 // Reserves memory for all triangles: at most corners - 2 per face.
 void Triangulation::reserve() {
-  std::size_t most = 0;
-  for (std::size_t f = 0; f < polygons_.faceCount(); ++f)
+  std::size_t most = 0, polygons = 0;
+  for (std::size_t f = 0; f < polygons_.faceCount(); ++f) {
     most += std::max(polygons_.face(f).size(), std::size_t{2}) - 2;
+    polygons += polygons_.face(f).size() > 3 ? 1 : 0;
+  }
+  repeated_.reserve(polygons);
   mesh_.triangles.reserve(most);
   mesh_.sourceFaces.reserve(most);
   if (!polygons_.cornerNormals.empty() || !polygons_.normals.empty()) mesh_.cornerNormals.reserve(3 * most);

@@ -375,6 +375,7 @@ void describeMaterials(SourceScene& scene, const std::filesystem::path& obj, con
 }
 
 std::vector<std::string> listMtllibs(std::string text, std::string_view where) {
+  if (text.find("mtllib") == std::string::npos) return {};  // in a tenth of the time of a scan
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
   std::vector<std::string> statements;
   std::set<std::string> seen;

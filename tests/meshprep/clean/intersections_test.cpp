@@ -1,9 +1,12 @@
 #include "meshprep/clean/intersections.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -219,6 +222,49 @@ TEST(BoxPairs, FindsOverlappingAndTouchingBoxesOnce) {
   const std::array<int, 6> expected = {1, 0, 1, 0, 0, 1};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(seen[i], expected[i]) << i;
   EXPECT_FALSE(forOverlappingBoxes(a, b, 2, [](std::uint32_t, std::uint32_t) { return true; }));
+}
+
+// Boxes of all shapes, many of them equal, and some far from the others.
+std::vector<Box> randomBoxes(std::size_t count, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> draw(0, 1);
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 low(draw(random), draw(random), i % 7 == 0 ? 1e9 : 0.25 * std::floor(4 * draw(random)));
+    boxes.push_back({low, low + 0.2 * glm::dvec3(draw(random), i % 5 == 0 ? 3 : 0.1, i % 3 == 0 ? 0 : 0.25)});
+    if (i % 4 == 0) boxes.back() = boxes[i / 2];
+  }
+  return boxes;
+}
+
+TEST(BoxPairs, MatchTheTestOfAllPairs) {
+  for (const std::size_t count : {0u, 1u, 2u, 8u, 9u, 17u, 100u, 1500u}) {
+    const std::vector<Box> a = randomBoxes(count, 1), b = randomBoxes(count / 2 + 1, 2);
+    std::mutex lock;
+    std::vector<std::array<std::uint32_t, 2>> between, within, expected;
+    const auto add = [&](auto& pairs) {
+      return [&lock, &pairs](std::uint32_t i, std::uint32_t j) {
+        const std::lock_guard guard(lock);
+        pairs.push_back({i, j});
+        return 1u;
+      };
+    };
+    EXPECT_TRUE(forOverlappingBoxes(a, b, count * count, add(between)));
+    EXPECT_TRUE(forOverlappingPairs(a, count * count, add(within)));
+    for (std::uint32_t i = 0; i < a.size(); ++i)
+      for (std::uint32_t j = 0; j < b.size(); ++j)
+        if (overlap(a[i], b[j])) expected.push_back({i, j});
+    std::sort(between.begin(), between.end());
+    EXPECT_EQ(between, expected) << count;
+    expected.clear();
+    for (std::uint32_t i = 0; i < a.size(); ++i)
+      for (std::uint32_t j = 0; j < i; ++j)
+        if (overlap(a[i], a[j])) expected.push_back({i, j});
+    std::sort(within.begin(), within.end());
+    EXPECT_EQ(within, expected) << count;
+    if (expected.empty()) continue;
+    EXPECT_FALSE(forOverlappingPairs(a, expected.size() - 1, [](std::uint32_t, std::uint32_t) { return 1u; }));
+  }
 }
 
 }  // namespace

@@ -1,5 +1,10 @@
 #include "meshprep/cli.h"
 
+#include <features.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -154,6 +159,15 @@ compress::RoundedTextures roundTextures(const Arguments& arguments, const Mesh& 
   return rounded;
 }
 
+// Keeps freed memory for later allocations. Compression allocates and frees arrays of tens of megabytes in turn; new
+// pages for each of them take an eighth of its time.
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  ::mallopt(M_MMAP_MAX, 0);
+  ::mallopt(M_TRIM_THRESHOLD, -1);
+#endif
+}
+
 // Cleans and certifies the mesh of the file.
 Mesh prepareInput(const Arguments& arguments, Report& report) {
   Options options = arguments.options;
@@ -191,6 +205,7 @@ std::unique_ptr<compress::Encoder> makeEncoder(const Arguments& arguments, const
 
 void runPrep(const Arguments& arguments) {
   checkFiles(arguments);
+  keepFreedMemory();
   Report report;
   Mesh mesh = prepareInput(arguments, report);
   const bool hasNormals = !mesh.normals.empty();

@@ -24,6 +24,10 @@ Buffer::Buffer(const Device& device, std::string_view purpose, VkDeviceSize size
   memory_ =
       allocateMemory(device, purpose, requirements, memory, (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0);
   check(vkBindBufferMemory(device.get(), get(), memory_.get(), 0), step("vkBindBufferMemory"));
+  if ((memory.required & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) == 0) return;
+  void* mapped = nullptr;
+  check(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped), step("vkMapMemory"));
+  mapped_ = static_cast<std::byte*>(mapped);
 }
 
 VkDeviceAddress Buffer::address() const {
@@ -33,19 +37,13 @@ VkDeviceAddress Buffer::address() const {
 }
 
 void Buffer::write(std::span<const std::byte> bytes, VkDeviceSize offset) {
-  assert(offset + bytes.size() <= sizeBytes_);
-  void* to = nullptr;
-  check(vkMapMemory(device_->get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &to), "vkMapMemory");
-  std::memcpy(static_cast<std::byte*>(to) + offset, bytes.data(), bytes.size());
-  vkUnmapMemory(device_->get(), memory_.get());
+  assert(mapped_ && offset + bytes.size() <= sizeBytes_);
+  std::memcpy(mapped_ + offset, bytes.data(), bytes.size());
 }
 
 void Buffer::read(std::span<std::byte> bytes) const {
-  assert(bytes.size() <= sizeBytes_);
-  void* from = nullptr;
-  check(vkMapMemory(device_->get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &from), "vkMapMemory");
-  std::memcpy(bytes.data(), from, bytes.size());
-  vkUnmapMemory(device_->get(), memory_.get());
+  assert(mapped_ && bytes.size() <= sizeBytes_);
+  std::memcpy(bytes.data(), mapped_, bytes.size());
 }
 
 }  // namespace malus::vulkan

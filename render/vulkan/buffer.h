@@ -21,7 +21,7 @@ class Buffer {
   VkDeviceSize sizeBytes() const { return sizeBytes_; }
   // Needs VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
   VkDeviceAddress address() const;
-  // Both need host-visible memory and access at most sizeBytes() bytes. offset: where the bytes begin. Throw Error.
+  // Both need host-visible memory and access at most sizeBytes() bytes. offset: where the bytes begin.
   void write(std::span<const std::byte> bytes, VkDeviceSize offset = 0);
   void read(std::span<std::byte> bytes) const;
 
@@ -30,6 +30,7 @@ class Buffer {
   Owned<VkDeviceMemory> memory_;
   Owned<VkBuffer> buffer_;  // destroyed before its memory
   VkDeviceSize sizeBytes_ = 0;
+  std::byte* mapped_ = nullptr;  // host-visible memory, until it is freed
 };
 
 }  // namespace malus::vulkan

@@ -9,7 +9,8 @@ namespace malus::render {
 std::unique_ptr<Renderer> makeRenderer(Backend backend, const pack::Scene& scene, const RendererOptions& options) {
   switch (backend) {
     case Backend::vulkan:
-      return std::make_unique<vulkan::Renderer>(scene, vulkan::Options{options.device, options.threads});
+      return std::make_unique<vulkan::Renderer>(scene,
+                                                vulkan::Options{options.device, options.threads, options.sharesPixels});
     case Backend::embree:
       return std::make_unique<embree::Renderer>(scene, options.threads);
     case Backend::reference:

@@ -11,8 +11,9 @@
 namespace malus::render {
 
 struct RendererOptions {
-  std::string device;    // Vulkan: number or part of a name; "" for the best. Ignored by other backends
-  unsigned threads = 0;  // CPU threads, lavapipe's included; 0 for all
+  std::string device;         // Vulkan: number or part of a name; "" for the best. Ignored by other backends
+  unsigned threads = 0;       // CPU threads, lavapipe's included; 0 for all
+  bool sharesPixels = false;  // can leave images on its device (Renderer::renderTo())
 };
 
 // Builds the acceleration structure and, on a GPU, uploads the scene. scene must outlive the renderer. Throws Error: no

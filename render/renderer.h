@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "render/backend.h"
 #include "render/scene/render_parameters.h"
 #include "render/scene/render_result.h"
+#include "render/shared_pixels.h"
 
 namespace malus::render {
 
@@ -58,6 +60,15 @@ class Renderer {
   // method, a path that the device does not have. Throws Interrupted (meshprep/base/interrupt.h) within an
   // InterruptScope, between the parts of an image.
   virtual RenderResult render(std::string_view method, const RenderParameters& parameters) = 0;
+  // Whether renderTo() can write this memory: it is of the renderer's device. Only renderers that were made for it
+  // (RendererOptions::sharesPixels) have such memory.
+  virtual bool acceptTarget(const std::shared_ptr<const SharedPixels>& /*target*/) { return false; }
+  // Renders as render(), but leaves the pixels of the region in an accepted target, from its value number `first` on.
+  // The result has no pixels: none are copied to the host. Throws as render() does.
+  virtual RenderResult renderTo(std::string_view method, const RenderParameters& parameters, const SharedPixels& target,
+                                std::size_t first);
+  // Forgets the accepted targets, so that their memory can be freed.
+  virtual void releaseTargets() {}
   // Renders once more, untimed, to count camera, specular and shadow rays. Needed only if render() left Cost::rays
   // at 0. Throws as render() does.
   virtual std::uint64_t countRays(std::string_view method, const RenderParameters& parameters) {

@@ -22,6 +22,7 @@ constexpr std::string_view kMemoryHeapSize = "memoryHeapSize";
 constexpr std::string_view kExtensions[] = {VK_EXT_MEMORY_BUDGET_EXTENSION_NAME,
                                             VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                             VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+                                            VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME,
                                             VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME,
                                             VK_KHR_RAY_QUERY_EXTENSION_NAME,
                                             VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
@@ -82,7 +83,9 @@ void readFeatures(VkPhysicalDevice device, Capabilities& result) {
 }
 
 void readLimits(VkPhysicalDevice device, Capabilities& result) {
-  VkPhysicalDeviceMaintenance3Properties allocation{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+  VkPhysicalDeviceIDProperties identity{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
+  VkPhysicalDeviceMaintenance3Properties allocation{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
+                                                    &identity};
   VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR, &allocation};
   VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline{
@@ -96,6 +99,8 @@ void readLimits(VkPhysicalDevice device, Capabilities& result) {
   result.deviceID = core.deviceID;
   result.driverVersion = core.driverVersion;
   std::copy_n(core.pipelineCacheUUID, VK_UUID_SIZE, result.pipelineCacheUUID.begin());
+  std::copy_n(identity.deviceUUID, VK_UUID_SIZE, result.deviceUUID.begin());
+  std::copy_n(identity.driverUUID, VK_UUID_SIZE, result.driverUUID.begin());
   result.maxMemoryAllocationSize = allocation.maxMemoryAllocationSize;
   result.maxGeometryCount = acceleration.maxGeometryCount;
   result.maxPrimitiveCount = acceleration.maxPrimitiveCount;

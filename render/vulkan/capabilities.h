@@ -49,6 +49,8 @@ struct Capabilities {
   // Identity of the driver's compiled pipelines.
   std::uint32_t vendorID = 0, deviceID = 0, driverVersion = 0;
   std::array<std::uint8_t, VK_UUID_SIZE> pipelineCacheUUID{};
+  // Devices with the same two values can share memory.
+  std::array<std::uint8_t, VK_UUID_SIZE> deviceUUID{}, driverUUID{};
 
   bool has(std::string_view extension) const;
 };

@@ -10,9 +10,10 @@
 
 namespace malus::vulkan {
 
-Device::Device(const Instance& instance, const std::string& wanted, bool statistics)
+Device::Device(const Instance& instance, const std::string& wanted, DeviceUse use)
     : physical_(choosePhysicalDevice(instance, wanted)) {
-  createDevice(statistics && capabilities().pipelineExecutableInfo);
+  importsMemory_ = use.importsMemory && capabilities().has(VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME);
+  createDevice({use.statistics && capabilities().pipelineExecutableInfo, importsMemory_});
   vkGetDeviceQueue(get(), capabilities().queueFamily, 0, &queue_);
   VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
   pool.queueFamilyIndex = capabilities().queueFamily;
@@ -24,7 +25,8 @@ Device::Device(const Instance& instance, const std::string& wanted, bool statist
   check(vkAllocateCommandBuffers(get(), &commands, &commands_), "vkAllocateCommandBuffers");
 }
 
-void Device::createDevice(bool statistics) {
+// use: that the device has.
+void Device::createDevice(DeviceUse use) {
   const float priority = 1;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queue.queueFamilyIndex = capabilities().queueFamily;
@@ -37,7 +39,8 @@ void Device::createDevice(bool statistics) {
   features.core12.bufferDeviceAddress = VK_TRUE;
   features.core12.scalarBlockLayout = VK_TRUE;
   std::vector<const char*> extensions = requiredExtensions();
-  if (statistics) {
+  if (use.importsMemory) extensions.push_back(VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME);
+  if (use.statistics) {
     extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
     features.executables.pipelineExecutableInfo = VK_TRUE;
     features.append(features.executables);
@@ -57,7 +60,7 @@ void Device::createDevice(bool statistics) {
   VkDevice device = VK_NULL_HANDLE;
   check(vkCreateDevice(physical_.handle, &info, nullptr, &device), "vkCreateDevice");
   device_.reset(device);
-  functions_ = loadDeviceFunctions(device, statistics);
+  functions_ = loadDeviceFunctions(device, use.statistics);
 }
 
 void Device::submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const {

@@ -88,7 +88,7 @@ std::vector<PipelineStatistics> parseAnswer(const std::string& option, const std
 void printStatistics(const fs::path& path, const std::vector<std::string>& methods, std::uint32_t depth) {
   const pack::Pack pack = pack::read(path);
   const Instance instance(0);
-  const Device device(instance, "", true);
+  const Device device(instance, "", {.statistics = true});
   if (!device.hasStatistics())
     throw Error("Vulkan", fmt::format("device '{}' reports no statistics of pipelines", device.physical().name),
                 "a Mesa driver with VK_KHR_pipeline_executable_properties");

@@ -179,7 +179,7 @@ std::vector<PipelineStatistics> deviceStatistics(const pack::Scene& scene, const
                                                  std::uint32_t depth, const std::string& wanted,
                                                  render::VulkanPath path) {
   const Instance instance(0);
-  const Device device(instance, wanted, true);
+  const Device device(instance, wanted, {.statistics = true});
   if (!device.hasStatistics()) return {};
   return pipelineStatistics(device, scene, methods, depth, path);
 }

@@ -16,7 +16,12 @@ class PixelBuffer {
   // is as before.
   void reserve(std::size_t floats, Bindings& bindings);
 
-  // Records the copy of the first `floats` values to the host, after the shaders have written them.
+  VkBuffer get() const { return pixels_.get(); }
+  // Records that transfers wait for the shaders' values.
+  void recordBarrier(VkCommandBuffer commands) const;
+  // Provides room for a copy of the reserved values on the host. Throws Error.
+  void reserveCopy();
+  // Records the copy of the first `floats` values to the host, after recordBarrier().
   void recordCopy(VkCommandBuffer commands, std::size_t floats) const;
   // Reads values.size() values that have been copied. Throws Error.
   void read(std::span<float> values) const;

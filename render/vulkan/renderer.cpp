@@ -18,6 +18,7 @@
 #include "render/vulkan/pixel_buffer.h"
 #include "render/vulkan/programs.h"
 #include "render/vulkan/scene_buffers.h"
+#include "render/vulkan/shared_targets.h"
 #include "render/vulkan/timestamps.h"
 #include "render/vulkan/tracing_choice.h"
 
@@ -36,11 +37,17 @@ double elapsedMs(Clock::time_point start) { return durationMs(start, Clock::now(
 
 }  // namespace
 
+// Destination of the pixels of an image.
+struct Renderer::Target {
+  const render::SharedPixels* shared = nullptr;  // null: the host
+  std::size_t first = 0;                         // value of the first pixel in shared memory
+};
+
 // Members are destroyed in reverse order: each may refer to those before it.
 struct Renderer::Impl {
   Impl(const pack::Scene& packScene, const Options& options)
       : instance(options.threads),
-        device(instance, options.device),
+        device(instance, options.device, {.importsMemory = options.sharesPixels}),
         scene(packScene),
         needs(render::findGeometryNeeds(packScene)),
         renderScene(render::makeRenderScene(packScene)),
@@ -52,17 +59,20 @@ struct Renderer::Impl {
         bindings(device),
         host(device, bindings),
         pixels(device),
+        targets(device),
         timestamps(device),
         programs(device, renderScene, bindings.layout()) {
     buffers.bind(bindings);
     bindings.bind(Binding::tlas, acceleration.top());
   }
 
-  double dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels);
+  double dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels,
+                  const Target& target);
   std::uint64_t maxLaunchPixels(std::size_t channels) const;
   void launchAll(const Program& program, const Variant& variant, const render::RenderParameters& parameters,
-                 render::RenderResult& image);
-  render::RenderResult trace(const Variant& variant, const render::RenderParameters& parameters);
+                 render::RenderResult& image, const Target& target);
+  render::RenderResult trace(const Variant& variant, const render::RenderParameters& parameters,
+                             const Target& target = {});
   gpu::Faults findFaults(const Variant& variant, const render::RenderParameters& parameters);
   render::Faults checkNumerics(Variant variant, const render::RenderParameters& parameters);
 
@@ -79,6 +89,7 @@ struct Renderer::Impl {
   Bindings bindings;
   HostBuffers host;
   PixelBuffer pixels;
+  SharedTargets targets;
   Timestamps timestamps;
   Programs programs;
   std::map<std::pair<Variant, std::uint32_t>, LaunchSize> launchSizes;  // by variant and depth
@@ -116,8 +127,10 @@ bool Renderer::updateScene() {
   return true;
 }
 
-// Traces the camera's region, copies it to the host and waits. Returns the time of the submission in milliseconds.
-double Renderer::Impl::dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels) {
+// Traces the camera's region, copies it to the target or, without one, to the host, and waits. Returns the time of the
+// submission in milliseconds.
+double Renderer::Impl::dispatch(const Program& program, const gpu::CameraParameters& camera, std::size_t channels,
+                                const Target& target) {
   host.camera.write(camera);
   const auto start = Clock::now();
   device.submit("trace", [&](VkCommandBuffer commands) {
@@ -127,7 +140,12 @@ double Renderer::Impl::dispatch(const Program& program, const gpu::CameraParamet
     timestamps.begin(commands);
     program.table.trace(commands, camera.regionWidth, camera.regionHeight);
     timestamps.end(commands);
-    pixels.recordCopy(commands, std::size_t{camera.regionWidth} * camera.regionHeight * channels);
+    const std::size_t count = std::size_t{camera.regionWidth} * camera.regionHeight * channels;
+    pixels.recordBarrier(commands);
+    if (target.shared)
+      targets.recordCopy(commands, pixels.get(), *target.shared, target.first * sizeof(float), count * sizeof(float));
+    else
+      pixels.recordCopy(commands, count);
   });
   return elapsedMs(start);
 }
@@ -141,7 +159,8 @@ std::uint64_t Renderer::Impl::maxLaunchPixels(std::size_t channels) const {
 
 // Renders the image launch by launch. Adds to its cost.
 void Renderer::Impl::launchAll(const Program& program, const Variant& variant,
-                               const render::RenderParameters& parameters, render::RenderResult& image) {
+                               const render::RenderParameters& parameters, render::RenderResult& image,
+                               const Target& target) {
   const std::uint64_t perPixel = std::uint64_t{parameters.samples} * parameters.samples,
                       most = maxLaunchPixels(image.channels);
   gpu::CameraParameters camera = render::makeCameraParameters(scene, parameters);
@@ -149,7 +168,7 @@ void Renderer::Impl::launchAll(const Program& program, const Variant& variant,
   size.beginImage();
   auto reported = Clock::now();
   for (LaunchRegions regions(parameters.region); !regions.isDone(); ++image.cost.launches) {
-    const std::span to = std::span(image.pixels).subspan(regions.nextPixel() * image.channels);
+    const std::size_t first = regions.nextPixel() * image.channels;
     const render::Region part = regions.next(std::min(size.pixels(perPixel), most));
     const std::uint64_t count = std::uint64_t{part.width} * part.height;
     camera.regionX = part.x;
@@ -157,22 +176,26 @@ void Renderer::Impl::launchAll(const Program& program, const Variant& variant,
     camera.regionWidth = part.width;
     camera.regionHeight = part.height;
     host.rayCount.write(0);
-    const double ms = dispatch(program, camera, image.channels);
+    const double ms = dispatch(program, camera, image.channels, {target.shared, target.first + first});
     size.add(count, perPixel, ms);
     image.cost.traceMs += timestamps.readMs().value_or(ms);
     image.cost.rays += host.rayCount.read();
-    const auto reading = Clock::now();
-    pixels.read(to.first(count * image.channels));
-    image.cost.readBackMs += elapsedMs(reading);
+    if (!target.shared) {
+      const auto reading = Clock::now();
+      pixels.read(std::span(image.pixels).subspan(first, count * image.channels));
+      image.cost.readBackMs += elapsedMs(reading);
+    }
     if (interrupted()) throw Interrupted();
     if (progress && elapsedMs(reported) > 1000) {
-      progress(static_cast<double>(regions.nextPixel() * image.channels) / static_cast<double>(image.pixels.size()));
+      progress(static_cast<double>(regions.nextPixel()) /
+               (static_cast<double>(parameters.region.width) * parameters.region.height));
       reported = Clock::now();
     }
   }
 }
 
-render::RenderResult Renderer::Impl::trace(const Variant& variant, const render::RenderParameters& parameters) {
+render::RenderResult Renderer::Impl::trace(const Variant& variant, const render::RenderParameters& parameters,
+                                           const Target& target) {
   Program& program = programs.get({variant, requiredRecursion(variant.tracing, parameters.depth)});
   render::RenderResult image;
   image.width = parameters.region.width;
@@ -180,8 +203,11 @@ render::RenderResult Renderer::Impl::trace(const Variant& variant, const render:
   image.channels = render::hasStokes(render::methodNamed(variant.method), parameters) ? render::kStokesChannels
                                                                                       : render::kColourChannels;
   const std::size_t count = std::size_t{image.width} * image.height;
-  image.pixels.resize(image.channels * count);
   pixels.reserve(image.channels * std::min<std::uint64_t>(count, maxLaunchPixels(image.channels)), bindings);
+  if (!target.shared) {
+    image.pixels.resize(image.channels * count);
+    pixels.reserveCopy();
+  }
 
   image.cost.uploadMs = durationMs(uploading, building);
   image.cost.buildMs = durationMs(building, built);
@@ -189,12 +215,12 @@ render::RenderResult Renderer::Impl::trace(const Variant& variant, const render:
   if (!program.isTraced && !variant.countRays && !variant.checkNumerics) {
     gpu::CameraParameters onePixel = render::makeCameraParameters(scene, parameters);
     onePixel.regionWidth = onePixel.regionHeight = 1;
-    image.cost.compileMs = program.compileMs + dispatch(program, onePixel, image.channels);
+    image.cost.compileMs = program.compileMs + dispatch(program, onePixel, image.channels, target);
     program.isTraced = true;
   }
 
   const auto tracing = Clock::now();
-  launchAll(program, variant, parameters, image);
+  launchAll(program, variant, parameters, image, target);
   image.cost.wallMs = elapsedMs(tracing);
   instance.requireNoMessages();
   return image;
@@ -223,10 +249,26 @@ render::Faults Renderer::Impl::checkNumerics(Variant variant, const render::Rend
 }
 
 render::RenderResult Renderer::render(std::string_view method, const render::RenderParameters& parameters) {
+  return render(method, parameters, Target{});
+}
+
+bool Renderer::acceptTarget(const std::shared_ptr<const render::SharedPixels>& target) {
+  return impl_->targets.accept(target);
+}
+
+render::RenderResult Renderer::renderTo(std::string_view method, const render::RenderParameters& parameters,
+                                        const render::SharedPixels& target, std::size_t first) {
+  return render(method, parameters, Target{&target, first});
+}
+
+void Renderer::releaseTargets() { impl_->targets.release(); }
+
+render::RenderResult Renderer::render(std::string_view method, const render::RenderParameters& parameters,
+                                      const Target& target) {
   impl_->progress = progress();
   const TracingChoice choice = chooseTracing(impl_->device, render::methodNamed(method), impl_->scene, parameters);
   const Variant variant = variantFor(impl_->scene, method, parameters, choice.tracing);
-  render::RenderResult image = impl_->trace(variant, parameters);
+  render::RenderResult image = impl_->trace(variant, parameters, target);
   image.device = device();
   image.vulkanPath = vulkanPath(choice.tracing);
   image.withoutRecursion = choice.withoutRecursion;

@@ -14,8 +14,9 @@
 namespace malus::vulkan {
 
 struct Options {
-  std::string device;    // number or part of a name (choosePhysicalDevice()); empty: the best
-  unsigned threads = 0;  // of lavapipe; 0: chosen by the number of cores
+  std::string device;         // number or part of a name (choosePhysicalDevice()); empty: the best
+  unsigned threads = 0;       // of lavapipe; 0: chosen by the number of cores
+  bool sharesPixels = false;  // as render::RendererOptions::sharesPixels
 };
 
 class Renderer final : public render::Renderer {
@@ -32,6 +33,10 @@ class Renderer final : public render::Renderer {
   // again.
   bool updateScene() override;
   render::RenderResult render(std::string_view method, const render::RenderParameters& parameters) override;
+  bool acceptTarget(const std::shared_ptr<const render::SharedPixels>& target) override;
+  render::RenderResult renderTo(std::string_view method, const render::RenderParameters& parameters,
+                                const render::SharedPixels& target, std::size_t first) override;
+  void releaseTargets() override;
   // By a variant of the shaders that counts; not timed.
   std::uint64_t countRays(std::string_view method, const render::RenderParameters& parameters) override;
 
@@ -42,6 +47,9 @@ class Renderer final : public render::Renderer {
 
  private:
   struct Impl;
+  struct Target;
+  render::RenderResult render(std::string_view method, const render::RenderParameters& parameters,
+                              const Target& target);
   std::unique_ptr<Impl> impl_;
 };
 

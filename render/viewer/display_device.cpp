@@ -9,6 +9,7 @@
 #include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "render/vulkan/physical_device.h"
+#include "render/vulkan/shared_targets.h"
 
 namespace malus::viewer {
 using vulkan::check;
@@ -133,69 +134,123 @@ DisplayDevice::DisplayDevice(const DisplayInstance& instance, VkSurfaceKHR surfa
   family_ = chosen->family;
   name_ = chosen->name;
   isCpu_ = chosen->type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  capabilities_ = vulkan::readCapabilities(physical_);
+  createDevice(surface != VK_NULL_HANDLE);
+  vkGetDeviceQueue(get(), family_, 0, &queue_);
+  findSharing();
+}
 
+void DisplayDevice::createDevice(bool presents) {
   const float priority = 1;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queue.queueFamilyIndex = family_;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
-  const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+  std::vector<const char*> extensions;
+  if (presents) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (capabilities_.has(VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME))
+    extensions.push_back(VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME);
   VkPhysicalDeviceVulkan12Features features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
   features.bufferDeviceAddress = VK_TRUE;
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
   info.pNext = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.enabledExtensionCount = surface ? 1 : 0;
-  info.ppEnabledExtensionNames = &swapchain;
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   VkDevice device = VK_NULL_HANDLE;
   check(vkCreateDevice(physical_, &info, nullptr, &device), "vkCreateDevice (display)");
   device_.reset(device);
-  vkGetDeviceQueue(device, family_, 0, &queue_);
-  VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-  pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-  pool.queueFamilyIndex = family_;
-  pool_ = vulkan::create(device, vkCreateCommandPool, pool, vkDestroyCommandPool, "vkCreateCommandPool (display)");
 }
 
-vulkan::Owned<VkDeviceMemory> DisplayDevice::allocate(const VkMemoryRequirements& needs,
-                                                      const std::vector<VkMemoryPropertyFlags>& properties,
-                                                      std::string_view purpose) const {
-  VkPhysicalDeviceMemoryProperties memory{};
-  vkGetPhysicalDeviceMemoryProperties(physical_, &memory);
-  for (const VkMemoryPropertyFlags wanted : properties)
+void DisplayDevice::findSharing() {
+  if (!capabilities_.has(VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME)) return;
+  VkPhysicalDeviceExternalBufferInfo buffer{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_BUFFER_INFO};
+  buffer.usage = vulkan::kSharedUsage;
+  buffer.handleType = vulkan::kSharedHandle;
+  VkExternalBufferProperties properties{VK_STRUCTURE_TYPE_EXTERNAL_BUFFER_PROPERTIES};
+  vkGetPhysicalDeviceExternalBufferProperties(physical_, &buffer, &properties);
+  const VkExternalMemoryFeatureFlags features = properties.externalMemoryProperties.externalMemoryFeatures;
+  constexpr VkExternalMemoryFeatureFlags kNeeded =
+      VK_EXTERNAL_MEMORY_FEATURE_EXPORTABLE_BIT | VK_EXTERNAL_MEMORY_FEATURE_IMPORTABLE_BIT;
+  if ((features & kNeeded) != kNeeded) return;
+  sharesByDedicated_ = (features & VK_EXTERNAL_MEMORY_FEATURE_DEDICATED_ONLY_BIT) != 0;
+  getMemoryFd_ = reinterpret_cast<PFN_vkGetMemoryFdKHR>(vkGetDeviceProcAddr(get(), "vkGetMemoryFdKHR"));
+}
+
+int DisplayDevice::exportMemory(VkDeviceMemory memory) const {
+  VkMemoryGetFdInfoKHR info{VK_STRUCTURE_TYPE_MEMORY_GET_FD_INFO_KHR};
+  info.memory = memory;
+  info.handleType = vulkan::kSharedHandle;
+  int file = -1;
+  check(getMemoryFd_(get(), &info, &file), "vkGetMemoryFdKHR (pixels)");
+  return file;
+}
+
+vulkan::Owned<VkDeviceMemory> DisplayDevice::allocate(const VkMemoryRequirements& needs, const AllocationUse& use,
+                                                      std::string_view purpose, std::uint32_t* type) const {
+  VkMemoryDedicatedAllocateInfo dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO};
+  dedicated.buffer = use.dedicatedTo;
+  VkExportMemoryAllocateInfo exported{VK_STRUCTURE_TYPE_EXPORT_MEMORY_ALLOCATE_INFO,
+                                      use.dedicatedTo ? &dedicated : nullptr};
+  exported.handleTypes = vulkan::kSharedHandle;
+  VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, use.isExported ? &exported : nullptr};
+  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+  VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags};
+  info.allocationSize = needs.size;
+  const VkPhysicalDeviceMemoryProperties& memory = capabilities_.memory;
+  for (const VkMemoryPropertyFlags wanted : use.properties)
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
       if ((needs.memoryTypeBits >> i & 1u) == 0 || (memory.memoryTypes[i].propertyFlags & wanted) != wanted) continue;
-      VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-      VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
-      flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
-      info.pNext = &flags;
-      info.allocationSize = needs.size;
       info.memoryTypeIndex = i;
+      if (type) *type = i;
       return vulkan::create(get(), vkAllocateMemory, info, vkFreeMemory,
                             fmt::format("vkAllocateMemory ({}, {} bytes)", purpose, needs.size));
     }
   throw Error("", fmt::format("the device has no memory for {}", purpose));
 }
 
+vulkan::Owned<VkCommandPool> DisplayDevice::makeCommandPool(VkCommandPoolCreateFlags flags) const {
+  VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  pool.flags = flags;
+  pool.queueFamilyIndex = family_;
+  return vulkan::create(get(), vkCreateCommandPool, pool, vkDestroyCommandPool, "vkCreateCommandPool (display)");
+}
+
 void DisplayDevice::submit(std::string_view purpose, const std::function<void(VkCommandBuffer)>& record) const {
+  const auto step = [&](const char* function) { return fmt::format("{} ({})", function, purpose); };
+  const auto pool = makeCommandPool(VK_COMMAND_POOL_CREATE_TRANSIENT_BIT);
   VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-  info.commandPool = pool_.get();
+  info.commandPool = pool.get();
   info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   info.commandBufferCount = 1;
   VkCommandBuffer commands = VK_NULL_HANDLE;
-  check(vkAllocateCommandBuffers(get(), &info, &commands), fmt::format("vkAllocateCommandBuffers ({})", purpose));
-  VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  check(vkBeginCommandBuffer(commands, &begin), fmt::format("vkBeginCommandBuffer ({})", purpose));
-  record(commands);
-  check(vkEndCommandBuffer(commands), fmt::format("vkEndCommandBuffer ({})", purpose));
-  VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-  submit.commandBufferCount = 1;
-  submit.pCommandBuffers = &commands;
-  check(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), fmt::format("vkQueueSubmit ({})", purpose));
-  check(vkQueueWaitIdle(queue_), fmt::format("vkQueueWaitIdle ({})", purpose));
-  vkFreeCommandBuffers(get(), pool_.get(), 1, &commands);
+  check(vkAllocateCommandBuffers(get(), &info, &commands), step("vkAllocateCommandBuffers"));
+  const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  const auto finished = vulkan::create(get(), vkCreateFence, fenceInfo, vkDestroyFence, step("vkCreateFence"));
+  {
+    const auto queueLock = lock();
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(commands, &begin), step("vkBeginCommandBuffer"));
+    record(commands);
+    const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_MEMORY_WRITE_BIT,
+                                  VK_ACCESS_HOST_READ_BIT};
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
+                         nullptr, 0, nullptr);
+    check(vkEndCommandBuffer(commands), step("vkEndCommandBuffer"));
+    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands;
+    check(vkQueueSubmit(queue_, 1, &submit, finished.get()), step("vkQueueSubmit"));
+  }
+  const VkFence fence = finished.get();
+  check(vkWaitForFences(get(), 1, &fence, VK_TRUE, ~std::uint64_t{0}), step("vkWaitForFences"));
+}
+
+void DisplayDevice::waitIdle() const {
+  const auto queueLock = lock();
+  vkDeviceWaitIdle(get());
 }
 
 }  // namespace malus::viewer

@@ -71,6 +71,13 @@ gpu::FloatBuffer address(const std::shared_ptr<PixelStore>& store) {
   return store ? static_cast<const DeviceStore&>(*store).address() : 0;
 }
 
+// Rows that a renderer has written on the device.
+void recordAcquire(VkCommandBuffer commands, const ImageRows& image) {
+  if (image.store)
+    static_cast<const DeviceStore&>(*image.store)
+        .recordAcquire(commands, std::size_t{image.channels} * image.width * image.rows);
+}
+
 gpu::DisplayImage describe(const ImageRows& image) {
   if (!image.store) return {};
   return {address(image.store), image.width | image.height << 16u, image.rows | image.channels << 16u};
@@ -114,7 +121,7 @@ DisplayImageTarget::DisplayImageTarget(const DisplayDevice& device, std::uint32_
   image_ = create(device.get(), vkCreateImage, info, vkDestroyImage, "vkCreateImage (display)");
   VkMemoryRequirements needs{};
   vkGetImageMemoryRequirements(device.get(), image_.get(), &needs);
-  memory_ = device.allocate(needs, {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0}, "the image of the window");
+  memory_ = device.allocate(needs, {{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0}}, "the image of the window");
   check(vkBindImageMemory(device.get(), image_.get(), memory_.get(), 0), "vkBindImageMemory (display)");
   VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   view.image = image_.get();
@@ -172,6 +179,10 @@ const ImageRows* coarseAlone(const DisplayInput& input, const DisplayImageTarget
 
 void DisplayPass::record(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target) {
   used_ = input;
+  for (std::size_t i = 0; i < 2; ++i) {
+    recordAcquire(commands, input.coarse[i]);
+    recordAcquire(commands, input.fine[i]);
+  }
   const ImageRows* const coarse = coarseAlone(input, target);
   if (!coarse) {
     dispatch(commands, input, target, target.width(), target.height());
@@ -220,7 +231,7 @@ void DisplayPass::dispatch(VkCommandBuffer commands, const DisplayInput& input, 
 
 std::vector<std::uint8_t> readTarget(const DisplayDevice& device, const DisplayImageTarget& target) {
   const std::size_t pixels = std::size_t{target.width()} * target.height();
-  DeviceStore store(device, pixels);  // four bytes per pixel
+  DeviceStore store(device, pixels, DeviceStore::Kind::host);  // four bytes per pixel
   device.submit("read the display", [&](VkCommandBuffer commands) {
     VkBufferImageCopy copy{};
     copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};

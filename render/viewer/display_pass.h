@@ -51,7 +51,8 @@ class DisplayPass {
   explicit DisplayPass(const DisplayDevice& device);
 
   // Records the pass over the whole target, whose earlier content is lost; afterwards it is in the layout
-  // TRANSFER_SRC_OPTIMAL. Keeps the input's stores until the next call: the previous recording must have finished.
+  // TRANSFER_SRC_OPTIMAL. Call it under the lock of the queue, until the submission. Keeps the input's stores until the
+  // next call: the previous recording must have finished.
   void record(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target);
 
  private:

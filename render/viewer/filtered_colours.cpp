@@ -1,6 +1,7 @@
 #include "render/viewer/filtered_colours.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace malus::viewer {
 
@@ -20,7 +21,8 @@ render::RenderResult filter(const ImageRows& image, const render::Analyser& anal
   result.channels = channels;
   const std::size_t count = std::size_t{image.width} * image.height;
   result.pixels.resize(channels * count);
-  const float* from = image.store->values().data();
+  std::vector<float> copy;
+  const float* from = hostValues(*image.store, 0, image.channels * count, copy).data();
   float* to = result.pixels.data();
   const bool hasStokes = image.channels == render::kStokesChannels;
   for (std::size_t i = 0; i < count; ++i, from += image.channels, to += channels) {

@@ -152,6 +152,8 @@ class HeadlessRun {
       for (std::size_t i = 0; i < (session_.state.isSplit ? 2u : 1u); ++i)
         sides.push_back({{"method", published.sides[i].method},
                          {"device", published.sides[i].device},
+                         {"image", published.sides[i].isShared ? "shared" : "copied"},
+                         {"copiedBytes", published.sides[i].copiedBytes},
                          {"fullFrameMs", published.sides[i].medianMs},
                          {"relRms", background.errors[i] ? nlohmann::json(background.errors[i]->relRms) : nullptr},
                          {"flip", background.errors[i] ? nlohmann::json(background.errors[i]->flip) : nullptr}});

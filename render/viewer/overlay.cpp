@@ -81,13 +81,14 @@ Overlay::Overlay(const GlfwWindow& window, VkInstance instance, const DisplayDev
 }
 
 Overlay::~Overlay() {
-  vkDeviceWaitIdle(device_.get());
+  device_.waitIdle();
   ImGui_ImplVulkan_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
 }
 
 void Overlay::beginFrame() {
+  const auto queueLock = device_.lock();  // later versions upload the font here
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();

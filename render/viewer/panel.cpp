@@ -163,6 +163,7 @@ void drawTimes(const UiState& ui, const Published& published) {
     if (ImGui::IsItemHovered())
       ImGui::SetTooltip("rays and shading of an image at full resolution; %s%s%s", side.device.c_str(),
                         side.path.empty() ? "" : ", ", side.path.c_str());
+    ImGui::TextDisabled("   %s", side.isShared ? "image stays on the device" : "image copied by the host");
     if (side.rays > 0 && side.traceMs > 0)
       ImGui::Text("   %.2f M rays, %.1f M per second", static_cast<double>(side.rays) / 1e6,
                   static_cast<double>(side.rays) / side.traceMs / 1e3);

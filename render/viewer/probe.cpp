@@ -14,22 +14,25 @@ namespace malus::viewer {
 
 namespace {
 
-// The values of a pixel of the window; null: none.
-const float* pixelValues(const ImageRows& image, std::uint32_t x, std::uint32_t y, std::uint32_t width,
-                         std::uint32_t height) {
-  if (!image.store || image.channels != render::kStokesChannels || width == 0 || height == 0) return nullptr;
+// The values of a pixel of the window; empty: none.
+std::vector<float> pixelValues(const ImageRows& image, std::uint32_t x, std::uint32_t y, std::uint32_t width,
+                               std::uint32_t height) {
+  if (!image.store || image.channels != render::kStokesChannels || width == 0 || height == 0) return {};
   const std::uint64_t column = std::uint64_t{x} * image.width / width, row = std::uint64_t{y} * image.height / height;
-  if (column >= image.width || row >= image.rows) return nullptr;
-  return image.store->values().data() + image.channels * (row * image.width + column);
+  if (column >= image.width || row >= image.rows) return {};
+  std::vector<float> copy;
+  const std::span<const float> values =
+      hostValues(*image.store, image.channels * (row * image.width + column), image.channels, copy);
+  return {values.begin(), values.end()};
 }
 
 }  // namespace
 
 std::optional<ProbedLight> probeLight(const PublishedSide& side, std::uint32_t x, std::uint32_t y, std::uint32_t width,
                                       std::uint32_t height) {
-  const float* values = pixelValues(side.fine, x, y, width, height);
-  if (!values) values = pixelValues(side.coarse, x, y, width, height);
-  if (!values) return std::nullopt;
+  std::vector<float> values = pixelValues(side.fine, x, y, width, height);
+  if (values.empty()) values = pixelValues(side.coarse, x, y, width, height);
+  if (values.empty()) return std::nullopt;
   ProbedLight light;
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t s = 0; s < 4; ++s) {

@@ -29,7 +29,9 @@ struct PublishedSide {
   std::string method;          // that rendered
   std::string substitutedFor;  // as render::Job::substitutedFor()
   std::string device;
-  std::string path;  // of the rays: packet, scalar, pipeline or query
+  std::string path;               // of the rays: packet, scalar, pipeline or query
+  bool isShared = false;          // the image stays on the device; else it is copied to the display by the host
+  std::uint64_t copiedBytes = 0;  // of pixels by the host, since the side was prepared
   std::vector<std::string> warnings;
   std::string problem;  // reason if there is no new image; else empty
 };

@@ -6,6 +6,7 @@
 
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
+#include "render/scene/methods.h"
 
 namespace malus::viewer {
 using Clock = std::chrono::steady_clock;
@@ -23,6 +24,11 @@ std::uint32_t scaled(std::uint32_t side, double fraction) {
   return std::max(1u, static_cast<std::uint32_t>(std::lround(side * fraction)));
 }
 
+render::RendererOptions withSharedPixels(render::RendererOptions options) {
+  options.sharesPixels = true;
+  return options;
+}
+
 std::string pathName(const render::RenderResult& result) {
   if (result.vulkanPath != render::VulkanPath::automatic) return render::vulkanPathName(result.vulkanPath);
   if (result.embreePath != render::EmbreePath::automatic) return render::embreePathName(result.embreePath);
@@ -34,7 +40,7 @@ std::string pathName(const render::RenderResult& result) {
 RenderThread::RenderThread(const Host& host, const pack::Scene& scene, const render::RendererOptions& options,
                            PixelStores& stores, std::vector<pack::Effect> needed, std::function<void()> notify)
     : host_(host),
-      renderers_(host, scene, options),
+      renderers_(host, scene, withSharedPixels(options)),
       stores_(stores),
       needed_(std::move(needed)),
       notify_(std::move(notify)),
@@ -146,16 +152,19 @@ void RenderThread::prepareSides(const Wish& wish) {
     times_[i].clear();
     areFull_[i] = false;
     side.problem.clear();
+    side.copiedBytes = 0;
     try {
       tasks_[i] = SideTask{renderers_.prepare(jobSettings(wish.state, settings, wish.width, wish.height, needed_))};
     } catch (const Error& error) {
       side.problem = error.what();
       continue;
     }
+    tasks_[i]->shares = settings.backend == render::Backend::vulkan;
     side.method = tasks_[i]->image.method;
     side.substitutedFor = tasks_[i]->image.substitutedFor;
     side.warnings = tasks_[i]->image.warnings;
   }
+  renderers_.releaseUnused();
 }
 
 void RenderThread::noteSide(std::size_t side, const SideTask& task, const render::RenderResult& result, double fullMs,
@@ -173,6 +182,40 @@ void RenderThread::noteSide(std::size_t side, const SideTask& task, const render
   published.method = task.image.method;
 }
 
+// Renders the region, whole rows, and adds it to the image, whose memory is taken with the first rows: on the device
+// where the renderer and the display share memory.
+render::RenderResult RenderThread::renderRows(std::size_t side, SideTask& task,
+                                              const render::RenderParameters& parameters, ImageRows& image) {
+  render::Renderer& renderer = *task.image.renderer;
+  const render::Region& region = parameters.region;
+  const auto begin = [&](std::shared_ptr<PixelStore> store, std::size_t channels) {
+    image = {std::move(store), parameters.width, parameters.height, static_cast<std::uint32_t>(channels), 0};
+  };
+  if (!image.store && task.shares) {
+    const std::size_t channels = render::hasStokes(render::methodNamed(task.image.method), parameters)
+                                     ? render::kStokesChannels
+                                     : render::kColourChannels;
+    auto store = stores_.takeShared(channels * parameters.width * parameters.height);
+    task.shares = store && renderer.acceptTarget(store->shared());
+    if (task.shares) begin(std::move(store), channels);
+  }
+  PublishedSide& published = next_.sides[side];
+  published.isShared = image.store && image.store->shared();
+  render::RenderResult result;
+  if (published.isShared) {
+    result = renderer.renderTo(task.image.method, parameters, *image.store->shared(),
+                               std::size_t{image.channels} * image.width * region.y);
+  } else {
+    result = renderer.render(task.image.method, parameters);
+    if (!image.store) begin(stores_.take(result.channels * parameters.width * parameters.height), result.channels);
+    std::ranges::copy(result.pixels, image.store->values().begin() +
+                                         static_cast<std::ptrdiff_t>(result.channels * image.width * region.y));
+    published.copiedBytes += result.pixels.size() * sizeof(float);
+  }
+  image.rows = region.y + region.height;
+  return result;
+}
+
 void RenderThread::renderCoarse(const Wish& wish) {
   const double fraction = resolution_.fraction();
   const auto start = Clock::now();
@@ -184,10 +227,8 @@ void RenderThread::renderCoarse(const Wish& wish) {
     parameters.height = scaled(wish.height, fraction);
     parameters.region = {0, 0, parameters.width, parameters.height};
     task.image.scene->camera = wish.state.camera;
-    const render::RenderResult result = task.image.renderer->render(task.image.method, parameters);
-    ImageRows image{stores_.take(result.pixels.size()), result.width, result.height,
-                    static_cast<std::uint32_t>(result.channels), result.height};
-    std::ranges::copy(result.pixels, image.store->values().begin());
+    ImageRows image;
+    const render::RenderResult result = renderRows(i, task, parameters, image);
     const double share = double(wish.width) * wish.height / (double(result.width) * result.height);
     task.bandRows = std::max(1.0, kBandMs / std::max(result.cost.wallMs * share, 1e-3) * wish.height);
     noteSide(i, task, result, result.cost.traceMs * share,
@@ -228,14 +269,8 @@ bool RenderThread::renderFineSide(const Wish& wish, std::size_t side, SideTask& 
     const std::uint32_t count =
         std::min(wish.height - row, std::max(1u, static_cast<std::uint32_t>(std::min(task.bandRows, 1e6))));
     parameters.region = {0, row, wish.width, count};
-    band = task.image.renderer->render(task.image.method, parameters);
-    if (!image.store)
-      image = {stores_.take(band.channels * wish.width * wish.height), wish.width, wish.height,
-               static_cast<std::uint32_t>(band.channels), 0};
-    std::ranges::copy(band.pixels,
-                      image.store->values().begin() + static_cast<std::ptrdiff_t>(band.channels * wish.width * row));
-    row += count;
-    image.rows = row;
+    band = renderRows(side, task, parameters, image);
+    row = image.rows;
     traceMs += band.cost.traceMs;
     rays += band.cost.rays;
     task.bandRows *= std::clamp(kBandMs / std::max(band.cost.wallMs, 1e-3), 0.5, 2.0);

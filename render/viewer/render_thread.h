@@ -46,6 +46,7 @@ class RenderThread {
   struct SideTask {
     SideImage image;
     double bandRows = 8;  // per call
+    bool shares = false;  // may leave images on the device
   };
 
   void run();
@@ -55,6 +56,8 @@ class RenderThread {
   void renderCoarse(const Wish& wish);
   bool renderFine(const Wish& wish);
   bool renderFineSide(const Wish& wish, std::size_t side, SideTask& task);
+  render::RenderResult renderRows(std::size_t side, SideTask& task, const render::RenderParameters& parameters,
+                                  ImageRows& image);
   void noteSide(std::size_t side, const SideTask& task, const render::RenderResult& result, double fullMs,
                 std::uint64_t rays, bool isFull);
   void publish(const Published& next);

@@ -36,6 +36,11 @@ SceneRenderers::Entry& SceneRenderers::entry(render::Backend backend, const std:
   return *entries_.front();
 }
 
+void SceneRenderers::releaseUnused() {
+  constexpr std::size_t kUsed = 2;  // by the sides
+  for (std::size_t i = kUsed; i < entries_.size(); ++i) entries_[i]->renderer->releaseTargets();
+}
+
 SideImage SceneRenderers::prepare(const render::JobSettings& settings) {
   SideImage image;
   image.parameters = host_.renderParameters(settings, *whole_);

@@ -33,6 +33,8 @@ class SceneRenderers {
   // recently, all but kMost are destroyed. The result is valid until the next but one call. Throws as
   // render::chooseImage() and makeRenderer() do.
   SideImage prepare(const render::JobSettings& settings);
+  // Releases the shared images of all renderers but the two that were used last.
+  void releaseUnused();
 
  private:
   static constexpr std::size_t kMost = 4;

@@ -62,7 +62,8 @@ Swapchain::Swapchain(const DisplayDevice& device, VkSurfaceKHR surface)
   fence.flags = VK_FENCE_CREATE_SIGNALED_BIT;
   finished_ = create(device.get(), vkCreateFence, fence, vkDestroyFence, "vkCreateFence (window)");
   VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-  info.commandPool = device.commandPool();
+  pool_ = device.makeCommandPool(VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT);
+  info.commandPool = pool_.get();
   info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   info.commandBufferCount = 1;
   check(vkAllocateCommandBuffers(device.get(), &info, &commands_), "vkAllocateCommandBuffers (window)");
@@ -70,11 +71,11 @@ Swapchain::Swapchain(const DisplayDevice& device, VkSurfaceKHR surface)
 
 Swapchain::~Swapchain() { finish(); }
 
-void Swapchain::finish() const { vkDeviceWaitIdle(device_.get()); }
+void Swapchain::finish() const { device_.waitIdle(); }
 
 void Swapchain::resize(std::uint32_t width, std::uint32_t height) {
   if (swapchain_ && !isStale_ && width == extent_.width && height == extent_.height) return;
-  check(vkDeviceWaitIdle(device_.get()), "vkDeviceWaitIdle (resize)");
+  finish();
   VkSurfaceCapabilitiesKHR limits{};
   check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &limits),
         "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
@@ -167,6 +168,7 @@ bool Swapchain::draw(const DisplayImageTarget& image, const std::function<void(V
   if (acquired == VK_ERROR_OUT_OF_DATE_KHR) return false;
   if (acquired != VK_SUBOPTIMAL_KHR) check(acquired, "vkAcquireNextImageKHR");
   check(vkResetFences(device, 1, &fence), "vkResetFences (window)");
+  const auto queueLock = device_.lock();
   VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer (window)");

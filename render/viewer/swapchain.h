@@ -51,7 +51,8 @@ class Swapchain {
   std::vector<vulkan::Owned<VkSemaphore>> drawn_;  // per image
   vulkan::Owned<VkSemaphore> acquired_;
   vulkan::Owned<VkFence> finished_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  vulkan::Owned<VkCommandPool> pool_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;  // freed with its pool
 };
 
 }  // namespace malus::viewer

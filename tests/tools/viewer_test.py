@@ -21,10 +21,12 @@ from viewer_display import Display, Image, Viewer
 MALUS = os.environ["MALUS"]
 SCENES = pathlib.Path(os.environ["MALUS_SCENES"])
 FAILING_DEVICE = os.environ.get("MALUS_FAILING_DEVICE", "")
+COUNT_COPIES = os.environ.get("MALUS_COUNT_COPIES", "")
 LEAK_SANITIZER = os.environ.get("MALUS_LEAK_SANITIZER", "")
 SKIPPED = 77
 WIDTH, HEIGHT = 480, 300
 VALIDATION = {"MALUS_VALIDATION": "1"}
+NOT_SHARED = {"MALUS_VULKAN_LIMITS": "VK_KHR_external_memory_fd=0"}
 # Pixels whose colours are at an edge of the tone curve's rounding.
 MOST_SHARE = 0.001
 
@@ -131,6 +133,49 @@ class HeadlessTest(ViewerTest):
             pixels = [image.rgb[i:i + 3] for i in range(0, len(image.rgb), 3)]
             self.assertEqual(sum(p == lowest for p in pixels) > 0.95 * len(pixels), exact)
 
+    def count_copies(self, script, *arguments, frames, environment=None):
+        """Sides of --json, and what was copied to mapped memory: bytes, and calls of vkMapMemory."""
+        counts = self.folder / "copies.txt"
+        done = self.headless(script, "--json", "--width", 320, "--height", 200, *arguments, frames=frames,
+                             environment={"LD_PRELOAD": COUNT_COPIES, "MALUS_HOST_COPIES": str(counts),
+                                          **(environment or {})})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return json.loads(done.stdout)["sides"], *map(int, counts.read_text().split())
+
+    def test_images_of_the_device_of_the_display_stay_there(self):
+        for method in ("stokes", "sp"):
+            arguments = ("--backend", "vulkan", "--method", method)
+            moving = "0 wait\n1-9 orbit 1 0\n9 wait\n"
+            sides, copied, mappings = self.count_copies(moving, *arguments, frames=10)
+            self.assertEqual((sides[0]["image"], sides[0]["copiedBytes"], copied), ("shared", 0, 0))
+            # More frames map no more memory.
+            longer = self.count_copies("0 wait\n1-29 orbit 1 0\n29 wait\n", *arguments, frames=30)
+            self.assertEqual(longer[1:], (0, mappings))
+            # A saved image is read back.
+            saved = self.count_copies(moving + "9 save shared.png\n9 save shared.exr\n", *arguments, frames=10)
+            self.assertGreaterEqual(saved[1], 320 * 200 * (4 + 4 * (15 if method == "stokes" else 3)))
+            # Without shared memory, every image is copied, and is the same.
+            sides, copied, _ = self.count_copies(moving + "9 save copied.png\n", *arguments, frames=10,
+                                                 environment=NOT_SHARED)
+            self.assertEqual(sides[0]["image"], "copied")
+            self.assertGreater(sides[0]["copiedBytes"], 320 * 200 * 12)
+            self.assertGreaterEqual(copied, sides[0]["copiedBytes"])
+            self.assertEqual((self.folder / "shared.png").read_bytes(), (self.folder / "copied.png").read_bytes())
+
+    def test_sides_on_the_device_and_of_the_host(self):
+        script = "0 split 0.5\n0 method b fresnel\n0 backend b embree\n0 wait-reference\n0 save both.png\n"
+        images, errors = [], []
+        for environment in ({}, NOT_SHARED):
+            done = self.headless(script, "--json", "--backend", "vulkan", "--width", 160, "--height", 100,
+                                 environment={**VALIDATION, **environment})
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            sides = json.loads(done.stdout)["sides"]
+            self.assertEqual([side["image"] for side in sides], ["copied" if environment else "shared", "copied"])
+            errors.append([(side["relRms"], side["flip"]) for side in sides])
+            images.append((self.folder / "both.png").read_bytes())
+        self.assertEqual(images[0], images[1])
+        self.assertEqual(errors[0], errors[1])
+
     def test_other_quantities_are_the_images_of_render(self):
         for shown, option in (("dolp", "--output-dolp"), ("aolp", "--output-aolp")):
             self.headless(f"0 show {shown}\n0 save shown.png\n", "--width", WIDTH, "--height", HEIGHT)
@@ -165,10 +210,11 @@ class HeadlessTest(ViewerTest):
         self.assertIn("display", done.stderr)
 
     def test_a_lost_device_is_a_message(self):
-        done = self.headless("0-50 orbit 1 0\n", "--width", 64, frames=50,
-                             environment={"LD_PRELOAD": FAILING_DEVICE, "MALUS_FAIL_AT": "20"})
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("lost", done.stderr)
+        for arguments, submission in (([], 20), (["--backend", "vulkan"], 30), (["--backend", "vulkan"], 31)):
+            done = self.headless("0-50 orbit 1 0\n", "--width", 64, *arguments, frames=50,
+                                 environment={"LD_PRELOAD": FAILING_DEVICE, "MALUS_FAIL_AT": str(submission)})
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("lost", done.stderr)
 
 
 class WindowTest(ViewerTest):
@@ -204,6 +250,21 @@ class WindowTest(ViewerTest):
         self.assert_same(linear.columns(0, WIDTH - 20),
                          self.rendered(method="stokes-linear").columns(0, WIDTH - 20))
         self.close(viewer)
+
+    def test_images_of_the_vulkan_renderer(self):
+        for environment in (VALIDATION, {**VALIDATION, **NOT_SHARED}):
+            viewer = self.open("--backend", "vulkan", environment=environment)
+            viewer.display.still_screenshot()
+            viewer.key("h")
+            self.display.xdotool("mousemove", WIDTH - 1, HEIGHT - 1)
+            viewer.key("bracketright", "bracketright")
+            seen = self.display.still_screenshot()
+            expected = self.rendered("--backend", "vulkan", "--polarizer", 10)
+            self.assert_same(seen.columns(0, WIDTH - 20), expected.columns(0, WIDTH - 20))
+            viewer.key("h", "i")  # the probe reads a pixel back
+            self.display.xdotool("mousemove", WIDTH - 60, HEIGHT - 40)
+            self.display.still_screenshot()
+            self.close(viewer)
 
     def test_the_divider_separates_two_methods(self):
         viewer = self.open("--compare-with", "schlick")

@@ -64,7 +64,6 @@ class ProgramHost final : public viewer::Host {
 
 void checkCombinations(const ViewArguments& a) {
   if (a.frames == 0 && !a.script.empty()) throw CLI::ValidationError("--script", "needs --frames");
-  if (a.frames == 0 && a.json) throw CLI::ValidationError("--json", "needs --frames");
 }
 
 viewer::FilterState filterState(const FilterOptions& options) {
@@ -172,7 +171,7 @@ void addViewCommand(CLI::App& app) {
   command
       ->add_option("--script", a->script, "Camera path and changes of the view, with --frames (render/viewer/VIEW.md)")
       ->type_name("FILE");
-  command->add_flag("--json", a->json, "Print the frame times as JSON, with --frames");
+  command->add_flag("--json", a->json, "Print times as JSON at the end");
   command->callback([a] { runView(*a); });
 }
 

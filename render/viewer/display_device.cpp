@@ -178,6 +178,17 @@ void DisplayDevice::findSharing() {
   getMemoryFd_ = reinterpret_cast<PFN_vkGetMemoryFdKHR>(vkGetDeviceProcAddr(get(), "vkGetMemoryFdKHR"));
 }
 
+vulkan::Timestamps DisplayDevice::makeTimestamps() const {
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+  // capabilities_ describes another family, but may be lowered.
+  const std::uint64_t bits =
+      std::min<std::uint64_t>(families[family_].timestampValidBits, capabilities_.timestampValidBits);
+  return {get(), bits, capabilities_.timestampPeriod};
+}
+
 int DisplayDevice::exportMemory(VkDeviceMemory memory) const {
   VkMemoryGetFdInfoKHR info{VK_STRUCTURE_TYPE_MEMORY_GET_FD_INFO_KHR};
   info.memory = memory;

@@ -17,6 +17,7 @@
 
 #include "render/vulkan/capabilities.h"
 #include "render/vulkan/owned.h"
+#include "render/vulkan/timestamps.h"
 
 namespace malus::viewer {
 
@@ -61,6 +62,8 @@ class DisplayDevice {
   std::unique_lock<std::mutex> lock() const { return std::unique_lock(queueMutex_); }
   std::uint32_t queueFamily() const { return family_; }
   const vulkan::Capabilities& capabilities() const { return capabilities_; }
+  // Of the queue; they measure nothing where it has none.
+  vulkan::Timestamps makeTimestamps() const;
   const std::string& name() const { return name_; }
   bool isCpu() const { return isCpu_; }
 

@@ -151,7 +151,8 @@ DisplayPass::DisplayPass(const DisplayDevice& device)
     : device_(device),
       setLayout_(makeSetLayout(device.get())),
       layout_(makeLayout(device.get(), setLayout_.get())),
-      descriptors_(makePool(device.get())) {
+      descriptors_(makePool(device.get())),
+      timestamps_(device.makeTimestamps()) {
   VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
   info.descriptorPool = descriptors_.get();
   info.descriptorSetCount = 1;
@@ -177,7 +178,16 @@ const ImageRows* coarseAlone(const DisplayInput& input, const DisplayImageTarget
 
 }  // namespace
 
+std::optional<double> DisplayPass::readMs() const { return isRecorded_ ? timestamps_.readMs() : std::nullopt; }
+
 void DisplayPass::record(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target) {
+  timestamps_.begin(commands);
+  recordPass(commands, input, target);
+  timestamps_.end(commands);
+  isRecorded_ = true;
+}
+
+void DisplayPass::recordPass(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target) {
   used_ = input;
   for (std::size_t i = 0; i < 2; ++i) {
     recordAcquire(commands, input.coarse[i]);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -54,8 +55,12 @@ class DisplayPass {
   // TRANSFER_SRC_OPTIMAL. Call it under the lock of the queue, until the submission. Keeps the input's stores until the
   // next call: the previous recording must have finished.
   void record(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target);
+  // Time of the last recording by the clock of the device [ms], after it has finished. Nothing: there was none, or the
+  // device has no clock. Throws Error: a lost device.
+  std::optional<double> readMs() const;
 
  private:
+  void recordPass(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target);
   void dispatch(VkCommandBuffer commands, const DisplayInput& input, const DisplayImageTarget& target,
                 std::uint32_t width, std::uint32_t height);
 
@@ -67,6 +72,8 @@ class DisplayPass {
   vulkan::Owned<VkDescriptorPool> descriptors_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   DisplayInput used_;
+  vulkan::Timestamps timestamps_;
+  bool isRecorded_ = false;
 };
 
 // The bytes of a target, RGB, row by row from the top. It must be in the layout TRANSFER_SRC_OPTIMAL.

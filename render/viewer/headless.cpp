@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "meshprep/base/interrupt.h"
 #include "meshprep/json_text.h"
 #include "render/viewer/frame_times.h"
+#include "render/viewer/report.h"
 #include "render/viewer/save_image.h"
 #include "render/viewer/script.h"
 #include "render/viewer/session.h"
@@ -29,8 +31,9 @@ double elapsedMs(Clock::time_point start) {
 
 struct Frame {
   double ms = 0;
-  bool rendered = false;  // a new image, else the display pass alone
-  double fraction = 1;    // share of the resolution
+  std::optional<double> displayMs;  // of the display pass, by the clock of the device
+  bool rendered = false;            // a new image, else the display pass alone
+  double fraction = 1;              // share of the resolution
 };
 
 class HeadlessRun {
@@ -77,7 +80,7 @@ class HeadlessRun {
     const bool rendered = session_.update(request_.width, request_.height) != before;
     if (rendered) wait(false);
     show();
-    frames_.push_back({elapsedMs(start), rendered, session_.renders().published().fraction});
+    frames_.push_back({elapsedMs(start), pass_.readMs(), rendered, session_.renders().published().fraction});
     for (const ScriptLine* line : actions) act(*line);
   }
 
@@ -121,6 +124,7 @@ class HeadlessRun {
     const auto start = Clock::now();
     device_.submit("display", [&](VkCommandBuffer commands) { pass_.record(commands, input, target_); });
     session_.addDisplayMs(elapsedMs(start));
+    if (const std::optional<double> ms = pass_.readMs()) passTimes_.add(*ms);
   }
 
   std::vector<double> times(bool rendered) const {
@@ -145,27 +149,16 @@ class HeadlessRun {
     if (request_.json) {
       nlohmann::json all = nlohmann::json::array();
       for (const Frame& frame : frames_)
-        all.push_back({{"ms", frame.ms}, {"rendered", frame.rendered}, {"resolution", frame.fraction}});
-      const Published published = session_.renders().published();
-      const BackgroundState background = session_.background();
-      nlohmann::json sides = nlohmann::json::array();
-      for (std::size_t i = 0; i < (session_.state.isSplit ? 2u : 1u); ++i)
-        sides.push_back({{"method", published.sides[i].method},
-                         {"device", published.sides[i].device},
-                         {"image", published.sides[i].isShared ? "shared" : "copied"},
-                         {"copiedBytes", published.sides[i].copiedBytes},
-                         {"fullFrameMs", published.sides[i].medianMs},
-                         {"relRms", background.errors[i] ? nlohmann::json(background.errors[i]->relRms) : nullptr},
-                         {"flip", background.errors[i] ? nlohmann::json(background.errors[i]->flip) : nullptr}});
-      console::printText(jsonText({{"scene", session_.pack().scene.name},
-                                   {"width", request_.width},
-                                   {"height", request_.height},
-                                   {"display", device_.name()},
-                                   {"sides", sides},
-                                   {"rendered", summary(true)},
-                                   {"displayOnly", summary(false)},
-                                   {"frames", all}}) +
-                         "\n");
+        all.push_back({{"ms", frame.ms},
+                       {"displayPassMs", frame.displayMs ? nlohmann::json(*frame.displayMs) : nullptr},
+                       {"rendered", frame.rendered},
+                       {"resolution", frame.fraction}});
+      nlohmann::json report = reportSession(session_, device_.name());
+      report["displayPassMs"] = reportMedian(passTimes_);
+      report["rendered"] = summary(true);
+      report["displayOnly"] = summary(false);
+      report["frames"] = all;
+      console::printText(jsonText(report) + "\n");
       return;
     }
     for (const bool rendered : {true, false})
@@ -187,6 +180,7 @@ class HeadlessRun {
   Session session_;
   std::vector<ScriptLine> lines_;
   std::vector<Frame> frames_;
+  FrameTimes passTimes_;
 };
 
 }  // namespace

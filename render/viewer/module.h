@@ -23,7 +23,7 @@ struct Request {
   double uiScale = 0;        // of the panel; 0: that of the display
   std::uint32_t frames = 0;  // without a window: number of frames
   std::string script;        // without a window: file (VIEW.md); "": none
-  bool json = false;         // print the frame times as JSON
+  bool json = false;         // print times as JSON at the end
   bool quiet = false;        // print no result
 };
 

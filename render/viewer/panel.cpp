@@ -170,6 +170,11 @@ void drawTimes(const UiState& ui, const Published& published) {
   }
   ImGui::Text("moving at %.0f %% of the resolution", 100 * published.fraction);
   ImGui::TextDisabled("display: %.30s", ui.device.c_str());
+  if (ui.displayPass.count() > 0)
+    ImGui::Text("   image %.1f ms, panel %.1f ms", ui.displayPass.median(), ui.overlay.median());
+  if (!ui.latency.rendered().empty())
+    ImGui::Text("input to image: %.0f ms, %u frames", ui.latency.rendered().back().ms,
+                ui.latency.rendered().back().frames);
   const std::vector<float> frames = ui.frames.values();
   const std::string label = fmt::format("window: median {:.1f} ms", ui.frames.median());
   ImGui::PlotLines("##frames", frames.data(), static_cast<int>(frames.size()), 0, label.c_str(), 0, 100,

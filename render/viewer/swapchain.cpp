@@ -55,7 +55,8 @@ Swapchain::Swapchain(const DisplayDevice& device, VkSurfaceKHR surface)
     : device_(device),
       surface_(surface),
       format_(chooseFormat(device.physical(), surface)),
-      renderPass_(makeRenderPass(device.get(), format_.format)) {
+      renderPass_(makeRenderPass(device.get(), format_.format)),
+      timestamps_(device.makeTimestamps()) {
   const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
   acquired_ = create(device.get(), vkCreateSemaphore, semaphore, vkDestroySemaphore, "vkCreateSemaphore (window)");
   VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
@@ -161,6 +162,7 @@ bool Swapchain::draw(const DisplayImageTarget& image, const std::function<void(V
   VkDevice device = device_.get();
   const VkFence fence = finished_.get();
   check(vkWaitForFences(device, 1, &fence, VK_TRUE, kForever), "vkWaitForFences (window)");
+  if (isRecorded_) overlayMs_ = timestamps_.readMs();
   std::uint32_t index = 0;
   const VkResult acquired =
       vkAcquireNextImageKHR(device, swapchain_.get(), kForever, acquired_.get(), VK_NULL_HANDLE, &index);
@@ -173,7 +175,10 @@ bool Swapchain::draw(const DisplayImageTarget& image, const std::function<void(V
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer (window)");
   recordImage(commands_);
+  timestamps_.begin(commands_);
   recordFrame(commands_, index, image, recordOverlay);
+  timestamps_.end(commands_);
+  isRecorded_ = true;
   check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer (window)");
 
   const VkSemaphore wait = acquired_.get(), signal = drawn_[index].get();

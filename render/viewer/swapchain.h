@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "render/viewer/display_device.h"
@@ -30,6 +31,9 @@ class Swapchain {
   // and draw again. Throws Error: a lost device.
   bool draw(const DisplayImageTarget& image, const std::function<void(VkCommandBuffer)>& recordImage,
             const std::function<void(VkCommandBuffer)>& recordOverlay);
+  // Time of copying the image and drawing the panel by the clock of the device [ms], of the frame before the last one
+  // that draw() waited for; nothing: as DisplayPass::readMs().
+  std::optional<double> overlayMs() const { return overlayMs_; }
   // Waits until the device has drawn everything.
   void finish() const;
 
@@ -52,6 +56,9 @@ class Swapchain {
   vulkan::Owned<VkSemaphore> acquired_;
   vulkan::Owned<VkFence> finished_;
   vulkan::Owned<VkCommandPool> pool_;
+  vulkan::Timestamps timestamps_;
+  bool isRecorded_ = false;
+  std::optional<double> overlayMs_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;  // freed with its pool
 };
 

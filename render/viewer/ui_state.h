@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/viewer/frame_times.h"
+#include "render/viewer/input_latency.h"
 #include "render/viewer/recorder.h"
 
 namespace malus::viewer {
@@ -17,7 +18,9 @@ struct UiState {
   bool turnsPolarizer = false;  // by itself
   std::size_t editedSide = 0;
   double scale = 1;
-  FrameTimes frames;    // of the window
+  FrameTimes frames;                // of the window
+  FrameTimes displayPass, overlay;  // by the clock of the device; empty without one
+  InputLatency latency;
   std::string message;  // the last event, such as a saved file
   std::string device;   // of the display
   std::array<char, 256> saveFile{"view.exr"};

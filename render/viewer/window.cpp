@@ -9,11 +9,14 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "meshprep/base/console.h"
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
+#include "meshprep/json_text.h"
 #include "render/viewer/exit_limit.h"
 #include "render/viewer/overlay.h"
 #include "render/viewer/panel.h"
+#include "render/viewer/report.h"
 #include "render/viewer/save_image.h"
 #include "render/viewer/window_input.h"
 
@@ -67,16 +70,9 @@ class ViewerWindow {
     resize(std::max(width, 1u), std::max(height, 1u));
     overlay_ = std::make_unique<Overlay>(window_, instance_.get(), device_, swapchain_, ui_.scale);
     auto last = Clock::now();
-    std::uint64_t shownImages = ~std::uint64_t{0};
     while (!glfwWindowShouldClose(window_.get())) {
       if (host_.interrupted()) throw Interrupted();
-      const bool isActive = input_.redraws > 0 || isAnimated();
-      // Wakes for events, for new images, and to notice Ctrl-C.
-      constexpr double kLongestWait = 0.1;
-      if (isActive)
-        glfwPollEvents();
-      else
-        glfwWaitEventsTimeout(kLongestWait);
+      waitForEvents();
       const auto start = Clock::now();
       const double passed = std::min(secondsSince(last), 0.1);
       last = start;
@@ -87,24 +83,28 @@ class ViewerWindow {
         continue;
       }
       ui_.recorder.apply(session_.state);
-      session_.update(width, height);
+      ui_.latency.submit(session_.update(width, height));
       const Published published = session_.renders().published();
       session_.updateBackground(published);
       probe(width, height);
-      if (!isActive && input_.redraws <= 0 && contentKey(published) == shownImages) continue;
-      shownImages = contentKey(published);
+      if (!needsFrame(published)) continue;
+      shownContent_ = contentKey(published);
       resize(width, height);
       drawFrame(published);
       --input_.redraws;
+      lastFrame_ = Clock::now();
       ui_.frames.add(1000 * secondsSince(start));
       writeFiles(published);
     }
     swapchain_.finish();
+    if (request_.json) print();
     if (instance_.messages() > 0)
       throw Error("", fmt::format("{} messages of the validation layers", instance_.messages()));
   }
 
  private:
+  static constexpr double kLongestWait = 0.1;  // seconds
+
   // Changes with every publication of the threads.
   std::uint64_t contentKey(const Published& published) const {
     std::uint64_t sum = published.images << 32u;
@@ -113,6 +113,38 @@ class ViewerWindow {
     sum += background.reference.rows * 104729u + (background.truth ? 15485863u * (background.pixel.x + 1) : 0);
     for (const std::optional<SideError>& error : background.errors) sum += error ? 1299709u : 0u;
     return sum + published.generation + (background.flip ? 611953u : 0u);
+  }
+
+  bool isActive() const { return input_.redraws > 0 || isAnimated(); }
+
+  // Seconds to wait for the image of a changed view before a frame is drawn without it: such a frame would take time of
+  // the image and show nothing new. 0: there is none, or it takes longer than a frame may.
+  double secondsForImage(const Published& published) const {
+    if (published.generation >= session_.generation()) return 0;
+    return std::max(AdaptiveResolution::kLongestFrameMs / 1000 - secondsSince(lastFrame_), 0.0);
+  }
+
+  // Wakes for events, for new images, and to notice Ctrl-C.
+  void waitForEvents() const {
+    const double wait = isActive() ? secondsForImage(session_.renders().published()) : kLongestWait;
+    if (wait > 0)
+      glfwWaitEventsTimeout(wait);
+    else
+      glfwPollEvents();
+  }
+
+  bool needsFrame(const Published& published) const {
+    return contentKey(published) != shownContent_ || (isActive() && secondsForImage(published) == 0);
+  }
+
+  void print() const {
+    nlohmann::json report = reportSession(session_, device_.name());
+    report["frameMs"] = reportMedian(ui_.frames);
+    report["displayPassMs"] = reportMedian(ui_.displayPass);
+    report["overlayMs"] = reportMedian(ui_.overlay);
+    report["inputToPhoton"] = {{"rendered", reportLatency(ui_.latency.rendered())},
+                               {"displayOnly", reportLatency(ui_.latency.displayOnly())}};
+    console::printText(jsonText(report) + "\n");
   }
 
   void probe(std::uint32_t width, std::uint32_t height) {
@@ -177,13 +209,23 @@ class ViewerWindow {
     drawPanel(session_, ui_, published, session_.background());
     drawHelp(input_.showsHelp);
     overlay_->endFrame();
+    // The panel may have changed the view.
+    ui_.latency.submit(session_.update(session_.width(), session_.height()));
     const DisplayInput input = session_.input(published);
     const auto start = Clock::now();
     const bool isCurrent = swapchain_.draw(
-        *target_, [&](VkCommandBuffer commands) { pass_.record(commands, input, *target_); },
+        *target_, [&](VkCommandBuffer commands) { recordImage(commands, input); },
         [&](VkCommandBuffer commands) { overlay_->record(commands); });
     session_.addDisplayMs(1000 * secondsSince(start));
+    if (const std::optional<double> ms = swapchain_.overlayMs()) ui_.overlay.add(*ms);
+    ui_.latency.present(Clock::now(), published.generation);
     if (!isCurrent) input_.redraws = std::max<int>(input_.redraws, 1) + 1;
+  }
+
+  // After the frame before has finished.
+  void recordImage(VkCommandBuffer commands, const DisplayInput& input) {
+    if (const std::optional<double> ms = pass_.readMs()) ui_.displayPass.add(*ms);
+    pass_.record(commands, input, *target_);
   }
 
   const Request& request_;
@@ -200,6 +242,8 @@ class ViewerWindow {
   Session session_;
   WindowInput input_;
   std::unique_ptr<Overlay> overlay_;
+  std::uint64_t shownContent_ = ~std::uint64_t{0};  // contentKey() of the last frame
+  Clock::time_point lastFrame_;
 };
 
 }  // namespace

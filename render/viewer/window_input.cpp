@@ -59,6 +59,7 @@ WindowInput::WindowInput(GlfwWindow& window, Session& session, UiState& ui)
 WindowInput& WindowInput::from(GLFWwindow* window) {
   auto& input = *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
   input.redraws = kFramesPerEvent;
+  input.ui_.latency.receive(std::chrono::steady_clock::now());
   return input;
 }
 

@@ -11,6 +11,8 @@ class Timestamps {
  public:
   // device: must outlive the timestamps. Throws Error.
   explicit Timestamps(const Device& device);
+  // validBits: of the queue family; 0: it has no timestamps. period: nanoseconds per tick.
+  Timestamps(VkDevice device, std::uint64_t validBits, double period);
 
   void begin(VkCommandBuffer commands) const;
   void end(VkCommandBuffer commands) const;
@@ -18,7 +20,9 @@ class Timestamps {
   std::optional<double> readMs() const;
 
  private:
-  const Device& device_;
+  VkDevice device_;
+  std::uint64_t validBits_;
+  double period_;
   Owned<VkQueryPool> pool_;
 };
 

@@ -118,6 +118,15 @@ class HeadlessTest(ViewerTest):
         self.assertEqual(result["rendered"]["frames"], 3)
         self.assertEqual(result["displayOnly"]["frames"], 4)
         self.assertEqual(result["sides"][0]["method"], "stokes")
+        # By the clock of the device, which is within the frame; and a device without a clock.
+        for frame in result["frames"]:
+            self.assertGreater(frame["displayPassMs"], 0)
+            self.assertLess(frame["displayPassMs"], frame["ms"])
+        self.assertGreater(result["displayPassMs"], 0)
+        done = self.headless("0 wait\n", "--json", "--width", 64, environment={"MALUS_VULKAN_LIMITS": "timestampValidBits=0"})
+        result = json.loads(done.stdout)
+        self.assertIsNone(result["displayPassMs"])
+        self.assertIsNone(result["frames"][0]["displayPassMs"])
 
     def test_errors_of_the_sides_are_those_of_compare(self):
         done = self.headless("0 split 0.5\n0 method b fresnel\n0 show flip\n0 wait-reference\n0 save flip.png\n", "--json",
@@ -195,7 +204,7 @@ class HeadlessTest(ViewerTest):
         self.assertEqual(compared.returncode, 0, compared.stdout)
 
     def test_wrong_use(self):
-        for arguments, code, words in ((["--script", "x"], 2, "--frames"), (["--json"], 2, "--frames"),
+        for arguments, code, words in ((["--script", "x"], 2, "--frames"),
                                        (["--method", "x"], 2, "x"), (["--frames", "1", "--script", "none"], 1, "none"),
                                        (["--view", "{}{", "--frames", "1"], 1, "--view")):
             done = self.run_malus("view", self.pack, *arguments)
@@ -284,6 +293,23 @@ class WindowTest(ViewerTest):
         self.assert_same(below(seen.columns(*right)), below(schlick.columns(*right)))
         self.assert_differ(below(seen.columns(*right)), below(stokes.columns(*right)))
         self.close(viewer)
+
+    def test_from_input_to_photon_are_at_most_two_frames(self):
+        viewer = self.open("--json", environment={})
+        viewer.display.still_screenshot()
+        for _ in range(4):
+            viewer.drag((WIDTH - 100, 200), (WIDTH - 60, 160))
+        viewer.key(*["bracketright"] * 12)
+        self.display.still_screenshot()
+        viewer.key("ctrl+q")
+        output, messages = viewer.process.communicate(timeout=10)
+        self.assertEqual((viewer.process.returncode, messages), (0, ""))
+        result = json.loads(output)
+        for kind, least in (("rendered", 10), ("displayOnly", 12)):
+            self.assertGreaterEqual(result["inputToPhoton"][kind]["events"], least)
+            self.assertLessEqual(result["inputToPhoton"][kind]["p95Frames"], 2, result)
+        for time_of in ("frameMs", "displayPassMs", "overlayMs"):
+            self.assertGreater(result[time_of], 0)
 
     def test_closing_while_rendering(self):
         for arguments in (["--samples", 16], ["--backend", "vulkan", "--samples", 8]):

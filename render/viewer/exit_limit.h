@@ -10,7 +10,8 @@ namespace malus::viewer {
 // From construction to destruction: after kLongestMs, the process ends at once with the exit code.
 class ExitLimit {
  public:
-  static constexpr int kLongestMs = 700;  // a window that closes within a second seems to close at once
+  // The rest of a second is for the frame that is drawn when the key is pressed, and for the end of the process.
+  static constexpr int kLongestMs = 400;
 
   explicit ExitLimit(int exitCode);
   ~ExitLimit();

@@ -34,6 +34,7 @@ std::vector<const char*> Glfw::extensions() const {
 
 GlfwWindow::GlfwWindow(std::uint32_t width, std::uint32_t height, const std::string& title) {
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   window_ = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
   if (!window_)
     throw Error("", fmt::format("cannot open a window ({})", lastProblem()), "--frames N for a run without");

@@ -26,7 +26,7 @@ class Glfw {
 
 class GlfwWindow {
  public:
-  // Throws Error: the display refuses a window.
+  // Hidden until glfwShowWindow(). Throws Error: the display refuses a window.
   GlfwWindow(std::uint32_t width, std::uint32_t height, const std::string& title);
   ~GlfwWindow();
   GlfwWindow(const GlfwWindow&) = delete;

@@ -69,6 +69,9 @@ class ViewerWindow {
     window_.size(width, height);
     resize(std::max(width, 1u), std::max(height, 1u));
     overlay_ = std::make_unique<Overlay>(window_, instance_.get(), device_, swapchain_, ui_.scale);
+    // Compile the display pass before there is a window to close.
+    device_.submit("first image", [&](VkCommandBuffer commands) { recordImage(commands, {}); });
+    glfwShowWindow(window_.get());
     auto last = Clock::now();
     while (!glfwWindowShouldClose(window_.get())) {
       if (host_.interrupted()) throw Interrupted();
@@ -96,6 +99,7 @@ class ViewerWindow {
       ui_.frames.add(1000 * secondsSince(start));
       writeFiles(published);
     }
+    glfwHideWindow(window_.get());  // at once: threads may be in work
     swapchain_.finish();
     if (request_.json) print();
     if (instance_.messages() > 0)

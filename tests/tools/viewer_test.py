@@ -241,7 +241,7 @@ class WindowTest(ViewerTest):
         viewer.key("ctrl+q")
         code, messages, seconds = viewer.wait(10)
         self.assertEqual((code, messages), (0, ""))
-        self.assertLess(seconds, 1.5)  # one second, and the time to notice the key on a loaded machine
+        self.assertLess(seconds, 1)
 
     def test_image_polarizer_and_method_are_those_of_render(self):
         viewer = self.open("--method", "stokes")
@@ -312,10 +312,13 @@ class WindowTest(ViewerTest):
             self.assertGreater(result[time_of], 0)
 
     def test_closing_while_rendering(self):
+        # Without the driver's cache of shaders, the Vulkan renderer compiles for seconds.
+        compiling = {"MESA_SHADER_CACHE_DISABLE": "1"}
         for arguments in (["--samples", 16], ["--backend", "vulkan", "--samples", 8]):
-            viewer = self.open(*arguments, environment={})
-            time.sleep(0.7)
-            self.close(viewer)
+            for seconds in (0.1, 0.7, 1.5):
+                viewer = self.open(*arguments, environment=compiling)
+                time.sleep(seconds)
+                self.close(viewer)
 
     def test_interrupt(self):
         viewer = self.open("--samples", 8, environment={})
@@ -323,7 +326,7 @@ class WindowTest(ViewerTest):
         viewer.process.send_signal(signal.SIGINT)
         code, _, seconds = viewer.wait(10)
         self.assertEqual(code, 130)
-        self.assertLess(seconds, 1.5)
+        self.assertLess(seconds, 1)
 
     def test_sizes_of_the_window(self):
         viewer = self.open()

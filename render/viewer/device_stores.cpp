@@ -108,12 +108,17 @@ struct DeviceStores::Pool {
     found->reset();
     return found;
   }
-  // Keeps few idle stores: the oldest is freed.
+  // Keeps few idle stores: the oldest are freed. Two always stay, because the sides of a moving view need them again.
   void release(std::unique_ptr<DeviceStore> store) {
-    constexpr std::size_t kMost = 6;
+    constexpr std::size_t kLeast = 2, kMost = 6, kMostBytes = std::size_t{1} << 28u;
     const std::scoped_lock lock(mutex);
     idle.push_back(std::move(store));
-    if (idle.size() > kMost) idle.erase(idle.begin());
+    std::size_t bytes = 0;
+    for (const auto& kept : idle) bytes += kept->capacity() * sizeof(float);
+    while (idle.size() > kMost || (idle.size() > kLeast && bytes > kMostBytes)) {
+      bytes -= idle.front()->capacity() * sizeof(float);
+      idle.erase(idle.begin());
+    }
   }
 };
 

@@ -132,5 +132,7 @@ class Viewer:
         return self.process.returncode, messages, time.monotonic() - start
 
     def resident_bytes(self):
-        with open(f"/proc/{self.process.pid}/statm") as numbers:
-            return int(numbers.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        """Resident memory: private (heap, compiled shaders), and shared, which has the pixels of lavapipe's images."""
+        with open(f"/proc/{self.process.pid}/status") as lines:
+            fields = dict(line.split(":", 1) for line in lines)
+        return tuple(1024 * int(fields[name].split()[0]) for name in ("RssAnon", "RssShmem"))

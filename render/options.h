@@ -44,12 +44,12 @@ CLI::Option* addNumber(CLI::App& command, const char* name, Value& value, std::u
 template <class Value>
 CLI::Option* addWidth(CLI::App& command, Value& width) {
   return addNumber(command, "--width", width, 1, pack::kMaxResolution,
-                   "Image width [pixels] (default: from --height, or the pack's)");
+                   "Image width [pixels] (default: from --height, or the pack's; malus view: 1280)");
 }
 template <class Value>
 CLI::Option* addHeight(CLI::App& command, Value& height) {
   return addNumber(command, "--height", height, 1, pack::kMaxResolution,
-                   "Image height [pixels] (default: from --width, or the pack's)");
+                   "Image height [pixels] (default: from --width, or the pack's; malus view: 720)");
 }
 template <class Value>
 CLI::Option* addDepth(CLI::App& command, Value& depth) {

@@ -28,7 +28,7 @@ bool drawCombo(const char* label, std::string& chosen, const Names& names) {
 
 void drawCount(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most) {
   int v = static_cast<int>(value);
-  if (ImGui::SliderInt(label, &v, static_cast<int>(least), static_cast<int>(most)))
+  if (ImGui::SliderInt(label, &v, static_cast<int>(least), static_cast<int>(most), "%d", ImGuiSliderFlags_Logarithmic))
     value = std::clamp(static_cast<std::uint32_t>(std::max(v, 0)), least, most);
 }
 
@@ -40,7 +40,6 @@ void drawSide(SideSettings& side, const PublishedSide& published) {
     const render::MethodInfo& method = render::methodNamed(side.method);
     if (method.isIterative && method.hasStokes)
       ImGui::Checkbox("Stokes vectors (four times the rays)", &side.iterativeStokes);
-    ImGui::TextDisabled("%zu bytes per ray", method.payloadBytes);
   }
   if (!published.substitutedFor.empty())
     ImGui::TextWrapped("renders as %s: %s", published.method.c_str(), published.substitutedFor.c_str());
@@ -67,8 +66,8 @@ void drawMethods(Session& session, UiState& ui, const Published& published) {
       if (ImGui::RadioButton(i == 0 ? "edit A" : "edit B", ui.editedSide == i)) ui.editedSide = i;
     }
   drawSide(state.sides[ui.editedSide], published.sides[ui.editedSide]);
-  drawCount("depth", state.depth, 0, 16);
-  drawCount("samples", state.samples, 1, 4);
+  drawCount("depth", state.depth, 0, pack::kMaxDepth);
+  drawCount("samples", state.samples, 1, 64);  // as --samples
   auto ev = static_cast<float>(state.exposureEv);
   if (ImGui::SliderFloat("exposure", &ev, -8, 8, "%.1f stops")) state.exposureEv = static_cast<double>(ev);
   ImGui::Checkbox("render again and again (for times)", &state.isContinuous);
@@ -145,8 +144,11 @@ void drawShown(Session& session, UiState& ui) {
     if (ImGui::SliderFloat("scale", &scale, 0.001f, 1, "%.3f", ImGuiSliderFlags_Logarithmic))
       state.differenceScale = static_cast<double>(scale);
   }
-  ImGui::Checkbox("probe of the pixel under the cursor", &ui.showsProbe);
-  ImGui::Checkbox("reference in the background", &state.usesReference);
+  ImGui::Checkbox("probe", &ui.showsProbe);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("values of the pixel under the cursor");
+  ImGui::SameLine();
+  ImGui::Checkbox("reference", &state.usesReference);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("rendered in the background, for errors and differences");
   const BackgroundState background = session.background();
   if (!state.usesReference || session.height() == 0) return;
   const float done = static_cast<float>(background.reference.rows) / static_cast<float>(session.height());
@@ -155,30 +157,38 @@ void drawShown(Session& session, UiState& ui) {
   if (!background.problem.empty()) ImGui::TextColored({1, 0.4f, 0.3f, 1}, "%s", background.problem.c_str());
 }
 
+namespace {
+
+void drawSideTimes(char name, const PublishedSide& side) {
+  ImGui::Text("%c: %.1f ms, median %.1f, %s", name, side.traceMs, side.medianMs, side.isShared ? "shared" : "copied");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("rays and shading of an image at full resolution; %s%s%s\nthe image %s", side.device.c_str(),
+                      side.path.empty() ? "" : ", ", side.path.c_str(),
+                      side.isShared ? "stays on the device" : "is copied to the display by the host");
+  if (side.path.empty()) return;  // the reference has no methods
+  std::string rays;
+  if (side.rays > 0 && side.traceMs > 0)
+    rays = fmt::format("{:.2f} M rays, {:.1f} M/s, ", static_cast<double>(side.rays) / 1e6,
+                       static_cast<double>(side.rays) / side.traceMs / 1e3);
+  ImGui::Text("   %s%zu B per ray", rays.c_str(), render::methodNamed(side.method).payloadBytes);
+}
+
+}  // namespace
+
 void drawTimes(const UiState& ui, const Published& published) {
-  for (std::size_t i = 0; i < 2; ++i) {
-    const PublishedSide& side = published.sides[i];
-    if (side.method.empty()) continue;
-    ImGui::Text("%c: %.1f ms, median %.1f ms", i == 0 ? 'A' : 'B', side.traceMs, side.medianMs);
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("rays and shading of an image at full resolution; %s%s%s", side.device.c_str(),
-                        side.path.empty() ? "" : ", ", side.path.c_str());
-    ImGui::TextDisabled("   %s", side.isShared ? "image stays on the device" : "image copied by the host");
-    if (side.rays > 0 && side.traceMs > 0)
-      ImGui::Text("   %.2f M rays, %.1f M per second", static_cast<double>(side.rays) / 1e6,
-                  static_cast<double>(side.rays) / side.traceMs / 1e3);
-  }
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!published.sides[i].method.empty()) drawSideTimes(i == 0 ? 'A' : 'B', published.sides[i]);
   ImGui::Text("moving at %.0f %% of the resolution", 100 * published.fraction);
   ImGui::TextDisabled("display: %.30s", ui.device.c_str());
   if (ui.displayPass.count() > 0)
     ImGui::Text("   image %.1f ms, panel %.1f ms", ui.displayPass.median(), ui.overlay.median());
-  if (!ui.latency.rendered().empty())
-    ImGui::Text("input to image: %.0f ms, %u frames", ui.latency.rendered().back().ms,
-                ui.latency.rendered().back().frames);
+  if (const auto& latency = ui.latency.rendered(); !latency.empty())
+    ImGui::Text("input to image: %.0f ms, %u frame%s", latency.back().ms, latency.back().frames,
+                latency.back().frames == 1 ? "" : "s");
   const std::vector<float> frames = ui.frames.values();
   const std::string label = fmt::format("window: median {:.1f} ms", ui.frames.median());
   ImGui::PlotLines("##frames", frames.data(), static_cast<int>(frames.size()), 0, label.c_str(), 0, 100,
-                   {0.95f * ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize()});
+                   {0.95f * ImGui::GetContentRegionAvail().x, 2.2f * ImGui::GetFontSize()});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("times of the last 200 frames of the window, 0 to 100 ms");
 }
 
@@ -213,11 +223,14 @@ void drawPanel(Session& session, UiState& ui, const Published& published, const 
   if (ImGui::Begin("malus", nullptr, kFlags)) {
     ImGui::PushItemWidth(0.58f * width);
     ImGui::TextUnformatted(session.pack().scene.name.c_str());
-    ImGui::TextDisabled("F1: keys, H: hide the panel");
+    ImGui::SameLine();
+    ImGui::TextDisabled("F1: keys, H: hide");
+    // In a low window the times are closed at first, so that the settings need no scrolling.
+    const bool isHigh = static_cast<float>(session.height()) >= 680 * scale;
     if (ImGui::CollapsingHeader("Method", ImGuiTreeNodeFlags_DefaultOpen)) drawMethods(session, ui, published);
     if (ImGui::CollapsingHeader("Filter", ImGuiTreeNodeFlags_DefaultOpen)) drawFilter(session.state, ui);
     if (ImGui::CollapsingHeader("Shown", ImGuiTreeNodeFlags_DefaultOpen)) drawShown(session, ui);
-    if (ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) drawTimes(ui, published);
+    if (ImGui::CollapsingHeader("Times", isHigh ? ImGuiTreeNodeFlags_DefaultOpen : 0)) drawTimes(ui, published);
     if (ImGui::CollapsingHeader("Effects")) drawEffects(session, ui);
     if (ImGui::CollapsingHeader("Save and record")) drawFiles(session, ui);
     ImGui::PopItemWidth();

@@ -69,7 +69,7 @@ void drawSurface(const render::PixelTruth& truth, const pack::Scene& scene) {
     return;
   }
   ImGui::TextWrapped("%s (%s), %.3g m", surface->material.c_str(), surface->kind.c_str(), surface->distance);
-  ImGui::Text("%u surfaces on the path", surface->interactions);
+  ImGui::Text("%u surface%s on the path", surface->interactions, surface->interactions == 1 ? "" : "s");
   ImGui::Text("angle of incidence %.1f deg", surface->incidenceDegrees);
   if (surface->diattenuation) {
     const auto& d = *surface->diattenuation;

@@ -92,6 +92,9 @@ class ViewerWindow {
       probe(width, height);
       if (!needsFrame(published)) continue;
       shownContent_ = contentKey(published);
+      // A window of the panel takes its new size in the second frame.
+      const std::uint64_t before = std::exchange(shownBackground_, backgroundKey());
+      if (before != shownBackground_) input_.redraws = std::max<int>(input_.redraws, 2);
       resize(width, height);
       drawFrame(published);
       --input_.redraws;
@@ -113,10 +116,16 @@ class ViewerWindow {
   std::uint64_t contentKey(const Published& published) const {
     std::uint64_t sum = published.images << 32u;
     for (const PublishedSide& side : published.sides) sum += side.fine.rows + 7919 * side.problem.size();
+    return sum + published.generation + backgroundKey();
+  }
+
+  // The part of contentKey() that changes the size of windows of the panel.
+  std::uint64_t backgroundKey() const {
     const BackgroundState background = session_.background();
-    sum += background.reference.rows * 104729u + (background.truth ? 15485863u * (background.pixel.x + 1) : 0);
+    std::uint64_t sum = background.reference.rows * 104729u;
+    if (background.truth) sum += 15485863u * (background.pixel.x + 1u) + 32452843u * (background.pixel.y + 1u);
     for (const std::optional<SideError>& error : background.errors) sum += error ? 1299709u : 0u;
-    return sum + published.generation + (background.flip ? 611953u : 0u);
+    return sum + (background.flip ? 611953u : 0u);
   }
 
   bool isActive() const { return input_.redraws > 0 || isAnimated(); }
@@ -247,6 +256,7 @@ class ViewerWindow {
   WindowInput input_;
   std::unique_ptr<Overlay> overlay_;
   std::uint64_t shownContent_ = ~std::uint64_t{0};  // contentKey() of the last frame
+  std::uint64_t shownBackground_ = 0;               // backgroundKey() of the last frame
   Clock::time_point lastFrame_;
 };
 

@@ -215,7 +215,7 @@ void drawPanel(Session& session, UiState& ui, const Published& published, const 
   if (!ui.showsPanel) return;
   drawProbeWindow(session, ui, published, background);
   const auto scale = static_cast<float>(ui.scale);
-  const float width = std::min(300 * scale, static_cast<float>(session.width()));
+  const float width = std::min(kPanelWidth * scale, static_cast<float>(session.width()));
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, static_cast<float>(session.height())});
   constexpr ImGuiWindowFlags kFlags =

@@ -6,6 +6,8 @@
 
 namespace malus::viewer {
 
+inline constexpr float kPanelWidth = 300;  // at scale 1, if the window is as wide [pixels]
+
 // Draws the panel, the labels of the sides, the divider and the legend for a window of the session's size.
 void drawPanel(Session& session, UiState& ui, const Published& published, const BackgroundState& background);
 

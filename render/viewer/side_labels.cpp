@@ -1,4 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -9,14 +13,23 @@ namespace malus::viewer {
 
 namespace {
 
-// Lines on a dark ground, their left or right end at x.
-void drawLabel(const std::string& text, float x, float y, bool toTheLeft, float scale) {
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const float pad = 6 * scale, left = toTheLeft ? x - size.x - 2 * pad : x;
-  draw.AddRectFilled({left, y}, {left + size.x + 2 * pad, y + size.y + 2 * pad}, IM_COL32(0, 0, 0, 170), 4 * scale);
-  draw.AddText({left + pad, y + pad}, IM_COL32_WHITE, text.c_str());
-}
+// Text on a dark ground.
+struct Label {
+  Label(std::string lines, float scale)
+      : text(std::move(lines)), pad(6 * scale), size(ImGui::CalcTextSize(text.c_str())) {
+    size.x += 2 * pad;
+    size.y += 2 * pad;
+  }
+  void draw(float left, float top) const {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({left, top}, {left + size.x, top + size.y}, IM_COL32(0, 0, 0, 170), pad * 2 / 3);
+    list.AddText({left + pad, top + pad}, IM_COL32_WHITE, text.c_str());
+  }
+
+  std::string text;
+  float pad;
+  ImVec2 size;
+};
 
 std::string sideText(char name, const PublishedSide& side, const std::optional<SideError>& error) {
   if (side.method.empty()) return fmt::format("{}: waiting", name);
@@ -40,8 +53,13 @@ void drawSides(const Session& session, const UiState& ui, const Published& publi
   draw.AddCircleFilled({x, height / 2}, grip, IM_COL32_WHITE, 24);
   draw.AddCircle({x, height / 2}, grip, IM_COL32(0, 0, 0, 255), 24, 1.5f * scale);
   const float margin = 8 * scale;
-  drawLabel(sideText('A', published.sides[0], background.errors[0]), x - margin, margin, true, scale);
-  if (x < width) drawLabel(sideText('B', published.sides[1], background.errors[1]), x + margin, margin, false, scale);
+  const Label a(sideText('A', published.sides[0], background.errors[0]), scale);
+  const Label b(sideText('B', published.sides[1], background.errors[1]), scale);
+  // The label of A crosses the divider, above that of B, if the panel leaves no room beside it.
+  const float panel = ui.showsPanel ? kPanelWidth * scale : 0;
+  const float left = std::max(x - margin - a.size.x, panel + margin);
+  a.draw(left, margin);
+  if (x < width) b.draw(std::max(x, panel) + margin, left + a.size.x > x ? 2 * margin + a.size.y : margin);
 }
 
 }  // namespace malus::viewer

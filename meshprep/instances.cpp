@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "meshprep/clean/box_pairs.h"
 #include "meshprep/clean/disjoint_sets.h"
 #include "meshprep/clean/junctions.h"
+#include "meshprep/clean/touching_boxes.h"
 #include "meshprep/compress/draco_mesh.h"
 
 namespace malus::prep {
@@ -114,17 +114,11 @@ class InstancePreparation {
   // Groups the instances whose boxes overlap. Returns false if that gives one group, or takes too long.
   bool makeGroups() {
     const std::vector<Box> boxes = findBoxes();
-    DisjointSets sets(boxes.size());
-    std::mutex mutex;
-    const auto merge = [&](std::uint32_t a, std::uint32_t b) {
-      const std::lock_guard lock(mutex);
-      sets.merge(a, b);
-      return 1u;
-    };
-    if (!forOverlappingBoxes(boxes, boxes, kMaxBoxPairs, merge)) return false;
+    std::optional<DisjointSets> sets = touchingSets(boxes, kMaxBoxPairs);
+    if (!sets) return false;
     std::map<std::uint32_t, Group> groups;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      groups[sets.find(static_cast<std::uint32_t>(i))].instances.push_back(i);
+      groups[sets->find(static_cast<std::uint32_t>(i))].instances.push_back(i);
       firstVertex_.push_back(vertices_);
       firstFace_.push_back(faces_);
       vertices_ += countVertices(i);

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "meshprep/clean/box_pairs.h"
 #include "meshprep/clean/disjoint_sets.h"
 #include "meshprep/clean/position_ids.h"
+#include "meshprep/clean/touching_boxes.h"
 
 namespace malus::prep {
 
@@ -100,15 +100,7 @@ class Search {
         box = {glm::min(box.low, rounded_[v]), glm::max(box.high, rounded_[v])};
       boxes.push_back(box);
     }
-    DisjointSets sets(boxes.size());
-    std::mutex mutex;
-    const auto merge = [&](std::uint32_t a, std::uint32_t b) {
-      const std::lock_guard lock(mutex);
-      sets.merge(a, b);
-      return 0u;
-    };
-    forOverlappingBoxes(boxes, boxes, 1, merge);
-    return sets;
+    return *touchingSets(boxes);
   }
 
   // Returns a bound of the displacement of the vertices of a piece by rounding, in the lengths of the original piece.

@@ -1,6 +1,5 @@
 // Memory of `malus prep` by the placed triangles: a file that places a mesh 200 times, apart, mirrored and in pairs
 // that nearly touch. A separate program, because the largest memory of a process counts.
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "meshprep/clean/intersections.h"
 #include "meshprep/cli.h"
 #include "meshprep/compress/mesh_file.h"
+#include "tests/largest_memory.h"
 #include "tests/meshprep/read/gltf_files.h"
 #include "tests/meshprep/shapes.h"
 
@@ -23,12 +23,6 @@ constexpr unsigned kAlarmSeconds = 240;  // far above the usual time of a second
 constexpr int kPlaces = 200;
 constexpr std::size_t kBytesPerTriangle = 140;  // mesh, normals, Draco's input, its tables and its result
 constexpr std::size_t kProgram = std::size_t{24} << 20u;
-
-std::size_t largestMemory() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 TEST(PrepMemory, IsThatOfThePlacedTriangles) {
   ::alarm(kAlarmSeconds);
@@ -47,7 +41,7 @@ TEST(PrepMemory, IsThatOfThePlacedTriangles) {
   addPrepCommand(app);
   app.parse(arguments);
   const std::size_t triangles = kPlaces * mesh.triangles.size();
-  EXPECT_LT(largestMemory(), triangles * kBytesPerTriangle + kProgram);
+  EXPECT_LT(malus::test::largestMemory(), triangles * kBytesPerTriangle + kProgram);
 
   // The file is that of all triangles.
   const compress::TriangleMesh delivered = compress::decodeMeshFile(readFile(output), "file");

@@ -1,6 +1,5 @@
 // Memory by the stored triangles: a file that places a mesh of 20000 triangles 200 times is baked in the memory of a
 // few such meshes. A separate program, because the largest memory of a process counts.
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "bake/pack/reader.h"
 #include "bake/pack/writer.h"
 #include "tests/bake/fixtures.h"
+#include "tests/largest_memory.h"
 #include "tests/meshprep/read/gltf_files.h"
 
 namespace malus::bake {
@@ -40,12 +40,6 @@ prep::Mesh sphere() {
   return mesh;
 }
 
-std::size_t largestMemory() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
-
 TEST(InstancesMemory, IsThatOfTheStoredTriangles) {
   ::alarm(kAlarmSeconds);
   prep::test::GltfFile gltf;
@@ -66,10 +60,10 @@ TEST(InstancesMemory, IsThatOfTheStoredTriangles) {
     "imports": [{"file": "model.glb"}]})");
   const SceneDescription description = readSceneFile(folder.write("scene.json", document.dump()));
 
-  const std::size_t before = largestMemory();
+  const std::size_t before = malus::test::largestMemory();
   const Baked baked = bake(description, {}, [](std::string_view) {}, {});
   const pack::Scene scene = pack::parse(pack::serialize(baked.scene, {}).bytes, "test").scene;
-  const std::size_t used = largestMemory() - before;
+  const std::size_t used = malus::test::largestMemory() - before;
   const pack::InstanceCounts counts = pack::countInstances(scene);
   EXPECT_EQ(scene.triangleCount(), mesh.triangles.size());
   EXPECT_EQ(counts.placements, static_cast<std::uint64_t>(kPlaces));

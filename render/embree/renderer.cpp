@@ -57,11 +57,10 @@ bool tracesSingleRays(const render::RenderParameters& parameters) {
 
 // Calls renderTile(tile) for the tiles of an image, in parallel, and adds up what it returns.
 template <class RenderTile>
-void renderTiles(const TileInput& image, int threads, std::uint32_t tileWidth, std::uint32_t tileHeight,
+void renderTiles(const TileInput& image, tbb::task_arena& arena, std::uint32_t tileWidth, std::uint32_t tileHeight,
                  render::RenderResult& result, RenderTile renderTile) {
   std::atomic<std::uint64_t> tracedRays{0};
   std::mutex merging;
-  tbb::task_arena arena(threads);
   const gpu::CameraParameters& camera = *image.camera;
   const std::uint32_t columns = (camera.regionWidth + tileWidth - 1) / tileWidth;
   const std::uint32_t rows = (camera.regionHeight + tileHeight - 1) / tileHeight;
@@ -86,34 +85,35 @@ void renderTiles(const TileInput& image, int threads, std::uint32_t tileWidth, s
 }  // namespace
 
 struct Renderer::Impl {
-  explicit Impl(const pack::Scene& packed)
-      : source(&packed),
+  Impl(const pack::Scene& packed, unsigned threads)
+      : arena(static_cast<int>(threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads)),
+        source(&packed),
         needs(render::findGeometryNeeds(packed)),
         scene(render::makeRenderScene(packed)),
         order(scene) {}
 
+  // For every image: TBB frees an arena late, so that memory would grow with the number of small images.
+  tbb::task_arena arena;
   pack::Scene const* source;
   render::GeometryNeeds needs;
   render::RenderScene scene;
   ShadingOrder order;
-  int threads = 1;
   double buildMs = 0;
   std::unique_ptr<Bvh> bvh;
 };
 
 Renderer::Renderer(const pack::Scene& scene, unsigned threads) {
   const auto start = Clock::now();
-  impl_ = std::make_unique<Impl>(scene);
-  impl_->threads = static_cast<int>(threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
+  impl_ = std::make_unique<Impl>(scene, threads);
   impl_->bvh = std::make_unique<Bvh>(impl_->scene, threads);
   impl_->buildMs = sinceMs(start);
 }
 
 Renderer::~Renderer() = default;
 
-std::string Renderer::device() const { return fmt::format("{}, {} threads", Bvh::version(), impl_->threads); }
+std::string Renderer::device() const { return fmt::format("{}, {} threads", Bvh::version(), threads()); }
 
-int Renderer::threads() const { return impl_->threads; }
+int Renderer::threads() const { return impl_->arena.max_concurrency(); }
 
 std::vector<std::string> Renderer::methods() const { return render::methodNames(); }
 
@@ -132,14 +132,14 @@ bool Renderer::updateScene() {
 namespace {
 // Reserves memory and maps its pages by all threads. The zeros that a vector starts with would map them one after the
 // other, which takes 0.4 ms per MiB.
-void reserveMapped(std::vector<float>& values, std::size_t count, int threads) {
+void reserveMapped(std::vector<float>& values, std::size_t count, tbb::task_arena& arena) {
   values.reserve(count);
 #ifdef MADV_POPULATE_WRITE
   constexpr std::uintptr_t kPart = std::uintptr_t{1} << 22u;
   const auto begin = reinterpret_cast<std::uintptr_t>(values.data()), end = begin + count * sizeof(float);
   const std::uintptr_t first = (begin + kPart - 1) / kPart, last = end / kPart;  // parts inside the memory
   if (first >= last) return;
-  tbb::task_arena(threads).execute([&] {
+  arena.execute([&] {
     tbb::parallel_for(first, last, [&](std::uintptr_t part) {
       // A kernel before Linux 5.14 refuses, which is harmless.
       ::madvise(reinterpret_cast<void*>(part * kPart), kPart,
@@ -152,14 +152,14 @@ void reserveMapped(std::vector<float>& values, std::size_t count, int threads) {
 // An image to render, with what its tiles need.
 struct PreparedImage {
   PreparedImage(const pack::Scene& source, const Bvh& bvh, const render::RenderScene& scene, std::string_view name,
-                const render::RenderParameters& parameters, int threads)
+                const render::RenderParameters& parameters, tbb::task_arena& arena)
       : camera(render::makeCameraParameters(source, parameters)) {
     const bool stokes = render::hasStokes(render::methodNamed(name), parameters);
     result.width = parameters.region.width;
     result.height = parameters.region.height;
     result.channels = stokes ? render::kStokesChannels : render::kColourChannels;
     const std::size_t count = result.channels * result.width * result.height;
-    reserveMapped(result.pixels, count, threads);
+    reserveMapped(result.pixels, count, arena);
     result.pixels.resize(count);
     tile = {
         &bvh, &scene, &camera, 0, 0, 0, 0, result.pixels.data(), stokes, render::compiledEffects(source, parameters)};
@@ -174,7 +174,7 @@ struct PreparedImage {
 }  // namespace
 
 render::RenderResult Renderer::render(std::string_view name, const render::RenderParameters& parameters) {
-  PreparedImage image(*impl_->source, *impl_->bvh, impl_->scene, name, parameters, impl_->threads);
+  PreparedImage image(*impl_->source, *impl_->bvh, impl_->scene, name, parameters, impl_->arena);
   const std::uint32_t effects = image.tile.effects;
   const bool scalar = tracesSingleRays(parameters);
   image.result.device = device();
@@ -184,11 +184,11 @@ render::RenderResult Renderer::render(std::string_view name, const render::Rende
   if (scalar) {
     const Method& method = findBuild(allMethods(), name, parameters.checkNumerics ? kEveryEffect : effects);
     const auto renderTile = parameters.checkNumerics ? method.renderTileChecked : method.renderTile;
-    renderTiles(image.tile, impl_->threads, kTileSide, kTileSide, image.result, renderTile);
+    renderTiles(image.tile, impl_->arena, kTileSide, kTileSide, image.result, renderTile);
   } else {
     const PacketMethod& method = findBuild(allPacketMethods(), name, effects);
     tbb::enumerable_thread_specific<PacketMemory> memory([&] { return PacketMemory(impl_->order); });
-    renderTiles(image.tile, impl_->threads, kPacketTileWidth, kPacketTileHeight, image.result,
+    renderTiles(image.tile, impl_->arena, kPacketTileWidth, kPacketTileHeight, image.result,
                 [&](const TileInput& tile) { return method.renderTile(tile, impl_->order, memory.local()); });
   }
   image.result.cost.traceMs = image.result.cost.wallMs = sinceMs(start);
@@ -197,12 +197,12 @@ render::RenderResult Renderer::render(std::string_view name, const render::Rende
 }
 
 RayLog Renderer::logRays(std::string_view name, const render::RenderParameters& parameters) {
-  PreparedImage image(*impl_->source, *impl_->bvh, impl_->scene, name, parameters, impl_->threads);
+  PreparedImage image(*impl_->source, *impl_->bvh, impl_->scene, name, parameters, impl_->arena);
   const Method& method = findBuild(allMethods(), name, kEveryEffect);
   // A log per tile, so that the order does not depend on the threads.
   std::map<std::pair<std::uint32_t, std::uint32_t>, RayLog> logs;
   std::mutex merging;
-  renderTiles(image.tile, impl_->threads, kTileSide, kTileSide, image.result, [&](TileInput tile) {
+  renderTiles(image.tile, impl_->arena, kTileSide, kTileSide, image.result, [&](TileInput tile) {
     RayLog log;
     tile.log = &log;
     const TileOutput output = method.renderTileChecked(tile);

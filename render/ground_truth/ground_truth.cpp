@@ -83,9 +83,10 @@ PixelTruth findTruth(const SceneAccess& access, const Ray& ray, std::uint32_t de
 }  // namespace
 
 struct GroundTruth::Impl {
-  Impl(const pack::Scene& scene, unsigned threadCount) : data(scene, threadCount), threads(threadCount) {}
+  Impl(const pack::Scene& scene, unsigned threads)
+      : data(scene, threads), arena(threads == 0 ? oneapi::tbb::task_arena::automatic : static_cast<int>(threads)) {}
   reference::SceneData data;
-  unsigned threads;
+  oneapi::tbb::task_arena arena;  // one for every image
 };
 
 GroundTruth::GroundTruth(const pack::Scene& scene, unsigned threads) : impl_(std::make_unique<Impl>(scene, threads)) {}
@@ -108,8 +109,7 @@ std::vector<PixelTruth> GroundTruth::render(const RenderParameters& parameters) 
       pixels[std::size_t{row} * region.width + column] = findTruth(access, ray, parameters.depth);
     }
   };
-  oneapi::tbb::task_arena(impl_->threads == 0 ? oneapi::tbb::task_arena::automatic : static_cast<int>(impl_->threads))
-      .execute([&] { oneapi::tbb::parallel_for(0u, region.height, renderRow); });
+  impl_->arena.execute([&] { oneapi::tbb::parallel_for(0u, region.height, renderRow); });
   return pixels;
 }
 

@@ -93,10 +93,12 @@ void renderTile(const pack::Camera& camera, const render::RenderParameters& para
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(const pack::Scene& scene, unsigned threadCount) : data(scene, threadCount), threads(threadCount) {}
+  Impl(const pack::Scene& scene, unsigned threads) : data(scene, threads) {
+    if (threads > 0) arena.emplace(static_cast<int>(threads));
+  }
 
   SceneData data;
-  unsigned threads;
+  std::optional<tbb::task_arena> arena;  // one for every image; none: that of the caller
   double buildMs = 0;
 };
 
@@ -133,10 +135,10 @@ render::RenderResult Renderer::render(std::string_view /*method*/, const render:
                  workers.local(), result);
     });
   };
-  if (impl_->threads == 0)
-    traceAll();
+  if (impl_->arena)
+    impl_->arena->execute(traceAll);
   else
-    tbb::task_arena(static_cast<int>(impl_->threads)).execute(traceAll);
+    traceAll();
   if (interrupted()) throw Interrupted();
 
   result.cost.buildMs = impl_->buildMs;

@@ -38,7 +38,7 @@ void drawFiles(Session& session, UiState& ui) {
   if (ui.recorder.isRecording()) {
     ImGui::Text("frame %u of %u", ui.recorder.frame() + 1, ui.recorder.frames());
     ImGui::SameLine();
-    if (ImGui::Button("stop")) ui.recorder.stop();
+    if (ImGui::Button("stop")) ui.recorder.stop(session.state);
     return;
   }
   if (ImGui::Button("turntable")) startRecording(session, ui, Recording::turntable);

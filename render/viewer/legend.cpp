@@ -38,8 +38,21 @@ ImU32 legendColour(Quantity shown, float share) {
 struct LegendText {
   std::string title, low, middle, high;
 };
-LegendText legendText(const ViewState& state) {
-  const char* const against = state.against == Against::otherSide ? "the other side" : "the reference";
+
+// The image that a difference or FLIP is taken to, and the work that it waits for.
+std::string comparedWith(const Session& session, const BackgroundState& background) {
+  const ViewState& state = session.state;
+  const bool isFlip = state.shown == Quantity::flip;
+  if (state.against == Against::otherSide)
+    return isFlip && !background.flip ? "the other side: computing" : "the other side";
+  if (!background.reference.isComplete())
+    return fmt::format("the reference: {:.0f} % rendered",
+                       100.0 * background.reference.rows / std::max(session.height(), 1u));
+  return isFlip && !background.flip ? "the reference: computing" : "the reference";
+}
+
+LegendText legendText(const Session& session, const BackgroundState& background) {
+  const ViewState& state = session.state;
   switch (state.shown) {
     case Quantity::dolp:
       return {"DoLP", "0", "0.5", "1"};
@@ -52,10 +65,10 @@ LegendText legendText(const ViewState& state) {
     case Quantity::s3:
       return {"S3 / S0", "-1", "0", "1"};
     case Quantity::difference:
-      return {fmt::format("difference to {}", against), "0", fmt::format("{:.3g}", state.differenceScale / 2),
-              fmt::format("{:.3g}", state.differenceScale)};
+      return {fmt::format("difference to {}", comparedWith(session, background)), "0",
+              fmt::format("{:.3g}", state.differenceScale / 2), fmt::format("{:.3g}", state.differenceScale)};
     case Quantity::flip:
-      return {fmt::format("FLIP to {}", against), "0", "0.5", "1"};
+      return {fmt::format("FLIP to {}", comparedWith(session, background)), "0", "0.5", "1"};
     case Quantity::colour:
       break;
   }
@@ -64,14 +77,15 @@ LegendText legendText(const ViewState& state) {
 
 }  // namespace
 
-void drawLegend(const ViewState& state, const UiState& ui, std::uint32_t width, std::uint32_t height) {
-  if (state.shown == Quantity::colour) return;
-  const LegendText text = legendText(state);
+void drawLegend(const Session& session, const UiState& ui, const BackgroundState& background) {
+  const Quantity shown = session.state.shown;
+  if (shown == Quantity::colour) return;
+  const LegendText text = legendText(session, background);
   const auto scale = static_cast<float>(ui.scale);
   const float w = std::max(260 * scale, ImGui::CalcTextSize(text.title.c_str()).x), h = 12 * scale,
               line = ImGui::GetFontSize(), margin = 10 * scale;
-  const float x = static_cast<float>(width) - w - 2 * margin;
-  const float y = static_cast<float>(height) - h - 2 * line - 3 * margin;
+  const float x = static_cast<float>(session.width()) - w - 2 * margin;
+  const float y = static_cast<float>(session.height()) - h - 2 * line - 3 * margin;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.AddRectFilled({x - margin, y - margin}, {x + w + margin, y + h + 2 * line + 2 * margin}, IM_COL32(0, 0, 0, 180),
                      4 * scale);
@@ -81,7 +95,7 @@ void drawLegend(const ViewState& state, const UiState& ui, std::uint32_t width, 
   constexpr int kSteps = 90;
   for (int i = 0; i < kSteps; ++i) {
     const float from = x + w * static_cast<float>(i) / kSteps, to = x + w * static_cast<float>(i + 1) / kSteps;
-    const ImU32 c = legendColour(state.shown, (static_cast<float>(i) + 0.5f) / kSteps);
+    const ImU32 c = legendColour(shown, (static_cast<float>(i) + 0.5f) / kSteps);
     draw.AddRectFilled({from, top}, {to, top + h}, c);
   }
   const auto label = [&](const std::string& s, float share) {

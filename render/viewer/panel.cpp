@@ -179,7 +179,9 @@ void drawTimes(const UiState& ui, const Published& published) {
   for (std::size_t i = 0; i < 2; ++i)
     if (!published.sides[i].method.empty()) drawSideTimes(i == 0 ? 'A' : 'B', published.sides[i]);
   ImGui::Text("moving at %.0f %% of the resolution", 100 * published.fraction);
-  ImGui::TextDisabled("display: %.30s", ui.device.c_str());
+  // Drivers add versions in parentheses.
+  ImGui::TextDisabled("display: %s", ui.device.substr(0, ui.device.find(" (")).c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", ui.device.c_str());
   if (ui.displayPass.count() > 0)
     ImGui::Text("   image %.1f ms, panel %.1f ms", ui.displayPass.median(), ui.overlay.median());
   if (const auto& latency = ui.latency.rendered(); !latency.empty())
@@ -211,7 +213,7 @@ void drawProbeWindow(const Session& session, UiState& ui, const Published& publi
 
 void drawPanel(Session& session, UiState& ui, const Published& published, const BackgroundState& background) {
   drawSides(session, ui, published, background);
-  drawLegend(session.state, ui, session.width(), session.height());
+  drawLegend(session, ui, background);
   if (!ui.showsPanel) return;
   drawProbeWindow(session, ui, published, background);
   const auto scale = static_cast<float>(ui.scale);

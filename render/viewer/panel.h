@@ -26,7 +26,7 @@ void drawFiles(Session& session, UiState& ui);
 bool drawDial(const char* name, double& degrees, double radius);
 
 // Drawn over the image: legend of the quantity, divider and labels of the sides.
-void drawLegend(const ViewState& state, const UiState& ui, std::uint32_t width, std::uint32_t height);
+void drawLegend(const Session& session, const UiState& ui, const BackgroundState& background);
 void drawSides(const Session& session, const UiState& ui, const Published& published,
                const BackgroundState& background);
 

@@ -1,6 +1,7 @@
 #include "render/viewer/recorder.h"
 
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -38,8 +39,11 @@ void Recorder::apply(ViewState& state) const {
 std::string Recorder::file() const { return fmt::format("{}/frame-{:03}.png", folder_, frame_); }
 
 void Recorder::next(ViewState& state) {
-  if (++frame_ < frames_) return;
-  isRecording_ = false;
+  if (++frame_ >= frames_) stop(state);
+}
+
+void Recorder::stop(ViewState& state) {
+  if (!std::exchange(isRecording_, false)) return;
   state.camera = start_.camera;
   state.pivot = start_.pivot;
   state.filter = start_.filter;

@@ -15,7 +15,8 @@ class Recorder {
  public:
   // Makes the folder, if it does not exist. Throws Error: it cannot be made.
   void start(Recording what, const std::string& folder, std::uint32_t frames, const ViewState& state);
-  void stop() { isRecording_ = false; }
+  // Ends the recording, and restores the view.
+  void stop(ViewState& state);
   bool isRecording() const { return isRecording_; }
   std::uint32_t frame() const { return frame_; }
   std::uint32_t frames() const { return frames_; }
@@ -24,7 +25,7 @@ class Recorder {
   void apply(ViewState& state) const;
   // File of the current frame: FOLDER/frame-000.png.
   std::string file() const;
-  // The current frame is saved. After the last one, restores the view.
+  // The current frame is saved. Stops after the last one.
   void next(ViewState& state);
 
  private:

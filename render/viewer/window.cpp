@@ -187,7 +187,7 @@ class ViewerWindow {
         input_.redraws = 3;
       }
     } catch (const Error& error) {
-      ui_.recorder.stop();
+      ui_.recorder.stop(session_.state);
       ui_.message = error.what();
       input_.redraws = 3;
     }

@@ -90,6 +90,27 @@ TEST(Recorder, TurnsOnceAroundThePivotAndRestoresTheView) {
   EXPECT_EQ(state.camera.position, glm::dvec3(0, 0, 4));
 }
 
+TEST(Recorder, RestoresTheViewWhenItIsStopped) {
+  ViewState state;
+  state.camera.position = {0, 0, 4};
+  state.filter.polarizerDegrees = 30;
+  const std::string folder = std::filesystem::path(testing::TempDir()) / "stopped";
+  Recorder recorder;
+  for (const Recording what : {Recording::turntable, Recording::polarizer}) {
+    recorder.start(what, folder, 4, state);
+    recorder.next(state);
+    recorder.apply(state);
+    recorder.stop(state);
+    EXPECT_FALSE(recorder.isRecording());
+    EXPECT_EQ(state.camera.position, glm::dvec3(0, 0, 4));
+    EXPECT_EQ(state.filter.kind, FilterKind::none);
+    EXPECT_EQ(state.filter.polarizerDegrees, 30);
+  }
+  state.camera.position = {0, 0, 5};
+  recorder.stop(state);  // nothing is recorded
+  EXPECT_EQ(state.camera.position, glm::dvec3(0, 0, 5));
+}
+
 TEST(Recorder, SweepsThePolarizerByAHalfTurn) {
   ViewState state;
   const std::string folder = std::filesystem::path(testing::TempDir()) / "sweep";

@@ -76,6 +76,14 @@ class Bundle(unittest.TestCase):
         self.assertIn("skylight.hdr", done.stderr)
         self.assertIn("EXR and PNG", done.stderr)
 
+    def test_the_viewer_renders_a_frame(self):
+        out = self.expect_done(self.bundle / "malus", "view", self.bundle / "packs/cornell-box.pack", "--frames", 2,
+                               "--width", 64, "--height", 64, "--json", MALUS_DEVICE="llvmpipe")
+        self.assertEqual(json.loads(out)["scene"], "cornell-box")
+        done = self.run_clean(self.bundle / "malus", "view", self.bundle / "packs/cornell-box.pack", DISPLAY="")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("display", done.stderr.lower())
+
     def test_without_a_driver(self):
         nothing = {"VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}
         done = self.run_clean(self.bundle / "malus", "--list-devices", **nothing)

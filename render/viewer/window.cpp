@@ -1,5 +1,7 @@
 #include "render/viewer/window.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -90,7 +92,10 @@ class ViewerWindow {
       const Published published = session_.renders().published();
       session_.updateBackground(published);
       probe(width, height);
-      if (!needsFrame(published)) continue;
+      if (!needsFrame(published)) {
+        returnFreedMemory();
+        continue;
+      }
       shownContent_ = contentKey(published);
       // A window of the panel takes its new size in the second frame.
       const std::uint64_t before = std::exchange(shownBackground_, backgroundKey());
@@ -144,6 +149,17 @@ class ViewerWindow {
       glfwWaitEventsTimeout(wait);
     else
       glfwPollEvents();
+  }
+
+  // Now and then between frames: the program keeps freed memory for work that follows at once (tools/malus.cpp), and a
+  // window stays open for hours.
+  void returnFreedMemory() {
+    constexpr double kInterval = 2;  // seconds
+    if (secondsSince(returnedMemory_) < kInterval) return;
+#ifdef __GLIBC__
+    ::malloc_trim(0);
+#endif
+    returnedMemory_ = Clock::now();
   }
 
   bool needsFrame(const Published& published) const {
@@ -258,6 +274,7 @@ class ViewerWindow {
   std::uint64_t shownContent_ = ~std::uint64_t{0};  // contentKey() of the last frame
   std::uint64_t shownBackground_ = 0;               // backgroundKey() of the last frame
   Clock::time_point lastFrame_;
+  Clock::time_point returnedMemory_;
 };
 
 }  // namespace

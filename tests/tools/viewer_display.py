@@ -98,7 +98,7 @@ class Viewer:
 
     def __enter__(self):
         self.process = subprocess.Popen(self.command, env=self.environment, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
+                                        stderr=subprocess.PIPE, text=True, cwd=self.display.folder)
         end = time.monotonic() + 60
         while self.process.poll() is None and time.monotonic() < end:
             try:

@@ -1,7 +1,6 @@
 // Time, memory and size of mesh preparation and packs by number of triangles, from an OBJ file to the first ray. The
 // mesh is a bumpy closed surface with normals. No test checks the times.
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 
 #include <filesystem>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "render/embree/embree.h"
 #include "render/scene/render_scene.h"
 #include "tests/bench/torus.h"
+#include "tests/largest_memory.h"
 
 namespace malus {
 namespace {
@@ -38,10 +38,8 @@ pack::Scene makeScene(std::int64_t triangles) {
 }
 
 void countMemory(benchmark::State& state) {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  state.counters["peakMb"] =
-      static_cast<double>(usage.ru_maxrss) / 1024;  // peak of the process: run one size at a time
+  // Of the process: run one size at a time.
+  state.counters["peakMb"] = static_cast<double>(test::largestMemory()) / (1u << 20u);
 }
 
 void prepare(benchmark::State& state) {

@@ -1,6 +1,4 @@
 // Damaged and hostile packs: always an Error with problem and location, never a crash or a large allocation.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 #include "tests/bake/fixtures.h"
 #include "tests/bake/pack/corrupt_pack.h"
 #include "tests/bake/pack/raw_pack.h"
+#include "tests/largest_memory.h"
 
 namespace malus::pack {
 namespace {
@@ -38,12 +37,6 @@ std::string errorAfter(Change change) {
 template <class T>
 std::string errorWith(std::string_view id, std::size_t at, T value) {
   return errorAfter([&](std::vector<RawSection>& s) { test::setNumber(test::section(s, id).bytes, at, value); });
-}
-
-long peakMegabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024;
 }
 
 TEST(CorruptPack, SmallPackIsValid) { EXPECT_EQ(parseError(smallPack()), ""); }
@@ -78,7 +71,7 @@ TEST(CorruptPack, BytesAfterTheEndAreAnError) {
 // With matching hashes, any flipped bit of any section is rejected or gives a scene within the schema.
 TEST(CorruptPack, EveryFlippedBitWithMatchingHashesIsHarmless) {
   const std::vector<RawSection> whole = test::takenApart(smallPack());
-  const long before = peakMegabytes();
+  const std::size_t before = malus::test::largestMemory();
   std::size_t rejected = 0, accepted = 0;
   for (std::size_t s = 0; s < whole.size(); ++s)
     for (std::size_t i = 0; i < whole[s].bytes.size(); ++i)
@@ -103,7 +96,7 @@ TEST(CorruptPack, EveryFlippedBitWithMatchingHashesIsHarmless) {
       }
   EXPECT_GT(rejected, 1000u);
   EXPECT_GT(accepted, 1000u);  // most bits of numbers give another valid number
-  EXPECT_LT(peakMegabytes() - before, 512);
+  EXPECT_LT(malus::test::largestMemory() - before, std::size_t{512} << 20u);
 }
 
 // Swapping the contents of two sections but not their table entries is detected before decoding.
@@ -129,7 +122,7 @@ TEST(CorruptPack, EveryPairOfSwappedSectionsIsAnError) {
 TEST(CorruptPack, RandomBytesWithMatchingHashesAreHarmless) {
   const std::vector<RawSection> whole = test::takenApart(smallPack());
   std::mt19937 random(1);
-  const long before = peakMegabytes();
+  const std::size_t before = malus::test::largestMemory();
   for (int round = 0; round < 5000; ++round) {
     std::vector<RawSection> sections = whole;
     RawSection& section = sections[random() % sections.size()];
@@ -142,7 +135,7 @@ TEST(CorruptPack, RandomBytesWithMatchingHashesAreHarmless) {
       ASSERT_TRUE(contains(error, "file.pack")) << error;
     }
   }
-  EXPECT_LT(peakMegabytes() - before, 512);
+  EXPECT_LT(malus::test::largestMemory() - before, std::size_t{512} << 20u);
 }
 
 TEST(CorruptPack, OtherFilesAreNotPacks) {
@@ -267,7 +260,7 @@ TEST(CorruptPack, EverySectionTooShortOrTooLong) {
 }
 
 TEST(CorruptPack, CountsTooLarge) {
-  const long before = peakMegabytes();
+  const std::size_t before = malus::test::largestMemory();
   constexpr std::uint32_t kHuge = 0xffffffffu;
   for (const std::uint32_t count : {kHuge, 0x10000000u, 3u}) {
     EXPECT_TRUE(contains(errorWith("LGHT", 0, count), "number of lights")) << count;
@@ -290,7 +283,7 @@ TEST(CorruptPack, CountsTooLarge) {
   EXPECT_TRUE(contains(errorWith("MESH", kMesh + 8, kMaxVertices), "mesh 'tetrahedron'"));
   EXPECT_TRUE(contains(errorWith("MESH", kMesh + 12, kMaxTriangles), "mesh 'tetrahedron'"));
   EXPECT_TRUE(contains(errorWith("MESH", kMesh + 8, 5u), "mesh 'tetrahedron'"));
-  EXPECT_LT(peakMegabytes() - before, 256);
+  EXPECT_LT(malus::test::largestMemory() - before, std::size_t{256} << 20u);
 }
 
 TEST(CorruptPack, MeshesOutOfBounds) {

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "tests/largest_memory.h"
 #include "tests/meshprep/base/image_modules.h"
 
 namespace malus::image::test {
@@ -119,13 +120,13 @@ TEST_F(ImageModules, ExrHeadersThatDeclareMoreThanTheFileHasAreErrors) {
     window.replace(at + (field == "width" ? 8 : 12), 4, huge);
     files.push_back(window);
   }
-  const long before = peakMegabytes();
+  const std::size_t before = malus::test::largestMemory();
   for (std::size_t i = 0; i < files.size(); ++i) {
     write("bad.exr", {files[i].begin(), files[i].end()});
     Image image;
     EXPECT_NE(exrPng().read(file("bad.exr"), image), "") << i;
   }
-  EXPECT_LT(peakMegabytes() - before, 256);
+  EXPECT_LT(malus::test::largestMemory() - before, std::size_t{256} << 20u);
 }
 
 }  // namespace

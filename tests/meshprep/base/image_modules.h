@@ -2,7 +2,6 @@
 #pragma once
 
 #include <dlfcn.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -109,13 +108,6 @@ inline Image exampleImage() {
                       {"malus:third", 1.0 / 3},
                       {"worldToCamera", std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}}};
   return image;
-}
-
-// Largest resident size of this process so far, in MB.
-inline long peakMegabytes() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024;
 }
 
 }  // namespace malus::image::test

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tests/largest_memory.h"
 #include "tests/meshprep/base/image_modules.h"
 
 namespace malus::image::test {
@@ -116,7 +117,7 @@ TEST_F(ImageSizes, LargeSizesAreRefusedByTheHeader) {
       {"tile.tif", tiff(16, kSide)},
       {"a.png", png()},
   };
-  const long before = peakMegabytes();
+  const std::size_t before = malus::test::largestMemory();
   for (const auto& [name, bytes] : files) {
     write(name, {bytes.begin(), bytes.end()});
     Image image;
@@ -125,7 +126,7 @@ TEST_F(ImageSizes, LargeSizesAreRefusedByTheHeader) {
     EXPECT_EQ(message.find('\n'), std::string::npos) << name;
     EXPECT_TRUE(image.pixels.empty()) << name;
   }
-  EXPECT_LT(peakMegabytes() - before, 256);
+  EXPECT_LT(malus::test::largestMemory() - before, std::size_t{256} << 20u);
 }
 
 // OpenImageIO reads both: it decodes thumbnails when it opens a PSD file, and makes up an image for the name *.null.

@@ -40,6 +40,11 @@ class Session {
   // Gives the background what the newest images need: reference, errors. Returns whether something waits for the view
   // to be still.
   bool updateBackground(const Published& published);
+  // The camera and the pivot of the start.
+  void resetCamera() {
+    state.camera = request_.state.camera;
+    state.pivot = request_.state.pivot;
+  }
   void probe(std::uint32_t x, std::uint32_t y);
   BackgroundState background() const { return background_.state(); }
   DisplayInput input(const Published& published) const;

@@ -192,7 +192,7 @@ void WindowInput::onKey(int key, int modifiers) {
       state.exposureEv += key == GLFW_KEY_EQUAL ? 0.5 : -0.5;
       break;
     case GLFW_KEY_HOME:
-      state.camera = session_.pack().scene.camera;
+      session_.resetCamera();
       break;
     case GLFW_KEY_H:
       ui_.showsPanel = !ui_.showsPanel;

@@ -4,7 +4,9 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <system_error>
 
@@ -16,12 +18,25 @@ namespace malus::prep {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
+// Words are short: a loop over their characters is several times faster than the searches of std::string_view.
+constexpr bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
 std::string_view trimmed(std::string_view line) {
-  const std::size_t first = line.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return line.substr(first, line.find_last_not_of(kBlanks) - first + 1);
+  while (!line.empty() && isBlank(line.front())) line.remove_prefix(1);
+  while (!line.empty() && isBlank(line.back())) line.remove_suffix(1);
+  return line;
+}
+
+// Returns the position of the first byte below 0x20 from `begin` on, or the size of the text. Reads eight bytes at a
+// time; source: S. E. Anderson, "Bit Twiddling Hacks", "Determine if a word has a byte less than n".
+std::size_t findControl(std::string_view text, std::size_t begin) {
+  constexpr std::uint64_t kOnes = 0x0101010101010101u, kHighBits = 0x80 * kOnes, kBlank = 0x20 * kOnes;
+  for (std::uint64_t word = 0; begin + sizeof word <= text.size(); begin += sizeof word) {
+    std::memcpy(&word, text.data() + begin, sizeof word);
+    if (((word - kBlank) & ~word & kHighBits) != 0) break;
+  }
+  while (begin < text.size() && static_cast<unsigned char>(text[begin]) >= 0x20) ++begin;
+  return begin;
 }
 
 // Validates UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
@@ -59,13 +74,11 @@ std::size_t findComment(std::string_view line, char comment) {
 std::string_view Lines::takeRaw() {
   // Find the line end, and reject other control characters.
   const std::size_t begin = end_, size = text_.size();
-  std::size_t stop = begin;
-  for (; stop < size; ++stop) {
-    const auto c = static_cast<unsigned char>(text_[stop]);
-    if (c >= 0x20 || c == '\t') continue;
-    if (c == '\n' || c == '\r') break;
-    fail("control character in a text file", "ASCII or UTF-8", fmt::format("byte {:#04x}", c));
-  }
+  std::size_t stop = findControl(text_, begin);
+  while (stop < size && text_[stop] == '\t') stop = findControl(text_, stop + 1);
+  if (stop < size && text_[stop] != '\n' && text_[stop] != '\r')
+    fail("control character in a text file", "ASCII or UTF-8",
+         fmt::format("byte {:#04x}", static_cast<unsigned char>(text_[stop])));
 
   // Skip it. In a file of CR alone, an LF belongs to the data after the line.
   end_ = std::min(stop + 1, size);
@@ -156,9 +169,8 @@ void Lines::fail(std::string_view problem, std::string_view expected, std::strin
 }
 
 std::size_t lengthWithoutComment(std::string_view names, char comment) {
-  const auto isBlank = [&](std::size_t i) { return kBlanks.find(names[i]) != std::string_view::npos; };
   for (std::size_t i = names.find(comment); i < names.size(); i = names.find(comment, i + 1))
-    if (i > 0 && isBlank(i - 1) && (i + 1 == names.size() || isBlank(i + 1))) return i;
+    if (i > 0 && isBlank(names[i - 1]) && (i + 1 == names.size() || isBlank(names[i + 1]))) return i;
   return names.size();
 }
 
@@ -179,10 +191,12 @@ bool removePadding(std::string& text) {
 bool isPadding(std::string_view bytes) { return bytes.find_first_not_of(kPadding) == std::string_view::npos; }
 
 std::string_view takeWord(std::string_view& rest) {
-  const std::size_t begin = rest.find_first_not_of(kBlanks);
-  rest.remove_prefix(begin == std::string_view::npos ? rest.size() : begin);
-  const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
-  rest.remove_prefix(word.size());
+  std::size_t begin = 0;
+  while (begin < rest.size() && isBlank(rest[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < rest.size() && !isBlank(rest[end])) ++end;
+  const std::string_view word = rest.substr(begin, end - begin);
+  rest.remove_prefix(end);
   return word;
 }
 

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "meshprep/base/parallel_blocks.h"
 #include "meshprep/clean/select.h"
 
 namespace malus::prep {
@@ -210,6 +211,7 @@ DegenerateFaces dropDegenerateFaces(Mesh& mesh) {
     result.repeatedCorner.add([&] { return findingAt(mesh, mesh.positions[mesh.triangles[i].x], {i}); });
     return false;
   });
+  if (allNumbers(mesh.triangles.size(), [&](std::size_t i) { return hasArea(mesh, mesh.triangles[i]); })) return result;
   for (int round = 0; round < kRounds && collapseShortEdges(mesh, result); ++round) {
   }
 

@@ -4,12 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include <oneapi/tbb/parallel_sort.h>
-
+#include "meshprep/base/bucket_sort.h"
 #include "meshprep/clean/disjoint_sets.h"
 #include "meshprep/clean/edges.h"
 #include "meshprep/clean/select.h"
@@ -20,26 +20,36 @@ namespace {
 
 // Triangle with sorted vertices.
 struct Face {
-  std::array<std::uint32_t, 3> vertices{};
+  std::uint32_t low = 0, middle = 0, high = 0;
   std::uint32_t triangle = 0;
-  bool even = false;  // orientation: smallest, middle, largest
+  bool even = false;  // orientation: low, middle, high
+
+  bool hasSameVertices(const Face& other) const {
+    return low == other.low && middle == other.middle && high == other.high;
+  }
 };
 
+Face makeFace(const glm::uvec3& t, std::uint32_t triangle) {
+  Face face{std::min({t.x, t.y, t.z}), 0, std::max({t.x, t.y, t.z}), triangle, false};
+  face.middle = std::max(std::min(t.x, t.y), std::min(std::max(t.x, t.y), t.z));
+  face.even = (t.x == face.low && t.y == face.middle) || (t.y == face.low && t.z == face.middle) ||
+              (t.z == face.low && t.x == face.middle);
+  return face;
+}
+
+// Returns the faces by their vertices, then by triangle.
 std::vector<Face> sortedFaces(const Mesh& mesh) {
-  std::vector<Face> faces;
-  faces.reserve(mesh.triangles.size());
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const glm::uvec3& t = mesh.triangles[i];
-    Face face{{t.x, t.y, t.z}, i, false};
-    std::sort(face.vertices.begin(), face.vertices.end());
-    const auto& [a, b, c] = face.vertices;
-    face.even = (t.x == a && t.y == b) || (t.y == a && t.z == b) || (t.z == a && t.x == b);
-    faces.push_back(face);
-  }
-  oneapi::tbb::parallel_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.triangle < b.triangle;
-  });
-  return faces;
+  const auto forEach = [&](auto visit) {
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      const Face face = makeFace(mesh.triangles[i], i);
+      visit(face.low, face);
+    }
+  };
+  return sortInBuckets<Face>(mesh.positions.size(), forEach,
+                             [](const Face& a, const Face& b) {
+                               return std::tie(a.middle, a.high, a.triangle) < std::tie(b.middle, b.high, b.triangle);
+                             })
+      .items;
 }
 
 constexpr std::uint32_t kNone = kNoSource;
@@ -164,7 +174,7 @@ DuplicateFaces dropDuplicateFaces(Mesh& mesh, bool dropOpposite) {
   std::vector<std::array<std::uint32_t, 2>> pairs;
   for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
     std::array<std::uint32_t, 2> first{kNone, kNone};  // per orientation
-    for (; end < faces.size() && faces[end].vertices == faces[begin].vertices; ++end) {
+    for (; end < faces.size() && faces[end].hasSameVertices(faces[begin]); ++end) {
       const Face& face = faces[end];
       std::uint32_t& earlier = first[face.even ? 1 : 0];
       if (earlier != kNone) {

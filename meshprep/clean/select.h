@@ -21,6 +21,10 @@ void keepTriangles(Mesh& mesh, Keep keep) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (!keep(i)) continue;
+    if (kept == i) {  // nothing is removed so far
+      ++kept;
+      continue;
+    }
     mesh.triangles[kept] = mesh.triangles[i];
     if (!mesh.sourceFaces.empty()) mesh.sourceFaces[kept] = mesh.sourceFaces[i];
     if (!mesh.sourceCorners.empty()) mesh.sourceCorners[kept] = mesh.sourceCorners[i];
@@ -34,6 +38,7 @@ void keepTriangles(Mesh& mesh, Keep keep) {
         mesh.cornerTextures[3 * kept + corner] = mesh.cornerTextures[3 * i + corner];
     ++kept;
   }
+  if (kept == mesh.triangles.size()) return;
   mesh.triangles.resize(kept);
   if (!mesh.sourceFaces.empty()) mesh.sourceFaces.resize(kept);
   if (!mesh.sourceCorners.empty()) mesh.sourceCorners.resize(kept);
@@ -83,16 +88,21 @@ inline void flipTriangle(Mesh& mesh, std::size_t i) {
   if (!mesh.cornerTextures.empty()) std::swap(mesh.cornerTextures[3 * i + 1], mesh.cornerTextures[3 * i + 2]);
 }
 
+// Returns the values of these numbers.
+template <class T>
+std::vector<T> selected(const std::vector<T>& values, const std::vector<std::uint32_t>& numbers) {
+  std::vector<T> result;
+  result.reserve(numbers.size());
+  for (const std::uint32_t i : numbers) result.push_back(values[i]);
+  return result;
+}
+
 // Replaces the vertices by those of `from`, one old index per new vertex, and old indices i of triangles by
 // newIndex[i].
 inline void selectVertices(Mesh& mesh, const std::vector<std::uint32_t>& from,
                            const std::vector<std::uint32_t>& newIndex) {
   const auto take = [&](auto& values) {
-    if (values.empty()) return;
-    auto kept = values;
-    kept.resize(from.size());
-    for (std::size_t i = 0; i < from.size(); ++i) kept[i] = values[from[i]];
-    values = std::move(kept);
+    if (!values.empty()) values = selected(values, from);
   };
   take(mesh.positions);
   take(mesh.normals);

@@ -1,17 +1,15 @@
 #include "meshprep/compress/deviation.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "meshprep/base/parallel_blocks.h"
 #include "meshprep/compress/bounds.h"
 
 namespace malus::compress {
@@ -106,36 +104,24 @@ class ClearFace {
 // the errors of clear normals are below 1e-12.
 constexpr double kCertain = 1 - 1e-6, kLeastTangentSquared = 1e-10;
 
-// Calls add(first, last, list) for blocks of the numbers 0 to count - 1 in parallel and returns the lists in order. The
-// blocks do not depend on the number of threads.
-template <class Add>
-std::vector<std::uint32_t> collect(std::size_t count, Add add) {
-  constexpr std::size_t kBlock = 1u << 14u;
-  std::vector<std::vector<std::uint32_t>> lists((count + kBlock - 1) / kBlock);
-  tbb::parallel_for(std::size_t{0}, lists.size(),
-                    [&](std::size_t i) { add(i * kBlock, std::min(count, (i + 1) * kBlock), lists[i]); });
-  std::vector<std::uint32_t> all;
-  for (const std::vector<std::uint32_t>& list : lists) all.insert(all.end(), list.begin(), list.end());
-  return all;
-}
-
 // Returns the faces in order without those that certainly have area and are tilted by less than the default and less
 // than an earlier face.
 std::vector<std::uint32_t> facesToMeasure(const MeshView& source, std::span<const glm::dvec3> positions,
                                           double leastCross) {
   const double tangent = std::tan(glm::radians(kDefaultTiltDegrees));
-  return collect(source.triangles.size(), [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
-    double most = 0;  // squared tangent, of the faces in the list
-    for (std::size_t i = first; i < last; ++i) {
-      const ClearFace before(source.positions, source.triangles[i]), after(positions, source.triangles[i]);
-      if (before.isClear() && after.isClear(leastCross)) {
-        const double tilt = before.tangentSquared(after);
-        if (most >= kLeastTangentSquared && tilt <= kCertain * most) continue;
-        most = std::min(std::max(most, tilt), tangent * tangent);
-      }
-      list.push_back(static_cast<std::uint32_t>(i));
-    }
-  });
+  return collectBlocks<std::uint32_t>(
+      source.triangles.size(), [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
+        double most = 0;  // squared tangent, of the faces in the list
+        for (std::size_t i = first; i < last; ++i) {
+          const ClearFace before(source.positions, source.triangles[i]), after(positions, source.triangles[i]);
+          if (before.isClear() && after.isClear(leastCross)) {
+            const double tilt = before.tangentSquared(after);
+            if (most >= kLeastTangentSquared && tilt <= kCertain * most) continue;
+            most = std::min(std::max(most, tilt), tangent * tangent);
+          }
+          list.push_back(static_cast<std::uint32_t>(i));
+        }
+      });
 }
 
 double farthest(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) {
@@ -158,18 +144,6 @@ bool faceWithin(const MeshView& source, std::span<const glm::dvec3> positions, c
   const double dot = glm::dot(*before, *after);
   const double lengths = std::sqrt(glm::dot(*before, *before) * glm::dot(*after, *after));
   return dot >= lengths * (cosine + 1e-9) || degreesBetween(*before, *after) <= limits.tiltDegrees;
-}
-
-// Returns true if isWithin(first, last) is true for all blocks of the numbers 0 to count - 1. Stops at the first that
-// is not.
-template <class IsWithin>
-bool allWithin(std::size_t count, IsWithin isWithin) {
-  std::atomic<bool> all{true};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i < range.end() && all.load(std::memory_order_relaxed); ++i)
-      if (!isWithin(i)) all.store(false, std::memory_order_relaxed);
-  });
-  return all;
 }
 
 }  // namespace
@@ -219,7 +193,7 @@ bool positionsWithin(const MeshView& source, std::span<const glm::dvec3> positio
   const double cosine = std::cos(glm::radians(limits.tiltDegrees)),
                tangent = std::tan(glm::radians(std::min(limits.tiltDegrees, kMostQuickDegrees))),
                certain = kCertain * tangent * tangent;
-  return allWithin(source.triangles.size(), [&](std::size_t i) {
+  return allNumbers(source.triangles.size(), [&](std::size_t i) {
     const glm::uvec3& t = source.triangles[i];
     const ClearFace before(source.positions, t), after(positions, t);
     return (certain >= kLeastTangentSquared && before.isClear() && after.isClear(limits.leastCross) &&
@@ -230,7 +204,7 @@ bool positionsWithin(const MeshView& source, std::span<const glm::dvec3> positio
 
 bool normalsWithin(const MeshView& source, std::span<const glm::vec3> normals, const DeviationLimits& limits) {
   const double cosine = std::cos(glm::radians(limits.normalDegrees));
-  return allWithin(normals.size(), [&](std::size_t i) {
+  return allNumbers(normals.size(), [&](std::size_t i) {
     // Accept clear cases by the cosine, as faces.
     const glm::dvec3 a(source.normals[i]), b(normals[i]);
     const double lengths = std::sqrt(glm::dot(a, a) * glm::dot(b, b));

@@ -8,6 +8,8 @@
 
 #include <draco/compression/attributes/normal_compression_utils.h>
 
+#include "meshprep/base/bucket_sort.h"
+
 namespace malus::compress {
 
 namespace {
@@ -30,46 +32,39 @@ Corners canonical(const draco::Mesh::Face& face) {
 // Triangles sorted by their canonical corners, then by number.
 class SortedTriangles {
  public:
-  SortedTriangles(std::span<const draco::Mesh::Face> triangles, std::size_t vertices)
-      : first_(vertices + 1), entries_(triangles.size()) {
-    // Sort by the first corner: count, then place.
-    for (const draco::Mesh::Face& face : triangles) ++first_[canonical(face).first + 1];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      const Corners corners = canonical(triangles[i]);
-      entries_[next[corners.first]++] = {corners.second, corners.third, static_cast<std::uint32_t>(i)};
-    }
-
-    // Sort the triangles of each first corner.
-    for (std::size_t v = 0; v < vertices; ++v)
-      std::sort(entries_.begin() + first_[v], entries_.begin() + first_[v + 1], [](const Entry& a, const Entry& b) {
-        return std::tie(a.second, a.third, a.number) < std::tie(b.second, b.third, b.number);
-      });
+  SortedTriangles(std::span<const draco::Mesh::Face> triangles, std::size_t vertices) {
+    const auto forEach = [&](auto visit) {
+      for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const Corners corners = canonical(triangles[i]);
+        visit(corners.first, Entry{corners.second, corners.third, i});
+      }
+    };
+    sorted_ = sortInBuckets<Entry>(vertices, forEach, [](const Entry& a, const Entry& b) {
+      return std::tie(a.second, a.third, a.number) < std::tie(b.second, b.third, b.number);
+    });
   }
 
   // Returns the position of the first triangle with these corners in the sorted list, or its size.
   std::size_t find(const Corners& corners) const {
-    const auto end = entries_.begin() + first_[corners.first + 1];
+    const auto end = sorted_.items.begin() + sorted_.first[corners.first + 1];
     const auto found = std::lower_bound(
-        entries_.begin() + first_[corners.first], end, corners,
+        sorted_.items.begin() + sorted_.first[corners.first], end, corners,
         [](const Entry& a, const Corners& b) { return std::tie(a.second, a.third) < std::tie(b.second, b.third); });
-    return found == end ? entries_.size() : static_cast<std::size_t>(found - entries_.begin());
+    return found == end ? sorted_.items.size() : static_cast<std::size_t>(found - sorted_.items.begin());
   }
 
   bool hasAt(std::size_t position, const Corners& corners) const {
-    return position < first_[corners.first + 1] && entries_[position].second == corners.second &&
-           entries_[position].third == corners.third;
+    return position < sorted_.first[corners.first + 1] && sorted_.items[position].second == corners.second &&
+           sorted_.items[position].third == corners.third;
   }
-  std::uint32_t numberAt(std::size_t position) const { return entries_[position].number; }
+  std::uint32_t numberAt(std::size_t position) const { return sorted_.items[position].number; }
 
  private:
   struct Entry {
     std::uint32_t second, third;  // corners
     std::uint32_t number;
   };
-  std::vector<std::uint32_t> first_;  // position of the triangles of each first corner
-  std::vector<Entry> entries_;
+  Buckets<Entry> sorted_;  // by first corner
 };
 
 // Compares the integers of an attribute.
@@ -77,13 +72,11 @@ bool haveEqualIntegers(const draco::PointAttribute& source, const draco::PointAt
                        std::span<const std::uint32_t> vertices) {
   const auto bytes = static_cast<std::size_t>(source.byte_stride());
   if (decoded.byte_stride() != source.byte_stride()) return false;
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    const draco::AttributeValueIndex value = decoded.mapped_index(draco::PointIndex(i));
-    if (value.value() >= decoded.size() ||
-        std::memcmp(source.GetAddress(draco::AttributeValueIndex(vertices[i])), decoded.GetAddress(value), bytes) != 0)
-      return false;
-  }
-  return true;
+  return allNumbers(vertices.size(), [&](std::size_t i) {
+    const draco::AttributeValueIndex value = decoded.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i)));
+    return value.value() < decoded.size() && std::memcmp(source.GetAddress(draco::AttributeValueIndex(vertices[i])),
+                                                         decoded.GetAddress(value), bytes) == 0;
+  });
 }
 
 // Compares decoded normals with those of the source as Draco rounds them.
@@ -91,8 +84,8 @@ bool haveEqualNormals(const draco::PointAttribute& source, const draco::PointAtt
                       std::span<const std::uint32_t> vertices, int bits) {
   draco::OctahedronToolBox octahedron;
   octahedron.SetQuantizationBits(bits);
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    const draco::AttributeValueIndex value = decoded.mapped_index(draco::PointIndex(i));
+  return allNumbers(vertices.size(), [&](std::size_t i) {
+    const draco::AttributeValueIndex value = decoded.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i)));
     if (value.value() >= decoded.size()) return false;
     std::array<float, 3> normal{}, expected{}, found{};
     source.GetValue(draco::AttributeValueIndex(vertices[i]), &normal);
@@ -100,9 +93,8 @@ bool haveEqualNormals(const draco::PointAttribute& source, const draco::PointAtt
     std::int32_t s = 0, t = 0;
     octahedron.FloatVectorToQuantizedOctahedralCoords(normal.data(), &s, &t);
     octahedron.QuantizedOctahedralCoordsToUnitVector(s, t, expected.data());
-    if (found != expected) return false;
-  }
-  return true;
+    return found == expected;
+  });
 }
 
 }  // namespace

@@ -82,13 +82,17 @@ class Ring {
 
 bool isConvex(const FlatPolygon& flat) {
   const std::size_t n = flat.points.size();
-  double turn = 0;
+  const auto edge = [&](std::size_t i) { return flat.points[(i + 1) % n] - flat.points[i % n]; };
+  bool isQuad = n == 4;  // of four left turns, which are one turn together
   for (std::size_t i = 0; i < n; ++i) {
-    const glm::dvec2 a = flat.points[(i + 1) % n] - flat.points[i];
-    const glm::dvec2 b = flat.points[(i + 2) % n] - flat.points[(i + 1) % n];
-    if (cross2(a, b) < -rounding(flat, a, b)) return false;
-    turn += std::atan2(cross2(a, b), glm::dot(a, b));
+    const glm::dvec2 a = edge(i), b = edge(i + 1);
+    const double cross = cross2(a, b), error = rounding(flat, a, b);
+    if (cross < -error) return false;
+    isQuad = isQuad && cross > error;
   }
+  if (isQuad) return true;
+  double turn = 0;
+  for (std::size_t i = 0; i < n; ++i) turn += std::atan2(cross2(edge(i), edge(i + 1)), glm::dot(edge(i), edge(i + 1)));
   return turn < 3 * 3.14159265358979;
 }
 

@@ -17,17 +17,6 @@ std::uint64_t mixed(std::uint64_t h) {
   return h ^ h >> 33u;
 }
 
-// Does not depend on the order of the corners. Adding 0 makes zeros of both signs equal.
-std::uint64_t hashCorners(std::span<const glm::dvec3> positions) {
-  std::uint64_t sum = positions.size();
-  for (const glm::dvec3& p : positions) {
-    std::uint64_t h = 0;
-    for (int i = 0; i < 3; ++i) h = mixed(h + std::bit_cast<std::uint64_t>(p[i] + 0.0));
-    sum += h;
-  }
-  return sum;
-}
-
 // Returns for each corner of `a` the corner of `b` at the same position, if the cyclic orders are equal, or opposite
 // with `reversed`, and no position occurs twice in `b`.
 std::optional<std::vector<std::uint32_t>> matchCorners(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b,
@@ -54,19 +43,37 @@ bool hasRepetition(std::span<const glm::dvec3> positions) {
 
 }  // namespace
 
-void RepeatedPolygons::reserve(std::size_t polygons) {
-  first_.reserve(polygons + 1);
-  hashes_.reserve(polygons);
-  const std::size_t slots = std::bit_ceil(2 * polygons + 1);
-  if (slots <= table_.size()) return;
-  const std::vector<std::uint32_t> before = std::exchange(table_, std::vector<std::uint32_t>(slots, kEmpty));
+// Does not depend on the order of the corners. Adding 0 makes zeros of both signs equal.
+std::uint64_t hashCorners(std::span<const glm::dvec3> positions) {
+  std::uint64_t sum = positions.size();
+  for (const glm::dvec3& p : positions) {
+    std::uint64_t h = 0;
+    for (int i = 0; i < 3; ++i) h = mixed(h + std::bit_cast<std::uint64_t>(p[i] + 0.0));
+    sum += h;
+  }
+  return sum;
+}
+
+RepeatedHashes::RepeatedHashes(std::size_t size) {
+  constexpr std::size_t kSlots = 8;  // per hash: few share one
+  counts_.resize(std::bit_ceil(kSlots * size + 1), 0);
+}
+
+void RepeatedHashes::add(std::uint64_t hash) {
+  std::uint8_t& count = counts_[hash & (counts_.size() - 1)];
+  count = std::min<std::uint8_t>(count + 1u, 2);
+}
+
+void RepeatedPolygons::grow() {
+  const std::vector<std::uint32_t> before =
+      std::exchange(table_, std::vector<std::uint32_t>(std::max(std::size_t{64}, 2 * table_.size()), kEmpty));
   used_ = 0;
   for (const std::uint32_t number : before)
     if (number != kEmpty) insert(number);
 }
 
 void RepeatedPolygons::insert(std::size_t number) {
-  if (2 * (used_ + 1) > table_.size()) reserve(used_ + 1);
+  if (2 * (used_ + 1) > table_.size()) grow();
   std::size_t slot = hashes_[number];
   while (table_[slot & (table_.size() - 1)] != kEmpty) ++slot;
   table_[slot & (table_.size() - 1)] = static_cast<std::uint32_t>(number);

@@ -13,6 +13,21 @@
 
 namespace malus::prep {
 
+// Returns a number that is equal for polygons with the same positions in any order.
+std::uint64_t hashCorners(std::span<const glm::dvec3> positions);
+
+// Set of the hashes that occur more than once. May report others, too.
+class RepeatedHashes {
+ public:
+  // Adds the hash of a polygon; size: at least their number.
+  explicit RepeatedHashes(std::size_t size);
+  void add(std::uint64_t hash);
+  bool mayContain(std::uint64_t hash) const { return counts_[hash & (counts_.size() - 1)] > 1; }
+
+ private:
+  std::vector<std::uint8_t> counts_;  // of hashes, at most 2, by their lowest bits
+};
+
 class RepeatedPolygons {
  public:
   // Earlier polygon with the same corners: its number in order of add(), and for each of its corners the number of the
@@ -23,9 +38,6 @@ class RepeatedPolygons {
     bool reversed;  // the order of the corners is opposite
   };
 
-  // Reserves memory for this number of polygons.
-  void reserve(std::size_t polygons);
-
   // Adds a polygon of at least three corners. Returns the earliest one with the same positions in the same or the
   // opposite cyclic order. Polygons that visit a position twice are not compared.
   std::optional<Match> add(std::span<const glm::dvec3> positions);
@@ -35,6 +47,7 @@ class RepeatedPolygons {
     return std::span(positions_).subspan(first_[i], first_[i + 1] - first_[i]);
   }
 
+  void grow();
   void insert(std::size_t number);
 
   std::vector<glm::dvec3> positions_;

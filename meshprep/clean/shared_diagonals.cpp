@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -9,6 +10,7 @@
 
 #include <tbb/parallel_sort.h>
 
+#include "meshprep/base/parallel_blocks.h"
 #include "meshprep/clean/flat_polygon.h"
 #include "meshprep/clean/position_ids.h"
 #include "meshprep/clean/triangulate.h"
@@ -31,13 +33,13 @@ struct Diagonal {
 // Set of edges that may report edges that it does not contain.
 class EdgeFilter {
  public:
-  explicit EdgeFilter(const std::vector<Diagonal>& diagonals) : bits_(8 * diagonals.size() + 64, false) {
+  explicit EdgeFilter(const std::vector<Diagonal>& diagonals) : bits_(std::bit_ceil(8 * diagonals.size() + 64), false) {
     for (const Diagonal& d : diagonals) bits_[slot(d.key)] = true;
   }
   bool mayContain(EdgeKey key) const { return bits_[slot(key)]; }
 
  private:
-  std::size_t slot(EdgeKey key) const { return (key * 0x9e3779b97f4a7c15u >> 20u) % bits_.size(); }
+  std::size_t slot(EdgeKey key) const { return (key * 0x9e3779b97f4a7c15u >> 20u) & (bits_.size() - 1); }
   std::vector<bool> bits_;
 };
 
@@ -60,22 +62,26 @@ class Recutter {
  private:
   std::size_t triangleCount(std::size_t face) const { return firstTriangle_[face + 1] - firstTriangle_[face]; }
 
-  // Calls visit(key) for the edges between triangles of a face.
+  // Calls visit(key) for the edges between triangles of a face. edges: memory for them.
   template <class Visit>
-  void forDiagonals(std::size_t face, Visit visit) {
-    edges_.clear();
+  void forDiagonals(std::size_t face, std::vector<EdgeKey>& edges, Visit visit) const {
+    edges.clear();
     for (std::size_t t = firstTriangle_[face]; t < firstTriangle_[face + 1]; ++t)
       for (int k = 0; k < 3; ++k)
-        edges_.push_back(makeKey(ids_[mesh_.triangles[t][k]], ids_[mesh_.triangles[t][(k + 1) % 3]]));
-    std::sort(edges_.begin(), edges_.end());
-    for (std::size_t i = 1; i < edges_.size(); ++i)
-      if (edges_[i] == edges_[i - 1]) visit(edges_[i]);
+        edges.push_back(makeKey(ids_[mesh_.triangles[t][k]], ids_[mesh_.triangles[t][(k + 1) % 3]]));
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 1; i < edges.size(); ++i)
+      if (edges[i] == edges[i - 1]) visit(edges[i]);
   }
 
   void listDiagonals() {
-    for (std::size_t face = 0; face < polygons_.faceCount(); ++face)
-      if (triangleCount(face) > 1)
-        forDiagonals(face, [&](EdgeKey key) { diagonals_.push_back({key, static_cast<std::uint32_t>(face)}); });
+    diagonals_ = collectBlocks<Diagonal>(
+        polygons_.faceCount(), [&](std::size_t first, std::size_t last, std::vector<Diagonal>& list) {
+          std::vector<EdgeKey> edges;
+          for (std::size_t face = first; face < last; ++face)
+            if (triangleCount(face) > 1)
+              forDiagonals(face, edges, [&](EdgeKey key) { list.push_back({key, static_cast<std::uint32_t>(face)}); });
+        });
     tbb::parallel_sort(diagonals_.begin(), diagonals_.end(), [](const Diagonal& a, const Diagonal& b) {
       return a.key != b.key ? a.key < b.key : a.face < b.face;
     });
@@ -100,11 +106,15 @@ class Recutter {
       if (diagonals_[i].key == diagonals_[i - 1].key)
         faces.insert(faces.end(), {diagonals_[i - 1].face, diagonals_[i].face});
     const EdgeFilter filter(diagonals_);
-    for (std::size_t face = 0; face < polygons_.faceCount() && !diagonals_.empty(); ++face)
-      forEdges(face, [&](EdgeKey key) {
-        if (!filter.mayContain(key)) return;
-        for (auto [found, end] = range(key); found != end; ++found) faces.push_back(found->face);
-      });
+    const std::vector<std::uint32_t> besideEdges = collectBlocks<std::uint32_t>(
+        polygons_.faceCount(), [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
+          for (std::size_t face = first; face < last; ++face)
+            forEdges(face, [&](EdgeKey key) {
+              if (!filter.mayContain(key)) return;
+              for (auto [found, end] = range(key); found != end; ++found) list.push_back(found->face);
+            });
+        });
+    faces.insert(faces.end(), besideEdges.begin(), besideEdges.end());
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     return faces;
@@ -153,15 +163,15 @@ class Recutter {
 
     // Count its conflicts without its own diagonals.
     std::uint32_t conflicts = 0;
-    forDiagonals(face, [&](EdgeKey key) { --uses_[key]; });
-    forDiagonals(face, [&](EdgeKey key) { conflicts += countUses(key) > 0 ? 1u : 0u; });
+    forDiagonals(face, edges_, [&](EdgeKey key) { --uses_[key]; });
+    forDiagonals(face, edges_, [&](EdgeKey key) { conflicts += countUses(key) > 0 ? 1u : 0u; });
     const auto cut = conflicts > 0 ? findCut(face, kept) : std::nullopt;
     const bool better = cut && cut->first < conflicts;
     if (better)
       for (std::size_t i = 0; i < cut->second.size(); ++i)
         setTriangle(firstTriangle_[face] + i, face,
                     {kept[cut->second[i].x], kept[cut->second[i].y], kept[cut->second[i].z]});
-    forDiagonals(face, [&](EdgeKey key) { ++uses_[key]; });
+    forDiagonals(face, edges_, [&](EdgeKey key) { ++uses_[key]; });
     return better;
   }
 

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "meshprep/base/error.h"
+#include "meshprep/base/parallel_blocks.h"
 #include "meshprep/clean/convex_polygon.h"
 #include "meshprep/clean/ears.h"
 #include "meshprep/clean/flat_polygon.h"
@@ -20,6 +21,72 @@
 namespace malus::prep {
 
 namespace {
+
+// Corners of a face without those at the position of the previous one.
+struct SimplePolygon {
+  std::vector<std::uint32_t> corners;  // of the face, from 0
+  std::vector<glm::dvec3> positions;
+
+  void read(const Polygons& polygons, std::size_t face) {
+    const std::span<const std::uint32_t> all = polygons.face(face);
+    corners.clear();
+    positions.clear();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const glm::dvec3& position = polygons.positions[all[i]];
+      if (!positions.empty() && position == positions.back()) continue;
+      corners.push_back(static_cast<std::uint32_t>(i));
+      positions.push_back(position);
+    }
+    while (positions.size() > 1 && positions.back() == positions.front()) {
+      corners.pop_back();
+      positions.pop_back();
+    }
+  }
+};
+
+// Face of more than three corners. Most are convex and no copies of another one; they are cut by all threads.
+struct Polygon {
+  std::uint64_t hash = 0;       // of its positions
+  std::uint32_t triangles = 0;  // 0: it is not convex, or has repeated corners
+  bool isNonPlanar = false;
+};
+
+// Faces of more than three corners of a block of faces, and the triangles of those that are cut, of corners of a face.
+struct PolygonBlock {
+  std::vector<Polygon> polygons;
+  std::vector<glm::uvec3> triangles;
+
+  void add(const Polygons& all, std::size_t face, SimplePolygon& simple) {
+    simple.read(all, face);
+    Polygon& polygon = polygons.emplace_back();
+    polygon.hash = hashCorners(simple.positions);
+    if (simple.corners.size() < all.face(face).size()) return;
+    const FlatPolygon flat = flatten(simple.positions);
+    const std::size_t before = triangles.size();
+    if (!isConvex(flat) || !addConvex(flat, triangles)) return;
+    polygon.triangles = static_cast<std::uint32_t>(triangles.size() - before);
+    polygon.isNonPlanar = !flat.planar;
+  }
+};
+
+std::vector<PolygonBlock> cutConvex(const Polygons& polygons) {
+  std::vector<PolygonBlock> blocks(countBlocks(polygons.faceCount()));
+  forBlocks(polygons.faceCount(), [&](std::size_t block, std::size_t first, std::size_t last) {
+    SimplePolygon simple;
+    for (std::size_t face = first; face < last; ++face)
+      if (polygons.face(face).size() > 3) blocks[block].add(polygons, face, simple);
+  });
+  return blocks;
+}
+
+RepeatedHashes repeatedHashes(const std::vector<PolygonBlock>& blocks) {
+  std::size_t polygons = 0;
+  for (const PolygonBlock& block : blocks) polygons += block.polygons.size();
+  RepeatedHashes hashes(polygons);
+  for (const PolygonBlock& block : blocks)
+    for (const Polygon& polygon : block.polygons) hashes.add(polygon.hash);
+  return hashes;
+}
 
 class Triangulation {
  public:
@@ -33,16 +100,11 @@ class Triangulation {
     reserve();
     std::vector<std::size_t> firstTriangle;
     firstTriangle.reserve(polygons_.faceCount() + 1);
-    for (std::size_t f = 0; f < polygons_.faceCount(); ++f) {
-      firstTriangle.push_back(mesh_.triangles.size());
-      if (polygons_.face(f).size() < 3) {
-        ++counts_.fewCorners;
-      } else if (polygons_.face(f).size() == 3) {
-        add(f, {0, 1, 2});
-      } else {
-        addPolygon(f);
-      }
-    }
+    const std::vector<PolygonBlock> blocks = cutConvex(polygons_);
+    const RepeatedHashes repeated = repeatedHashes(blocks);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      addBlock(b * kParallelBlock, std::min(polygons_.faceCount(), (b + 1) * kParallelBlock), blocks[b], repeated,
+               firstTriangle);
     firstTriangle.push_back(mesh_.triangles.size());
     counts_.recut = recutSharedDiagonals(polygons_, firstTriangle, mesh_);
     return std::move(mesh_);
@@ -55,6 +117,9 @@ class Triangulation {
   };
 
   void reserve();
+  void addBlock(std::size_t first, std::size_t last, const PolygonBlock& block, const RepeatedHashes& repeated,
+                std::vector<std::size_t>& firstTriangle);
+  void addSmall(std::size_t face);
   void addPolygon(std::size_t face);
   Shape cut(std::size_t face, const FlatPolygon& flat);
   void copyCut(const RepeatedPolygons::Match& match);
@@ -67,26 +132,23 @@ class Triangulation {
   EarCutter ears_;
   std::uint64_t tests_;
 
-  // Polygons of more than three corners, with the range of their triangles in cuts_, which have corners of the polygon.
+  // Polygons that may be repeated or are not convex, with the range of their triangles in cuts_, which have corners of
+  // the polygon.
   RepeatedPolygons repeated_;
   std::vector<glm::uvec3> cuts_;
   std::vector<std::size_t> firstCut_ = {0};
   std::vector<Shape> shapes_;
 
-  // Current polygon: kept corners, their positions, and triangles of indices into these.
-  std::vector<std::uint32_t> kept_;
-  std::vector<glm::dvec3> positions_;
+  // Current polygon, and triangles of indices into its corners.
+  SimplePolygon simple_;
   std::vector<glm::uvec3> triangles_;
 };
 
 // Reserves memory for all triangles: at most corners - 2 per face.
 void Triangulation::reserve() {
-  std::size_t most = 0, polygons = 0;
-  for (std::size_t f = 0; f < polygons_.faceCount(); ++f) {
+  std::size_t most = 0;
+  for (std::size_t f = 0; f < polygons_.faceCount(); ++f)
     most += std::max(polygons_.face(f).size(), std::size_t{2}) - 2;
-    polygons += polygons_.face(f).size() > 3 ? 1 : 0;
-  }
-  repeated_.reserve(polygons);
   mesh_.triangles.reserve(most);
   mesh_.sourceFaces.reserve(most);
   if (!polygons_.cornerNormals.empty() || !polygons_.normals.empty()) mesh_.cornerNormals.reserve(3 * most);
@@ -117,37 +179,54 @@ void Triangulation::add(std::size_t face, const glm::uvec3& corners) {
   if (!polygons_.smoothingGroups.empty()) mesh_.smoothingGroups.push_back(polygons_.smoothingGroups[face]);
 }
 
-void Triangulation::addPolygon(std::size_t face) {
-  ++counts_.polygons;
+// Appends the triangles of the faces of a block.
+void Triangulation::addBlock(std::size_t first, std::size_t last, const PolygonBlock& block,
+                             const RepeatedHashes& repeated, std::vector<std::size_t>& firstTriangle) {
+  auto polygon = block.polygons.begin();
+  auto cut = block.triangles.begin();
+  for (std::size_t face = first; face < last; ++face) {
+    firstTriangle.push_back(mesh_.triangles.size());
+    if (polygons_.face(face).size() <= 3) {
+      addSmall(face);
+      continue;
+    }
+    const auto end = cut + polygon->triangles;
+    if (cut == end || repeated.mayContain(polygon->hash)) {
+      addPolygon(face);
+    } else {
+      std::for_each(cut, end, [&](const glm::uvec3& corners) { add(face, corners); });
+      counts_.nonPlanar += polygon->isNonPlanar ? 1 : 0;
+    }
+    ++counts_.polygons;
+    cut = end;
+    ++polygon;
+  }
+}
 
-  // Drop corners at the position of the previous one.
-  const std::span<const std::uint32_t> corners = polygons_.face(face);
-  kept_.clear();
-  positions_.clear();
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const glm::dvec3& position = polygons_.positions[corners[i]];
-    if (!positions_.empty() && position == positions_.back()) continue;
-    kept_.push_back(static_cast<std::uint32_t>(i));
-    positions_.push_back(position);
-  }
-  while (positions_.size() > 1 && positions_.back() == positions_.front()) {
-    kept_.pop_back();
-    positions_.pop_back();
-  }
-  counts_.repeatedCorners += corners.size() - kept_.size();
+void Triangulation::addSmall(std::size_t face) {
+  if (polygons_.face(face).size() == 3)
+    add(face, {0, 1, 2});
+  else
+    ++counts_.fewCorners;
+}
+
+void Triangulation::addPolygon(std::size_t face) {
+  simple_.read(polygons_, face);
+  const std::vector<std::uint32_t>& kept = simple_.corners;
+  counts_.repeatedCorners += polygons_.face(face).size() - kept.size();
 
   // Append the triangles. A face without area becomes one degenerate triangle, which cleaning counts.
-  if (kept_.size() < 3) return add(face, {0, 1, 2});
-  if (kept_.size() == 3) return add(face, {kept_[0], kept_[1], kept_[2]});
-  const auto match = repeated_.add(positions_);
+  if (kept.size() < 3) return add(face, {0, 1, 2});
+  if (kept.size() == 3) return add(face, {kept[0], kept[1], kept[2]});
+  const auto match = repeated_.add(simple_.positions);
   if (match) copyCut(*match);
-  shapes_.push_back(match ? shapes_[match->polygon] : cut(face, flatten(positions_)));
+  shapes_.push_back(match ? shapes_[match->polygon] : cut(face, flatten(simple_.positions)));
   cuts_.insert(cuts_.end(), triangles_.begin(), triangles_.end());
   firstCut_.push_back(cuts_.size());
   counts_.concave += shapes_.back().isConcave ? 1 : 0;
   counts_.nonPlanar += shapes_.back().isNonPlanar ? 1 : 0;
   counts_.crossing += shapes_.back().isCrossing ? 1 : 0;
-  for (const glm::uvec3& t : triangles_) add(face, {kept_[t.x], kept_[t.y], kept_[t.z]});
+  for (const glm::uvec3& t : triangles_) add(face, {kept[t.x], kept[t.y], kept[t.z]});
 }
 
 // Triangulates as a convex polygon, by ears, or, if both fail, as a fan.

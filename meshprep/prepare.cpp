@@ -211,7 +211,8 @@ class Preparation {
   // Reports defects that are not repaired.
   void inspect() {
     if (options_.findJunctions) {
-      Junctions junctions = findJunctions(mesh_);
+      Junctions junctions;  // of boundary edges only
+      if (orientation_.boundaryEdges > 0) junctions = findJunctions(mesh_);
       step("t-junctions", std::move(junctions.found));
       step("t-junctions-unchecked", junctions.complete ? 0 : 1);
     }

@@ -40,12 +40,12 @@ std::uint32_t highCorner(const EdgeUse& use) { return use.forward ? endCorner(us
 
 class Splitter {
  public:
-  Splitter(Mesh& mesh, std::string_view where) : mesh_(mesh), where_(where) {}
+  Splitter(Mesh& mesh, std::string_view where) : mesh_(mesh), where_(where), connected_(3 * mesh.triangles.size()) {}
 
-  Fans run() {
-    pairUp();
+  Fans run(std::span<const EdgeUse> edges) {
+    const bool isManifold = connectFans(edges);
     splitVertices();
-    cutNonManifoldEdges();
+    if (!isManifold) cutNonManifoldEdges();
     return std::move(fans_);
   }
 
@@ -141,42 +141,43 @@ class Splitter {
   bool areBackToBack(const EdgeUse& a, const EdgeUse& b) const { return a.forward != b.forward && apex(a) == apex(b); }
   std::uint32_t apex(const EdgeUse& use) const { return mesh_.triangles[use.triangle][(use.corner + 2) % 3]; }
 
-  void pairUp() {
-    const std::vector<EdgeUse> uses = edgeUses(mesh_.triangles);
-    bool nonManifold = false;
-    forEachEdge(uses, [&](std::span<const EdgeUse> edge) { nonManifold = nonManifold || edge.size() > 2; });
-    if (nonManifold) findComponents(uses);
-    forEachEdge(uses, [&](std::span<const EdgeUse> edge) {
+  // Connects the corners of two triangles at both ends of their edge.
+  void connect(const EdgeUse& a, const EdgeUse& b) {
+    connected_.merge(lowCorner(a), lowCorner(b));
+    connected_.merge(highCorner(a), highCorner(b));
+  }
+
+  // Connects the corners of each fan. Returns false if an edge has more than two triangles.
+  bool connectFans(std::span<const EdgeUse> edges) {
+    bool isManifold = true;
+    forEachEdge(edges, [&](std::span<const EdgeUse> edge) { isManifold = isManifold && edge.size() <= 2; });
+    if (!isManifold) findComponents(edges);
+    forEachEdge(edges, [&](std::span<const EdgeUse> edge) {
       if (edge.size() == 1) return;
       if (edge.size() == 2) {
-        if (!areBackToBack(edge[0], edge[1])) pairs_.push_back({edge[0], edge[1], false});
+        if (!areBackToBack(edge[0], edge[1])) connect(edge[0], edge[1]);
         return;
       }
       fans_.edges.add([&] {
         return findingAt(mesh_, (mesh_.positions[edge[0].low] + mesh_.positions[edge[0].high]) * 0.5,
                          {edge[0].triangle, edge[1].triangle, edge[2].triangle}, {edge[0].low, edge[0].high});
       });
-      const std::vector<Pair> pairs = pairUses(edge);
-      pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
+      for (const Pair& pair : pairUses(edge))
+        if (!pair.single) connect(pair.first, pair.second);
     });
+    return isManifold;
   }
 
   void splitVertices() {
-    // Find the fans.
+    // Count the fans.
     const auto cornerCount = static_cast<std::uint32_t>(3 * mesh_.triangles.size());
-    DisjointSets fans(cornerCount);
-    for (const Pair& pair : pairs_) {
-      if (pair.single) continue;
-      fans.merge(lowCorner(pair.first), lowCorner(pair.second));
-      fans.merge(highCorner(pair.first), highCorner(pair.second));
-    }
     const auto vertexAt = [&](std::uint32_t corner) {
       return mesh_.triangles[corner / 3][static_cast<int>(corner % 3)];
     };
     std::vector<std::uint32_t> fanCounts(mesh_.positions.size(), 0);
     std::size_t fanCount = 0;
     for (std::uint32_t corner = 0; corner < cornerCount; ++corner) {
-      if (fans.find(corner) != corner) continue;
+      if (connected_.find(corner) != corner) continue;
       ++fanCounts[vertexAt(corner)];
       ++fanCount;
     }
@@ -196,7 +197,7 @@ class Splitter {
       const std::uint32_t name = mesh_.sourceCorners.empty()
                                      ? sourceVertex(mesh_, vertexAt(corner))
                                      : mesh_.sourceCorners[corner / 3][static_cast<int>(corner % 3)];
-      std::uint32_t& smallest = sourceByFan[fans.find(corner)];
+      std::uint32_t& smallest = sourceByFan[connected_.find(corner)];
       smallest = std::min(smallest, name);
     }
 
@@ -208,7 +209,7 @@ class Splitter {
     for (std::uint32_t v = 0; v < fanCounts.size(); ++v)
       if (fanCounts[v] < 2) vertices.push_back({sourceVertex(mesh_, v), v, kNoSource});
     for (std::uint32_t corner = 0; corner < cornerCount; ++corner)
-      if (fanCounts[vertexAt(corner)] > 1 && fans.find(corner) == corner)
+      if (fanCounts[vertexAt(corner)] > 1 && connected_.find(corner) == corner)
         vertices.push_back({sourceByFan[corner], vertexAt(corner), corner});
     std::stable_sort(vertices.begin(), vertices.end(), [](const NewVertex& a, const NewVertex& b) {
       return std::tie(a.name, a.old, a.firstCorner) < std::tie(b.name, b.old, b.firstCorner);
@@ -223,7 +224,7 @@ class Splitter {
     std::vector<glm::uvec3> triangles = mesh_.triangles;
     for (std::uint32_t corner = 0; corner < cornerCount; ++corner)
       triangles[corner / 3][static_cast<int>(corner % 3)] =
-          fanCounts[vertexAt(corner)] > 1 ? fanIndex[fans.find(corner)] : newIndex[vertexAt(corner)];
+          fanCounts[vertexAt(corner)] > 1 ? fanIndex[connected_.find(corner)] : newIndex[vertexAt(corner)];
     mesh_.normals.clear();
     selectVertices(mesh_, from, newIndex);
     mesh_.triangles = std::move(triangles);
@@ -297,12 +298,14 @@ class Splitter {
   Mesh& mesh_;
   std::string_view where_;
   std::vector<std::uint32_t> component_;
-  std::vector<Pair> pairs_;
+  DisjointSets connected_;  // corners of each fan
   Fans fans_;
 };
 
 }  // namespace
 
-Fans splitFans(Mesh& mesh, std::string_view where) { return Splitter(mesh, where).run(); }
+Fans splitFans(Mesh& mesh, std::span<const EdgeUse> edges, std::string_view where) {
+  return Splitter(mesh, where).run(edges);
+}
 
 }  // namespace malus::prep

@@ -10,8 +10,10 @@
 // manifold surfaces", IEEE TVCG 7(2), 2001.
 #pragma once
 
+#include <span>
 #include <string_view>
 
+#include "meshprep/clean/edges.h"
 #include "meshprep/findings.h"
 
 namespace malus::prep {
@@ -25,7 +27,7 @@ struct Fans {
 
 // Triangles should be oriented (orient.h) and must have three different vertices and area. Drops mesh.normals if it
 // changes the mesh. Throws Error at `where` if there are more than 65536 fans and four per vertex: the faces are
-// random.
-Fans splitFans(Mesh& mesh, std::string_view where = "mesh");
+// random. edges: edgeUses() of the triangles.
+Fans splitFans(Mesh& mesh, std::span<const EdgeUse> edges, std::string_view where = "mesh");
 
 }  // namespace malus::prep

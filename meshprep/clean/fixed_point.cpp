@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "meshprep/clean/edges.h"
 #include "meshprep/clean/unreferenced_vertices.h"
 
 namespace malus::prep {
@@ -28,9 +29,12 @@ Cleaned cleanOnce(Mesh& mesh, const Cleaning& steps) {
   if (mesh.triangles.empty()) return done;
 
   // Orient, split fans, fill holes, and orient again if these changed connectivity.
-  if (steps.orient) done.orientation = orient(mesh, steps.openSurface);
-  if (steps.fans && steps.degenerate) done.fans = splitFans(mesh, steps.where);
-  const std::vector<Loop> loops = findHoles(mesh);
+  std::vector<EdgeUse> edges = edgeUses(mesh.triangles);
+  if (steps.orient) done.orientation = orient(mesh, steps.openSurface, edges);
+  if (done.orientation.flipped.count > 0) edges = edgeUses(mesh.triangles);
+  if (steps.fans && steps.degenerate) done.fans = splitFans(mesh, edges, steps.where);
+  if (done.fans.changed()) edges = edgeUses(mesh.triangles);
+  const std::vector<Loop> loops = findHoles(edges);
   done.holes = describeHoles(mesh, loops);
   if (steps.fillHoles > 0) done.filled = fillHoles(mesh, loops, steps.fillHoles);
   if (steps.orient && (done.fans.changed() || done.filled.filled.count > 0))

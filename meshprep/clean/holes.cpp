@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -12,7 +11,6 @@
 
 #include "meshprep/base/error.h"
 #include "meshprep/clean/degenerate_faces.h"
-#include "meshprep/clean/edges.h"
 #include "meshprep/clean/intersections.h"
 #include "meshprep/clean/position_ids.h"
 #include "meshprep/clean/select.h"
@@ -67,11 +65,11 @@ void keepSeparateCaps(Mesh& mesh, const std::vector<Cap>& caps, std::size_t befo
 
 }  // namespace
 
-std::vector<Loop> findHoles(const Mesh& mesh) {
+std::vector<Loop> findHoles(std::span<const EdgeUse> edges) {
   // Collect boundary edges, opposite to the direction of their triangles.
   std::unordered_multimap<std::uint32_t, std::uint32_t> next;
   std::vector<std::uint32_t> starts;
-  forEachEdge(edgeUses(mesh.triangles), [&](std::span<const EdgeUse> edge) {
+  forEachEdge(edges, [&](std::span<const EdgeUse> edge) {
     if (edge.size() != 1) return;
     const std::uint32_t from = edge[0].forward ? edge[0].high : edge[0].low;
     next.emplace(from, edge[0].forward ? edge[0].low : edge[0].high);

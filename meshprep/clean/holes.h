@@ -2,8 +2,10 @@
 // loop's vertices (triangulate.h).
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "meshprep/clean/edges.h"
 #include "meshprep/findings.h"
 
 namespace malus::prep {
@@ -13,7 +15,7 @@ using Loop = std::vector<std::uint32_t>;
 
 // Returns the holes in the order of their smallest vertices. Every vertex must have one fan (fans.h). Ignores edges
 // whose loop does not close, because the surface is not oriented consistently.
-std::vector<Loop> findHoles(const Mesh& mesh);
+std::vector<Loop> findHoles(std::span<const EdgeUse> edges);
 
 // Returns a finding per hole: vertices, centre, number of edges and length.
 Findings describeHoles(const Mesh& mesh, const std::vector<Loop>& loops);

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include <oneapi/tbb/parallel_invoke.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -36,11 +38,13 @@ struct Part {
   bool closed = true;
   bool hasVolume = false;  // closed, orientable, and encloses a volume
   bool isNestedOutward = false;
+  std::optional<double> signedVolume;  // of the triangles after flipping, if known
 };
 
 class Orienter {
  public:
-  Orienter(Mesh& mesh, bool openSurface) : mesh_(mesh), openSurface_(openSurface), uses_(edgeUses(mesh.triangles)) {}
+  Orienter(Mesh& mesh, bool openSurface, std::span<const EdgeUse> uses)
+      : mesh_(mesh), openSurface_(openSurface), uses_(uses) {}
 
   OrientResult run() {
     linkTriangles();
@@ -93,31 +97,39 @@ class Orienter {
     }
   }
 
+  // Marks a part with these uses of an edge as open, unless they traverse it equally often in both directions.
+  static void checkEdge(Part& part, std::size_t uses, int balance) {
+    if (part.orientable ? balance != 0 : uses % 2 != 0) part.closed = false;
+  }
+
   // Finds closed parts: each edge is traversed equally often in both directions. They have no boundary even if they
   // touch themselves or other parts at an edge.
   void findClosed() {
+    const auto direction = [&](const EdgeUse& use) { return use.forward != (flipped_[use.triangle] != 0) ? 1 : -1; };
+    std::vector<std::pair<std::uint32_t, int>> directions;  // per use: part, and 1 or -1
     forEachEdge(uses_, [&](std::span<const EdgeUse> edge) {
-      std::vector<std::pair<std::uint32_t, int>> directions;  // per use: part, and 1 or -1
-      for (const EdgeUse& use : edge)
-        directions.emplace_back(part_[use.triangle], use.forward != (flipped_[use.triangle] != 0) ? 1 : -1);
+      if (edge.size() == 2 && part_[edge[0].triangle] == part_[edge[1].triangle])  // most edges
+        return checkEdge(parts_[part_[edge[0].triangle]], 2, direction(edge[0]) + direction(edge[1]));
+      directions.clear();
+      for (const EdgeUse& use : edge) directions.emplace_back(part_[use.triangle], direction(use));
       std::sort(directions.begin(), directions.end());
       for (std::size_t begin = 0, end = 0; begin < directions.size(); begin = end) {
         int balance = 0;
         for (; end < directions.size() && directions[end].first == directions[begin].first; ++end)
           balance += directions[end].second;
-        Part& part = parts_[directions[begin].first];
-        if (part.orientable ? balance != 0 : (end - begin) % 2 != 0) part.closed = false;
+        checkEdge(parts_[directions[begin].first], end - begin, balance);
       }
     });
   }
 
-  void flipPart(const Part& part) {
+  void flipPart(Part& part) {
     for (const std::uint32_t t : part.triangles) flipped_[t] = static_cast<char>(1 - flipped_[t]);
+    if (part.signedVolume) part.signedVolume = 0 - *part.signedVolume;
   }
 
   void followMajority() {
-    std::vector<const Part*> contradictory;
-    for (const Part& part : parts_) {
+    std::vector<Part*> contradictory;
+    for (Part& part : parts_) {
       if (!part.orientable) {
         for (const std::uint32_t t : part.triangles) flipped_[t] = 0;
         continue;
@@ -131,7 +143,7 @@ class Orienter {
   }
 
   // Decides open components whose faces contradict each other by their visibility from outside, the largest first.
-  void orientByVisibility(std::vector<const Part*> parts) {
+  void orientByVisibility(std::vector<Part*> parts) {
     if (parts.empty()) return;
     std::stable_sort(parts.begin(), parts.end(),
                      [](const Part* a, const Part* b) { return a->triangles.size() > b->triangles.size(); });
@@ -164,7 +176,8 @@ class Orienter {
     return volume;
   }
 
-  bool hasVolume(const Part& part, double volume) const {
+  // Returns the largest volume that may be a rounding error.
+  double volumeTolerance(const Part& part) const {
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     double area = 0;
     for (const std::uint32_t t : part.triangles) {
@@ -174,7 +187,7 @@ class Orienter {
       high = glm::max(high, glm::max(a, glm::max(b, c)));
       area += 0.5 * glm::length(glm::cross(b - a, c - a));
     }
-    return std::abs(volume) > kVolumeTolerance * area * glm::length(high - low);
+    return kVolumeTolerance * area * glm::length(high - low);
   }
 
   void orientOutward() {
@@ -185,8 +198,10 @@ class Orienter {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       Part& part = parts_[i];
       if (!part.orientable || !part.closed) continue;
-      const double volume = signedVolume(part);
-      if (!hasVolume(part, volume)) {
+      double volume = 0, tolerance = 0;
+      oneapi::tbb::parallel_invoke([&] { volume = signedVolume(part); }, [&] { tolerance = volumeTolerance(part); });
+      part.signedVolume = volume;
+      if (!(std::abs(volume) > tolerance)) {
         ++result_.withoutVolume;
         continue;
       }
@@ -261,7 +276,9 @@ class Orienter {
         for (std::size_t i = begin; i < end; ++i) {
           const auto& sameAfter = seen[isEvenAfter(coincident[i]) ? 1 : 0];
           if (flipped_[coincident[i].triangle] == 0 || !sameAfter[0] || !sameAfter[1]) continue;
-          for (const std::uint32_t t : parts_[part_[coincident[i].triangle]].triangles) flipped_[t] = 0;
+          Part& part = parts_[part_[coincident[i].triangle]];
+          for (const std::uint32_t t : part.triangles) flipped_[t] = 0;
+          part.signedVolume.reset();
           ++result_.keptDoubled;
           again = true;
           break;  // the others of this position are compared in the next round
@@ -281,7 +298,8 @@ class Orienter {
       component.at = mesh_.positions[mesh_.triangles[part.triangles.front()].x];
       component.firstFace = sourceFace(mesh_, part.triangles.front());
       for (const std::uint32_t t : part.triangles) component.flipped += flipped_[t] != 0 ? 1u : 0u;
-      if (part.closed && part.orientable) component.signedVolume = signedVolume(part);
+      if (part.closed && part.orientable)
+        component.signedVolume = part.signedVolume ? *part.signedVolume : signedVolume(part);
       result_.notOrientable += part.orientable ? 0u : 1u;
       result_.components.push_back(component);
     }
@@ -296,7 +314,7 @@ class Orienter {
 
   Mesh& mesh_;
   bool openSurface_;
-  std::vector<EdgeUse> uses_;
+  std::span<const EdgeUse> uses_;
   std::vector<std::array<Link, 3>> links_;
   std::vector<std::uint32_t> part_;
   std::vector<char> flipped_;  // 1: the triangle is to be flipped
@@ -306,6 +324,10 @@ class Orienter {
 
 }  // namespace
 
-OrientResult orient(Mesh& mesh, bool openSurface) { return Orienter(mesh, openSurface).run(); }
+OrientResult orient(Mesh& mesh, bool openSurface, std::span<const EdgeUse> edges) {
+  return Orienter(mesh, openSurface, edges).run();
+}
+
+OrientResult orient(Mesh& mesh, bool openSurface) { return orient(mesh, openSurface, edgeUses(mesh.triangles)); }
 
 }  // namespace malus::prep

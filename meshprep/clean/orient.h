@@ -18,9 +18,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "meshprep/clean/component.h"
+#include "meshprep/clean/edges.h"
 #include "meshprep/findings.h"
 
 namespace malus::prep {
@@ -42,6 +44,8 @@ struct OrientResult {
 };
 
 // Triangles must have three different vertices. Keeps the order of triangles and the first vertex of each.
+// edges: edgeUses() of the triangles.
+OrientResult orient(Mesh& mesh, bool openSurface, std::span<const EdgeUse> edges);
 OrientResult orient(Mesh& mesh, bool openSurface);
 
 }  // namespace malus::prep

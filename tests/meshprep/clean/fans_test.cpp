@@ -40,7 +40,7 @@ std::vector<std::array<glm::dvec3, 3>> soup(const Mesh& mesh) {
 TEST(Fans, KeepsACubeAndASphere) {
   for (const Mesh& before : {cube(), test::sphere(7, 12)}) {
     Mesh mesh = before;
-    const Fans fans = splitFans(mesh);
+    const Fans fans = splitFans(mesh, edgeUses(mesh.triangles));
     EXPECT_FALSE(fans.changed());
     EXPECT_EQ(mesh.positions, before.positions);
     EXPECT_EQ(mesh.triangles, before.triangles);
@@ -52,7 +52,7 @@ TEST(Fans, SeparatesCubesAtASharedEdge) {
   const Mesh before = mesh;
   EXPECT_EQ(weld(mesh, 0).joined.count, 2u);
   EXPECT_EQ(crowdedEdges(mesh), 1u);
-  const Fans fans = splitFans(mesh);
+  const Fans fans = splitFans(mesh, edgeUses(mesh.triangles));
   EXPECT_EQ(fans.edges.count, 1u);
   EXPECT_EQ(fans.vertices.count, 2u);
   EXPECT_EQ(crowdedEdges(mesh), 0u);
@@ -70,7 +70,7 @@ TEST(Fans, RestoresTheOrderOfWeldedVertices) {
   mesh.sourceCorners = mesh.triangles;
   const Mesh before = mesh;
   weld(mesh, 0);
-  splitFans(mesh);
+  splitFans(mesh, edgeUses(mesh.triangles));
   EXPECT_EQ(mesh.positions, before.positions);
   EXPECT_EQ(mesh.triangles, before.triangles);
   EXPECT_EQ(mesh.sourceVertices, before.sourceVertices);
@@ -81,7 +81,7 @@ TEST(Fans, KeepsBothWallsOfASharedFace) {
   weld(mesh, 0);
   EXPECT_EQ(mesh.positions.size(), 12u);
   EXPECT_EQ(crowdedEdges(mesh), 5u);  // four sides and the diagonal of the wall
-  splitFans(mesh);
+  splitFans(mesh, edgeUses(mesh.triangles));
   EXPECT_EQ(crowdedEdges(mesh), 0u);
   EXPECT_EQ(openEdges(mesh), 0u);
   EXPECT_EQ(orient(mesh, false).components.size(), 2u);
@@ -92,7 +92,7 @@ TEST(Fans, SeparatesAFinFromACube) {
     Mesh mesh = cube();
     mesh.positions.push_back(tip);
     mesh.triangles.emplace_back(3, 7, 8);
-    const Fans fans = splitFans(mesh);
+    const Fans fans = splitFans(mesh, edgeUses(mesh.triangles));
     EXPECT_EQ(fans.edges.count, 1u);
     EXPECT_EQ(crowdedEdges(mesh), 0u);
     EXPECT_EQ(openEdges(mesh), 3u);
@@ -107,7 +107,7 @@ TEST(Fans, SeparatesTheSidesOfADoubleSidedQuad) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}};
-  splitFans(mesh);
+  splitFans(mesh, edgeUses(mesh.triangles));
   EXPECT_EQ(crowdedEdges(mesh), 0u);
   // The two triangles of each side share the diagonal.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> edges;
@@ -127,7 +127,7 @@ TEST(Fans, SeparatesConesAtTheirCommonApex) {
   Mesh mesh = joined(cube(), cube(1, {1, 1, 1}));
   weld(mesh, 0);
   EXPECT_EQ(mesh.positions.size(), 15u);
-  const Fans fans = splitFans(mesh);
+  const Fans fans = splitFans(mesh, edgeUses(mesh.triangles));
   EXPECT_EQ(fans.edges.count, 0u);
   EXPECT_EQ(fans.vertices.count, 1u);
   EXPECT_EQ(fans.vertices.first[0].at, glm::dvec3(1));
@@ -170,7 +170,7 @@ TEST(Fans, CutsEdgesAtWhichASolidTouchesItself) {
   Mesh mesh = cells(ring);
   ASSERT_EQ(crowdedEdges(mesh), 1u);
   const Mesh before = mesh;
-  const Fans fans = splitFans(mesh);
+  const Fans fans = splitFans(mesh, edgeUses(mesh.triangles));
   EXPECT_EQ(fans.edges.count, 1u);
   EXPECT_EQ(fans.cutEdges, 1u);
   EXPECT_EQ(crowdedEdges(mesh), 0u);
@@ -189,7 +189,8 @@ TEST(Fans, RefusesRandomFaces) {
     const glm::uvec3 t(random() % 3000, random() % 3000, random() % 3000);
     if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);
   }
-  EXPECT_TRUE(test::contains(test::errorMessage([&] { splitFans(mesh, "a.ply"); }), "a.ply", "surface"));
+  EXPECT_TRUE(test::contains(test::errorMessage([&] { splitFans(mesh, edgeUses(mesh.triangles), "a.ply"); }), "a.ply",
+                             "surface"));
 }
 
 }  // namespace

@@ -17,11 +17,11 @@ Mesh openCube() {
   return mesh;
 }
 
-TEST(Holes, FindsNoneInAClosedMesh) { EXPECT_TRUE(findHoles(test::sphere(5, 8)).empty()); }
+TEST(Holes, FindsNoneInAClosedMesh) { EXPECT_TRUE(findHoles(edgeUses(test::sphere(5, 8).triangles)).empty()); }
 
 TEST(Holes, ReportsVerticesAndLength) {
   const Mesh mesh = openCube();
-  const std::vector<Loop> loops = findHoles(mesh);
+  const std::vector<Loop> loops = findHoles(edgeUses(mesh.triangles));
   ASSERT_EQ(loops.size(), 1u);
   EXPECT_EQ(loops[0].size(), 4u);
   EXPECT_EQ(loops[0].front(), 2u);
@@ -32,12 +32,12 @@ TEST(Holes, ReportsVerticesAndLength) {
 
 TEST(Holes, FillsHolesUpToTheLimit) {
   Mesh mesh = openCube();
-  EXPECT_EQ(fillHoles(mesh, findHoles(mesh), 3).left.count, 1u);
+  EXPECT_EQ(fillHoles(mesh, findHoles(edgeUses(mesh.triangles)), 3).left.count, 1u);
   EXPECT_EQ(mesh.triangles.size(), 10u);
-  const FilledHoles result = fillHoles(mesh, findHoles(mesh), 4);
+  const FilledHoles result = fillHoles(mesh, findHoles(edgeUses(mesh.triangles)), 4);
   EXPECT_EQ(result.filled.count, 1u);
   EXPECT_EQ(mesh.triangles.size(), 12u);
-  EXPECT_TRUE(findHoles(mesh).empty());
+  EXPECT_TRUE(findHoles(edgeUses(mesh.triangles)).empty());
   const OrientResult sides = orient(mesh, false);
   EXPECT_EQ(sides.flipped.count, 0u);  // the lid has the side of the rest
   EXPECT_NEAR(sides.components[0].signedVolume, 1, 1e-12);
@@ -52,9 +52,9 @@ TEST(Holes, FillsWithoutTrianglesOfZeroArea) {
   mesh.triangles[1] = {0, 3, 8};            // was {0, 3, 1}
   mesh.triangles.emplace_back(8, 3, 9);
   mesh.triangles.emplace_back(9, 3, 1);
-  const FilledHoles filled = fillHoles(mesh, findHoles(mesh), 100);
+  const FilledHoles filled = fillHoles(mesh, findHoles(edgeUses(mesh.triangles)), 100);
   EXPECT_EQ(filled.filled.count, 1u);
-  EXPECT_TRUE(findHoles(mesh).empty());
+  EXPECT_TRUE(findHoles(edgeUses(mesh.triangles)).empty());
   for (const glm::uvec3& t : mesh.triangles)
     EXPECT_FALSE(isWithoutArea(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]));
 
@@ -63,7 +63,7 @@ TEST(Holes, FillsWithoutTrianglesOfZeroArea) {
   slit.positions.emplace_back(0.5, 0, 0);
   slit.triangles[1] = {0, 3, 8};
   slit.triangles.emplace_back(8, 3, 1);
-  const FilledHoles left = fillHoles(slit, findHoles(slit), 100);
+  const FilledHoles left = fillHoles(slit, findHoles(edgeUses(slit.triangles)), 100);
   EXPECT_EQ(left.filled.count, 0u);
   EXPECT_EQ(left.left.count, 1u);
 }
@@ -83,12 +83,12 @@ TEST(Holes, LeavesHolesWhoseCapsWouldCrossTheSurface) {
   };
   Mesh crossed = boxWithSpike(1.5), free = boxWithSpike(0.9);
   const std::size_t before = crossed.triangles.size();
-  const FilledHoles left = fillHoles(crossed, findHoles(crossed), 4);
+  const FilledHoles left = fillHoles(crossed, findHoles(edgeUses(crossed.triangles)), 4);
   EXPECT_EQ(left.filled.count, 0u);
   EXPECT_EQ(left.left.count, 1u);
   EXPECT_CONTAINS(left.left.first.at(0).what, "cross");
   EXPECT_EQ(crossed.triangles.size(), before);
-  EXPECT_EQ(fillHoles(free, findHoles(free), 4).filled.count, 1u);
+  EXPECT_EQ(fillHoles(free, findHoles(edgeUses(free.triangles)), 4).filled.count, 1u);
   EXPECT_EQ(free.triangles.size(), before + 2);
 }
 
@@ -96,7 +96,7 @@ TEST(Holes, FindsTwoLoops) {
   Mesh mesh = test::sphere(9, 16);
   mesh.triangles.erase(mesh.triangles.begin() + 100);
   mesh.triangles.erase(mesh.triangles.begin() + 19, mesh.triangles.begin() + 21);
-  const std::vector<Loop> loops = findHoles(mesh);
+  const std::vector<Loop> loops = findHoles(edgeUses(mesh.triangles));
   ASSERT_EQ(loops.size(), 2u);
   EXPECT_EQ(loops[0].size() + loops[1].size(), 7u);
 }
@@ -110,7 +110,7 @@ TEST(Holes, LeavesLoopsThatCrossThemselves) {
     mesh.triangles.emplace_back(i, j, j + 4);
     mesh.triangles.emplace_back(i, j + 4, i + 4);
   }
-  const FilledHoles result = fillHoles(mesh, findHoles(mesh), 100);
+  const FilledHoles result = fillHoles(mesh, findHoles(edgeUses(mesh.triangles)), 100);
   EXPECT_EQ(result.left.count, 2u);
   EXPECT_EQ(mesh.triangles.size(), 8u);
 }

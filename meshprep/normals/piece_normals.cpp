@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
+#include "meshprep/base/bucket_sort.h"
+#include "meshprep/base/parallel_blocks.h"
 #include "meshprep/clean/disjoint_sets.h"
 #include "meshprep/clean/edges.h"
+#include "meshprep/clean/select.h"
 
 namespace malus::prep {
 
@@ -26,8 +28,8 @@ glm::dvec3 direction(const glm::dvec3& v) {
   return largest > 0 ? glm::normalize(v / largest) : glm::dvec3(0);
 }
 
-double cornerAngle(const glm::dvec3& at, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 u = direction(b - at), v = direction(c - at);
+// Between two vectors of unit length.
+double angleBetween(const glm::dvec3& u, const glm::dvec3& v) {
   return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
 }
 
@@ -43,14 +45,12 @@ NormalCounts addPieceNormals(Mesh& mesh, const IsSmooth& isSmooth) {
   const std::size_t triangleCount = mesh.triangles.size();
   std::vector<glm::dvec3> faceNormals(triangleCount);
   std::vector<glm::dvec3> cornerAngles(triangleCount);
-  constexpr std::size_t kGrain = 4096;
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, triangleCount, kGrain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const glm::uvec3 t = mesh.triangles[i];
-      const glm::dvec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
-      faceNormals[i] = faceNormal(a, b, c);
-      cornerAngles[i] = {cornerAngle(a, b, c), cornerAngle(b, c, a), cornerAngle(c, a, b)};
-    }
+  forNumbers(triangleCount, [&](std::size_t i) {
+    const glm::uvec3 t = mesh.triangles[i];
+    const glm::dvec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    const glm::dvec3 ab = direction(b - a), bc = direction(c - b), ac = direction(c - a);
+    faceNormals[i] = direction(glm::cross(ab, ac));
+    cornerAngles[i] = {angleBetween(ab, ac), angleBetween(bc, 0.0 - ab), angleBetween(0.0 - ac, 0.0 - bc)};
   });
 
   // Step 2: merge the corners at both ends of every smooth edge.
@@ -65,51 +65,56 @@ NormalCounts addPieceNormals(Mesh& mesh, const IsSmooth& isSmooth) {
     pieces.merge(end(edge[0]), begin(edge[1]));
   });
 
-  // Step 3: sum weighted normals, a sum for each piece, kept at its first corner.
-  std::vector<glm::dvec3> sums(3 * triangleCount, glm::dvec3(0));
-  std::vector<double> weights(3 * triangleCount, 0.0);
+  // Step 3: a stored vertex for every piece of every vertex, in the order of their first corners. A vertex of no
+  // triangle stays.
+  const auto vertexAt = [&](std::uint32_t corner) -> std::uint32_t& {
+    return mesh.triangles[corner / 3][static_cast<int>(corner % 3)];
+  };
+  const auto forPieces = [&](auto visit) {
+    for (std::uint32_t corner = 0; corner < 3 * triangleCount; ++corner)
+      if (pieces.find(corner) == corner) visit(vertexAt(corner), corner);
+  };
+  const auto sorted = sortInBuckets<std::uint32_t>(mesh.positions.size(), forPieces, std::less<>());
+  std::vector<std::uint32_t> oldVertex, firstCorner, newVertex(3 * triangleCount, kNone);
+  oldVertex.reserve(sorted.items.size());
+  firstCorner.reserve(sorted.items.size());
+  const auto store = [&](std::uint32_t vertex, std::uint32_t corner) {
+    oldVertex.push_back(vertex);
+    firstCorner.push_back(corner);
+  };
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    if (sorted.first[v] == sorted.first[v + 1]) store(v, kNone);
+    for (std::uint32_t i = sorted.first[v]; i < sorted.first[v + 1]; ++i) {
+      newVertex[sorted.items[i]] = static_cast<std::uint32_t>(oldVertex.size());
+      store(v, sorted.items[i]);
+    }
+  }
+
+  // Step 4: sum weighted normals.
+  std::vector<glm::dvec3> sums(oldVertex.size(), glm::dvec3(0));
+  std::vector<double> weights(oldVertex.size(), 0.0);
   for (std::uint32_t corner = 0; corner < 3 * triangleCount; ++corner) {
     const double angle = cornerAngles[corner / 3][static_cast<int>(corner % 3)];
-    const std::uint32_t piece = pieces.find(corner);
-    sums[piece] += angle * faceNormals[corner / 3];
-    weights[piece] += angle;
+    const std::uint32_t vertex = newVertex[pieces.find(corner)];
+    sums[vertex] += angle * faceNormals[corner / 3];
+    weights[vertex] += angle;
+    vertexAt(corner) = vertex;
   }
 
-  // Step 4: pieces of every vertex, in the order of their first corners.
-  std::vector<std::vector<std::uint32_t>> vertexPieces(mesh.positions.size());
-  for (std::uint32_t corner = 0; corner < 3 * triangleCount; ++corner)
-    if (pieces.find(corner) == corner)
-      vertexPieces[mesh.triangles[corner / 3][static_cast<int>(corner % 3)]].push_back(corner);
-
-  // Step 5: a stored vertex for each.
+  // Step 5: normals. What has no area, or no triangle, gets any.
   NormalCounts counts;
-  std::vector<std::uint32_t> newVertex(3 * triangleCount, kNone);
-  std::vector<glm::dvec3> positions;
-  std::vector<glm::vec3> normals;
-  std::vector<std::uint32_t> sources;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    if (vertexPieces[v].empty()) {  // of no triangle: it stays, with any normal
-      positions.push_back(mesh.positions[v]);
-      if (!mesh.sourceVertices.empty()) sources.push_back(mesh.sourceVertices[v]);
-      normals.emplace_back(0, 0, 1);
-    }
-    for (const std::uint32_t piece : vertexPieces[v]) {
-      newVertex[piece] = static_cast<std::uint32_t>(positions.size());
-      positions.push_back(mesh.positions[v]);
-      if (!mesh.sourceVertices.empty()) sources.push_back(mesh.sourceVertices[v]);
-      const double length = glm::length(sums[piece]);
-      const bool cancelled = length <= kCancelled * weights[piece];
-      counts.undefined += cancelled ? 1u : 0u;
-      const glm::dvec3 normal = cancelled ? faceNormals[piece / 3] : sums[piece] / length;
-      normals.emplace_back(normal == glm::dvec3(0) ? glm::dvec3(0, 0, 1) : normal);  // of what has no area, any
-    }
+  counts.added = oldVertex.size() - mesh.positions.size();
+  mesh.normals.assign(oldVertex.size(), glm::vec3(0, 0, 1));
+  for (std::size_t v = 0; v < oldVertex.size(); ++v) {
+    if (firstCorner[v] == kNone) continue;
+    const double length = glm::length(sums[v]);
+    const bool cancelled = length <= kCancelled * weights[v];
+    counts.undefined += cancelled ? 1u : 0u;
+    const glm::dvec3 normal = cancelled ? faceNormals[firstCorner[v] / 3] : sums[v] / length;
+    if (normal != glm::dvec3(0)) mesh.normals[v] = glm::vec3(normal);
   }
-  counts.added = positions.size() - mesh.positions.size();
-  for (std::uint32_t corner = 0; corner < 3 * triangleCount; ++corner)
-    mesh.triangles[corner / 3][static_cast<int>(corner % 3)] = newVertex[pieces.find(corner)];
-  mesh.positions = std::move(positions);
-  mesh.normals = std::move(normals);
-  mesh.sourceVertices = std::move(sources);
+  mesh.positions = selected(mesh.positions, oldVertex);
+  if (!mesh.sourceVertices.empty()) mesh.sourceVertices = selected(mesh.sourceVertices, oldVertex);
   return counts;
 }
 

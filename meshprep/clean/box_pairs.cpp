@@ -12,6 +12,9 @@
 #include <tbb/parallel_invoke.h>
 #include <glm/common.hpp>
 
+#include "meshprep/base/parallel_blocks.h"
+#include "meshprep/base/raw_array.h"
+
 namespace malus::prep {
 
 namespace {
@@ -37,20 +40,20 @@ class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes) : boxes_(boxes.size()), numbers_(boxes.size()) {
     if (boxes.empty()) return;
-    std::vector<Item> items(boxes.size());
+    RawArray<Item> items(boxes.size());
     const glm::dvec3 origin = boxes.front().low;  // far from zero, the centres would be equal floats
-    for (std::uint32_t i = 0; i < items.size(); ++i) {
+    forNumbers(boxes.size(), [&](std::size_t i) {
       const glm::vec3 centre(0.5 * (boxes[i].low - origin) + 0.5 * (boxes[i].high - origin));
-      items[i] = {{centre.x, centre.y, centre.z}, i};
-    }
+      items[i] = {{centre.x, centre.y, centre.z}, static_cast<std::uint32_t>(i)};
+    });
     levels_ = countLevels(boxes.size());
-    nodes_.resize((std::size_t{2} << levels_) - 1);
-    first_.resize((std::size_t{1} << levels_) + 1);
-    first_.back() = static_cast<std::uint32_t>(boxes.size());
-    build(boxes, items, 0, items.size(), 0, 0);
+    nodes_ = RawArray<Box>((std::size_t{2} << levels_) - 1);
+    first_ = RawArray<std::uint32_t>((std::size_t{1} << levels_) + 1);
+    first_[leafCount()] = static_cast<std::uint32_t>(boxes.size());
+    build(boxes, items.data(), 0, boxes.size(), 0, 0);
   }
 
-  std::size_t leafCount() const { return nodes_.empty() ? 0 : first_.size() - 1; }
+  std::size_t leafCount() const { return nodes_.size() == 0 ? 0 : first_.size() - 1; }
   const Box& leafBox(std::size_t leaf) const { return nodes_[leafCount() - 1 + leaf]; }
   std::uint32_t leafFirst(std::size_t leaf) const { return first_[leaf]; }
   std::uint32_t leafEnd(std::size_t leaf) const { return first_[leaf + 1]; }
@@ -68,7 +71,7 @@ class BoxTree {
     };
     std::array<Node, 64> stack{};
     std::size_t size = 0;
-    if (!nodes_.empty()) stack[size++] = {0, 0};
+    if (nodes_.size() > 0) stack[size++] = {0, 0};
     while (size > 0) {
       const auto [node, level] = stack[--size];
       // The last leaf below it.
@@ -89,7 +92,7 @@ class BoxTree {
     std::uint32_t number;
   };
 
-  Box build(std::span<const Box> boxes, std::vector<Item>& items, std::size_t first, std::size_t end, std::size_t node,
+  Box build(std::span<const Box> boxes, Item* items, std::size_t first, std::size_t end, std::size_t node,
             unsigned level) {
     if (level == levels_) {
       const std::size_t leaf = node + 1 - (std::size_t{1} << levels_);
@@ -105,8 +108,7 @@ class BoxTree {
     }
     const std::size_t middle = first + (end - first) / 2;
     const std::size_t axis = longestAxis(items, first, end);
-    const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(first), at(middle), at(end), [axis](const Item& a, const Item& b) {
+    std::nth_element(items + first, items + middle, items + end, [axis](const Item& a, const Item& b) {
       return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.number < b.number;
     });
     Box low{}, high{};
@@ -121,7 +123,7 @@ class BoxTree {
     return nodes_[node] = unite(low, high);
   }
 
-  static std::size_t longestAxis(const std::vector<Item>& items, std::size_t first, std::size_t end) {
+  static std::size_t longestAxis(const Item* items, std::size_t first, std::size_t end) {
     std::array<float, 3> low = items[first].centre, high = low;
     for (std::size_t i = first; i < end; ++i)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -134,11 +136,11 @@ class BoxTree {
     return longest;
   }
 
-  std::vector<Box> boxes_;
-  std::vector<std::uint32_t> numbers_;
+  RawArray<Box> boxes_;
+  RawArray<std::uint32_t> numbers_;
   unsigned levels_ = 0;
-  std::vector<Box> nodes_;
-  std::vector<std::uint32_t> first_;  // position of the first box of each leaf, and the number of boxes
+  RawArray<Box> nodes_;
+  RawArray<std::uint32_t> first_;  // position of the first box of each leaf, and the number of boxes
 };
 
 // Sum of the costs of all threads.

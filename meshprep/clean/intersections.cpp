@@ -12,10 +12,11 @@
 #define CGAL_DO_NOT_USE_MPZF
 #endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "meshprep/base/parallel_blocks.h"
+#include "meshprep/base/raw_array.h"
 #include "meshprep/clean/box_pairs.h"
 #include "meshprep/clean/position_ids.h"
 #include "meshprep/clean/select.h"
@@ -42,25 +43,25 @@ struct TrianglePair {
 
 // Corners of a triangle with the ids of their positions, in one place of memory.
 struct Corners {
-  TriangleCorners points{};
-  std::array<std::uint32_t, 3> ids{};
-  bool flat = false;  // without area
+  TriangleCorners points;
+  std::array<std::uint32_t, 3> ids;
+  bool flat;  // without area
 };
 
 TrianglePair makePair(const Corners& first, const Corners& second) {
-  TrianglePair pair{first.points, second.points, 0};
-  std::array<std::uint32_t, 3> a = first.ids, b = second.ids;
+  std::array<std::size_t, 3> a = {0, 1, 2}, b = {0, 1, 2};
+  std::size_t shared = 0;
   for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t l = pair.shared; l < 3; ++l) {
-      if (a[k] != b[l]) continue;
-      const std::size_t to = pair.shared++;
-      std::swap(a[k], a[to]);
-      std::swap(pair.a[k], pair.a[to]);
-      std::swap(b[l], b[to]);
-      std::swap(pair.b[l], pair.b[to]);
+    for (std::size_t l = shared; l < 3; ++l) {
+      if (first.ids[a[k]] != second.ids[b[l]]) continue;
+      std::swap(a[k], a[shared]);
+      std::swap(b[l], b[shared]);
+      ++shared;
       break;
     }
-  return pair;
+  return {{first.points[a[0]], first.points[a[1]], first.points[a[2]]},
+          {second.points[b[0]], second.points[b[1]], second.points[b[2]]},
+          shared};
 }
 
 Kernel::Point_3 point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
@@ -93,11 +94,11 @@ bool isFlat(const TriangleCorners& a) {
   return !certainlyHasArea(a) && CGAL::collinear(point(a[0]), point(a[1]), point(a[2]));
 }
 
-// Collects the corners, and marks triangles without area.
-std::vector<Corners> collectCorners(const Mesh& mesh) {
-  std::vector<Corners> corners(mesh.triangles.size());
+// Returns the corners of each triangle, and marks triangles without area.
+RawArray<Corners> collectCorners(const Mesh& mesh) {
+  RawArray<Corners> corners(mesh.triangles.size());
   const std::vector<std::uint32_t> ids = positionIds(mesh);
-  const auto collect = [&](std::size_t i) {
+  forNumbers(mesh.triangles.size(), [&](std::size_t i) {
     Corners& c = corners[i];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.triangles[i][static_cast<int>(k)];
@@ -105,8 +106,7 @@ std::vector<Corners> collectCorners(const Mesh& mesh) {
       c.ids[k] = ids[v];
     }
     c.flat = isFlat(c.points);
-  };
-  tbb::parallel_for(std::size_t{0}, corners.size(), collect);
+  });
   return corners;
 }
 
@@ -132,9 +132,8 @@ Box makeBox(const glm::dvec3& a, const glm::dvec3& b, double margin) {
 // if the arcs meet in which they cut a small sphere around it.
 class Search {
  public:
-  Search(const Mesh& mesh, std::size_t first) : corners_(collectCorners(mesh)), first_(first) {
-    boxes_.reserve(corners_.size());
-    for (const Corners& c : corners_) boxes_.push_back(boundingBox(c));
+  Search(const Mesh& mesh, std::size_t first) : corners_(collectCorners(mesh)), first_(first), boxes_(corners_.size()) {
+    forNumbers(corners_.size(), [&](std::size_t i) { boxes_[i] = boundingBox(corners_[i]); });
     if (first == 0) findHubs(mesh.positions.size());
   }
 
@@ -217,7 +216,7 @@ class Search {
     };
     std::vector<Box> boxesOfA, boxesOfB;
     if (b.size() < boxes_.size()) boxesOfB = take(b);
-    const std::span<const Box> inB = boxesOfB.empty() ? boxes_ : boxesOfB;
+    const std::span<const Box> inB = boxesOfB.empty() ? std::span<const Box>(boxes_) : boxesOfB;
     if (hub == kNoSource && a.size() == b.size()) {
       const auto testPair = [&](std::uint32_t k, std::uint32_t l) { return test(b[k], b[l]); };
       result_.complete = forOverlappingPairs(inB, mostCost(a.size() + b.size()), testPair);
@@ -255,9 +254,9 @@ class Search {
     result_.complete = forOverlappingPairs(arcs, mostCost(arcs.size()), testPair);
   }
 
-  std::vector<Corners> corners_;
+  RawArray<Corners> corners_;
   std::size_t first_;
-  std::vector<Box> boxes_;
+  RawArray<Box> boxes_;
   std::vector<std::uint32_t> hubs_, hubOf_;  // ids of positions; hubOf_ is one per triangle, or empty without hubs
   Intersections result_;
   std::mutex lock_;
@@ -273,7 +272,7 @@ Intersections testPairs(std::span<const glm::dvec3> positions, std::span<const g
   Intersections result;
   for (const auto& [first, second] : pairs) {
     // Number the corners by their positions. A pair that is certainly separate needs no test for area.
-    std::array<Corners, 2> sides;
+    std::array<Corners, 2> sides{};
     std::array<glm::dvec3, 6> points{};
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i] = positions[triangles[i < 3 ? first : second][static_cast<int>(i % 3)]];
@@ -294,7 +293,7 @@ Intersections testPairs(std::span<const glm::dvec3> positions, std::span<const g
 }
 
 std::optional<std::vector<Intersections::Pair>> findClosePairs(const Mesh& mesh, double distance) {
-  const std::vector<Corners> corners = collectCorners(mesh);
+  const RawArray<Corners> corners = collectCorners(mesh);
   std::vector<std::uint32_t> uses(mesh.positions.size(), 0);
   std::vector<Box> boxes;
   boxes.reserve(corners.size());

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // relative error of a rounded operation
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+inline double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 // Vector with bounds: of its components, and of their absolute errors.
 struct Bounded {
@@ -21,7 +21,7 @@ struct Bounded {
 };
 
 // Difference of two points.
-Bounded difference(const glm::dvec3& a, const glm::dvec3& b) {
+inline Bounded difference(const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 v = a - b;
   const double size = largest(v);
   return {v, size, 2 * kUnit * size};
@@ -44,7 +44,7 @@ class Differences {
 };
 
 // Each component is a difference of two products.
-Bounded cross(const Bounded& a, const Bounded& b) {
+inline Bounded cross(const Bounded& a, const Bounded& b) {
   const double product = a.size * b.size;
   return {glm::cross(a.v, b.v), 2 * product, 2 * (a.error * b.size + b.error * a.size) + 6 * kUnit * product};
 }
@@ -56,7 +56,7 @@ struct Projection {
   bool isNegative() const { return value < -error; }
 };
 
-Projection dot(const Bounded& a, const Bounded& b) {
+inline Projection dot(const Bounded& a, const Bounded& b) {
   return {glm::dot(a.v, b.v), 4 * (a.error * b.size + b.error * a.size) + 12 * kUnit * a.size * b.size};
 }
 

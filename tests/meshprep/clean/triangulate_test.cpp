@@ -72,6 +72,38 @@ TEST(Triangulate, CutsCopiesOfAFaceAlike) {
       }
 }
 
+// Many faces are cut in blocks by several threads. The triangles of a face are those of the face alone.
+TEST(Triangulate, CutsManyFacesAsEachAlone) {
+  const std::vector<std::vector<glm::dvec3>> shapes = {
+      {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}},              // convex
+      {{2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 0, 0.1}},            // not planar
+      {{0, 0, 0}, {2, -1, 0}, {0.5, 0, 0}, {2, 1, 0}},           // concave
+      {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}},   // with a repeated corner
+      {{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {1, 2, 0}, {-1, 1, 0}},  // convex, of five corners
+      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},                         // triangle
+      {{0, 0, 0}, {1, 0, 0}},                                    // too few corners
+      {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 0, 0}},              // to and fro: without area
+  };
+  constexpr std::size_t kFaces = 50016;
+  Polygons all;
+  std::vector<glm::uvec3> expected;
+  for (std::size_t f = 0; f < kFaces; ++f) {
+    const auto first = static_cast<std::uint32_t>(all.positions.size());
+    std::vector<glm::dvec3> corners = shapes[f % shapes.size()];
+    // Every face is elsewhere, apart from the last ones, which are copies of the first ones.
+    for (glm::dvec3& p : corners) p.x += 8 * static_cast<double>(f < kFaces - 16 ? f : f - (kFaces - 16));
+    TriangulateCounts counts;
+    for (const glm::uvec3& t : triangulate(polygon(corners), counts).triangles) expected.push_back(t + first);
+    for (std::uint32_t i = 0; i < corners.size(); ++i) all.corners.push_back(first + i);
+    all.positions.insert(all.positions.end(), corners.begin(), corners.end());
+    all.closeFace();
+  }
+  TriangulateCounts counts;
+  EXPECT_EQ(triangulate(all, counts).triangles, expected);
+  EXPECT_EQ(counts.fewCorners, kFaces / shapes.size());
+  EXPECT_EQ(counts.repeatedCorners, kFaces / shapes.size());
+}
+
 TEST(Triangulate, CutsFacesOfOtherCornersByThemselves) {
   // The same positions in another order: a quad that crosses itself.
   Polygons polygons = polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});

@@ -36,6 +36,15 @@ TEST(ScanObj, KeepsQuads) {
   EXPECT_EQ(polygons.corners, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
+// Bytes are tested eight at a time.
+TEST(ScanObj, RefusesControlCharactersAtEveryOffset) {
+  for (std::size_t blanks = 0; blanks < 20; ++blanks)
+    for (const char control : {'\x01', '\x1f', '\0'})
+      expectRefused(kSquare + "v" + std::string(blanks, blanks % 2 == 0 ? '\t' : ' ') + control + " 0 0\nf 1 2 3\n",
+                    ":5: ", "control character");
+  EXPECT_EQ(read(kSquare + "# \xc3\xa4 \x7f\xff\nv\t\t0\t \t\t\t\t\t\t\t 0   0\nf 1 2 5\n").positions.size(), 5u);
+}
+
 TEST(ScanObj, KeepsDoublePrecision) {
   EXPECT_EQ(read("v 0.1234567890123456 +2 -3e-2\nv 1 0 0\nv .5 1. 0\nf 1 2 3\n").positions[0],
             glm::dvec3(0.1234567890123456, 2, -0.03));

@@ -1,9 +1,11 @@
 // Decoding of untrusted bytes: counts are checked before Draco runs, attributes before their values are allocated, and
 // all values afterwards.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <functional>
 #include <string>
 
 #include <draco/compression/config/decoder_options.h>
@@ -12,6 +14,8 @@
 #include <draco/core/decoder_buffer.h>
 #include <draco/mesh/mesh.h>
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 #include <glm/geometric.hpp>
 
 #include "meshprep/base/error.h"
@@ -229,36 +233,64 @@ void checkCounts(const DracoHeader& header, std::size_t size, const Limits& limi
                 fmt::format("{} and {}", limits.vertices, limits.triangles));
 }
 
+std::vector<glm::dvec3> readPositions(const draco::Mesh& mesh, const Limits& limits, const Grid* grid,
+                                      std::string_view where) {
+  const draco::PointAttribute& positions = *mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
+  if (grid != nullptr) return gridPositions(positions, lowBits(mesh), limits.vertices, *grid, where);
+  const std::vector<glm::vec3> floats = finiteValues(positions, limits.vertices, "position", where);
+  return {floats.begin(), floats.end()};
+}
+
+std::vector<glm::vec3> readNormals(const draco::Mesh& mesh, const Limits& limits, std::string_view where) {
+  const auto* attribute = mesh.GetNamedAttribute(draco::GeometryAttribute::NORMAL);
+  if (attribute == nullptr) return {};
+  std::vector<glm::vec3> normals = finiteValues(*attribute, limits.vertices, "normal", where);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const float length = glm::length(normals[i]);
+    if (!(length > 0.5f && length < 2.0f))
+      throw Error(where, fmt::format("normal of vertex {} has an invalid length", i), "1", fmt::format("{}", length));
+    normals[i] /= length;
+  }
+  return normals;
+}
+
+std::vector<glm::uvec3> readTriangles(const draco::Mesh& mesh) {
+  std::vector<glm::uvec3> triangles;
+  triangles.reserve(mesh.num_faces());
+  for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
+    const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
+    triangles.emplace_back(face[0].value(), face[1].value(), face[2].value());
+  }
+  return triangles;
+}
+
 // grid: of integer positions; nullptr: positions are floats.
 TriangleMesh decodeMesh(std::span<const std::byte> bytes, const Limits& limits, const Grid* grid,
                         const TextureGrids& textures, std::string_view where) {
   draco::Mesh mesh;
   readDraco(bytes, limits, grid != nullptr ? draco::DT_INT32 : draco::DT_FLOAT32, textures, where, mesh);
 
-  // Copy and check all values.
+  // Copy and check all values, the parts at the same time. The error is that of the first part that has one. Tasks of
+  // the caller, as other meshes, do not run in between.
   TriangleMesh result;
-  const draco::PointAttribute& positions = *mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
-  if (grid != nullptr) {
-    result.positions = gridPositions(positions, lowBits(mesh), limits.vertices, *grid, where);
-  } else {
-    for (const glm::vec3& p : finiteValues(positions, limits.vertices, "position", where))
-      result.positions.emplace_back(p);
-  }
-  if (const auto* normals = mesh.GetNamedAttribute(draco::GeometryAttribute::NORMAL); normals != nullptr) {
-    result.normals = finiteValues(*normals, limits.vertices, "normal", where);
-    for (std::size_t i = 0; i < result.normals.size(); ++i) {
-      const float length = glm::length(result.normals[i]);
-      if (!(length > 0.5f && length < 2.0f))
-        throw Error(where, fmt::format("normal of vertex {} has an invalid length", i), "1", fmt::format("{}", length));
-      result.normals[i] /= length;
-    }
-  }
-  readTextures(mesh, textures, where, result);
-  result.triangles.resize(limits.triangles);
-  for (std::uint32_t i = 0; i < limits.triangles; ++i) {
-    const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
-    result.triangles[i] = {face[0].value(), face[1].value(), face[2].value()};
-  }
+  const std::array<std::function<void()>, 4> parts = {
+      [&] { result.positions = readPositions(mesh, limits, grid, where); },
+      [&] { result.normals = readNormals(mesh, limits, where); },
+      [&] { readTextures(mesh, textures, where, result); },
+      [&] { result.triangles = readTriangles(mesh); },
+  };
+  std::array<std::exception_ptr, 4> errors;
+  oneapi::tbb::this_task_arena::isolate([&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      try {
+        parts[i]();
+      } catch (...) {
+        errors[i] = std::current_exception();
+      }
+    });
+  });
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
   return result;
 }
 

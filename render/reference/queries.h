@@ -1,4 +1,4 @@
-// Queries of many rays at once: Embree's packets of rays that point into the same octant.
+// Queries of many rays at once: Embree's packets, whose calls cost less per ray than those of single rays.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +15,9 @@ struct ShadowRay {
   float length;
 };
 
-class Queries {
- public:
-  explicit Queries(const embree::Bvh& bvh) : bvh_(bvh) {}
-
-  // The nearest triangles.
-  void findNearest(std::span<const Ray> rays, std::vector<embree::Intersection>& found);
-  // 1 for each way that no surface blocks, else 0.
-  void findVisible(std::span<const ShadowRay> rays, std::vector<std::uint8_t>& visible);
-
- private:
-  template <class Direction>
-  void sortByOctant(std::size_t count, Direction direction);
-  template <class Trace>
-  void forEachPacket(Trace trace);
-
-  const embree::Bvh& bvh_;
-  std::vector<std::uint32_t> octants_;
-  std::vector<std::uint32_t> order_;
-  std::uint32_t ends_[embree::kOctants] = {};  // of the octants in order_
-};
+// Finds the nearest triangles.
+void findNearest(const embree::Bvh& bvh, std::span<const Ray> rays, std::vector<embree::Intersection>& found);
+// Finds 1 for each way that no surface blocks, else 0.
+void findVisible(const embree::Bvh& bvh, std::span<const ShadowRay> rays, std::vector<std::uint8_t>& visible);
 
 }  // namespace malus::reference

@@ -30,7 +30,7 @@ const std::array<glm::dvec2, gpu::kFacets>& facetPoints() {
 }  // namespace
 
 Tracer::Tracer(const SceneAccess& access, const render::RenderParameters& parameters)
-    : access_(access), parameters_(parameters), queries_(access.bvh), levels_(parameters.depth + 1) {}
+    : access_(access), parameters_(parameters), levels_(parameters.depth + 1) {}
 
 void Tracer::trace(std::span<const Ray> batch, std::uint32_t depth, std::span<Light> light) {
   // Checks report the first fault of a path, so that they follow one path after the other.
@@ -45,14 +45,14 @@ void Tracer::traceBatch(std::span<const Ray> batch, std::uint32_t depth, std::sp
   Level& level = levels_[depth];
   if (level.nodes.size() < batch.size()) level.nodes.resize(batch.size());
   level.arrivals.clear(), level.ways.clear(), level.facets.clear(), level.children.clear();
-  queries_.findNearest(batch, level.found);
+  findNearest(access_.bvh, batch, level.found);
   rays += batch.size();
   for (std::size_t i = 0; i < batch.size(); ++i) begin(batch[i], level.found[i], depth, level, level.nodes[i]);
   level.filters.clear();
   if (parameters_.shadows && access_.filtersShadows) {
     passAllFilters(access_, level.ways, level.visible, level.filters, rays);
   } else if (parameters_.shadows) {
-    queries_.findVisible(level.ways, level.visible);
+    findVisible(access_.bvh, level.ways, level.visible);
     rays += level.ways.size();
   } else {
     level.visible.assign(level.ways.size(), 1);

@@ -75,7 +75,6 @@ class Tracer {
 
   const SceneAccess& access_;
   const render::RenderParameters& parameters_;
-  Queries queries_;
   std::vector<Level> levels_;
 };
 

@@ -40,13 +40,9 @@ Ray continued(const SceneAccess& access, const Ray& ray, Hit& hit) {
   if (pack::isPolarizingElement(kind)) return passing(hit.d);
   const reference::Refraction refraction = reference::refractionAt(hit);
   if (pack::isClear(kind) && !refraction.isTotal) return passing(refraction.direction);
-  return {hit.position,
-          f64::mirrorDirection(hit.d, hit.normal, hit.c),
-          glm::vec3(reference::queryAbove(hit)),
-          ray.pixelX,
-          ray.pixelY,
-          ray.isBehindRough,
-          reference::reflectedPath(access, hit)};
+  return {
+      hit.position,      f64::mirrorDirection(hit.d, hit.normal, hit.c), glm::vec3(hit.above), ray.pixelX, ray.pixelY,
+      ray.isBehindRough, reference::reflectedPath(access, hit)};
 }
 
 std::uint32_t countInteractions(const SceneAccess& access, Ray ray, Hit hit, std::uint32_t depth) {

@@ -126,7 +126,7 @@ class DepthPaths {
   }
 
   static Ray rayAbove(const Hit& h, const dvec3& d, bool isBehindRough, std::uint32_t path) {
-    return {h.position, d, glm::vec3(queryAbove(h)), 0, 0, isBehindRough, path};
+    return {h.position, d, glm::vec3(h.above), 0, 0, isBehindRough, path};
   }
   static Ray rayBelow(const Hit& h, const dvec3& d, const Path& p) {
     return {h.position, d, glm::vec3(queryBelow(h)), 0, 0, p.ray.isBehindRough, transmittedPath(h)};

@@ -1,6 +1,5 @@
 #include "render/reference/hit.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,15 +10,25 @@
 
 namespace malus::reference {
 
+namespace {
+
+double largest(double a, double b, double c) { return f64::maxR(a, f64::maxR(b, c)); }
+
+Face computeFace(const dvec3& p0, const dvec3& p1, const dvec3& p2) {
+  const dvec3 e1 = p1 - p0, e2 = p2 - p0, across = glm::cross(e1, e2);
+  const double area2 = glm::length(across);
+  // 1.75 > sqrt(3)
+  return {area2 > 0 ? across / area2 : dvec3(0), area2,
+          1.75 * largest(f64::largestPart(e1), f64::largestPart(e2), f64::largestPart(p2 - p1))};
+}
+
+}  // namespace
+
 std::vector<Face> computeFaces(const pack::Mesh& mesh) {
   std::vector<Face> faces;
   faces.reserve(mesh.triangles.size());
-  for (const glm::uvec3& t : mesh.triangles) {
-    const dvec3& p0 = mesh.positions[t.x];
-    const dvec3 across = glm::cross(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0);
-    const double area2 = glm::length(across);
-    faces.push_back({area2 > 0 ? across / area2 : dvec3(0), area2});
-  }
+  for (const glm::uvec3& t : mesh.triangles)
+    faces.push_back(computeFace(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]));
   return faces;
 }
 
@@ -114,7 +123,7 @@ Triangle findTriangle(const SceneAccess& access, const pack::Mesh& mesh, const e
 
   // The queries are in single precision.
   const dvec3 local0 = result.p0 - mesh.origin, local1 = result.p1 - mesh.origin, local2 = result.p2 - mesh.origin;
-  const double largest = std::max({f64::largestPart(local0), f64::largestPart(local1), f64::largestPart(local2)});
+  const double extent = largest(f64::largestPart(local0), f64::largestPart(local1), f64::largestPart(local2));
   const std::uint32_t instance = access.records.instances[found.mesh];
   if (instance != render::kNoInstance) {
     const pack::Instance& place = access.scene.instances[instance];
@@ -124,12 +133,10 @@ Triangle findTriangle(const SceneAccess& access, const pack::Mesh& mesh, const e
       std::swap(result.b1, result.b2);
       std::swap(result.corners.y, result.corners.z);
     }
-    const dvec3 across = glm::cross(result.p1 - result.p0, result.p2 - result.p0);
-    const double area2 = glm::length(across);
-    result.face = {area2 > 0 ? across / area2 : dvec3(0), area2};
+    result.face = computeFace(result.p0, result.p1, result.p2);
   }
   result.placedError = f64::placementError(dvec3(transform.spreadX), dvec3(transform.spreadY), dvec3(transform.spreadZ),
-                                           dvec3(transform.extent), result.p0, largest, 0x1p-24);
+                                           dvec3(transform.extent), result.p0, extent, 0x1p-24);
   return result;
 }
 
@@ -165,22 +172,21 @@ void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersecti
   hit.curvature = 0;
   f64::TextureHit textureHit = f64::noTextureHit();
   if (access.textures != nullptr) textureHit = findTextureHit(access, mesh, triangle, place, ray, b1, b2, hit);
-  hit.surface = surfaceAt(access.scene, access.textures, mesh.material, hit.position, textureHit);
+  hit.surface = surfaceAt(access.surfaces[mesh.material], access.scene, access.textures, hit.position, textureHit);
   // The next query is in single precision.
   const dvec3& o = triangle.origin;
   hit.error = f64::hitPointError(p0 - o, e1, e2, b1, b2, 0x1p-24) + f64::originError(o, 0x1p-24) +
               f64::intersectionError(p0, p1, p2, hit.position, 0x1p-24) + triangle.placedError;
   const double margin = 4 * f64::largestPart(hit.error);
-  const double longest = 1.75 * std::max({f64::largestPart(e1), f64::largestPart(e2), f64::largestPart(p2 - p1)});
-  // The nearest edge is at least the least coordinate times area2 over the longest edge away; 1.75 > sqrt(3).
-  hit.start = std::min({b0, b1, b2}) * area2 > margin * longest
+  // The nearest edge is at least the least coordinate times area2 over the longest edge away.
+  hit.start = f64::minR(b0, f64::minR(b1, b2)) * area2 > margin * face.longest
                   ? hit.position
                   : f64::insideTriangle(hit.position, p0, p1, p2, b0, b1, b2, glm::cross(e1, e2), margin);
   hit.outside = slope < 0;
   dvec3 interpolated = hit.face;
   if (!mesh.normals.empty()) {
     const dvec3 n = dvec3(mesh.normals[t.x]) * b0 + dvec3(mesh.normals[t.y]) * b1 + dvec3(mesh.normals[t.z]) * b2;
-    if (glm::length(n) > 0) interpolated = placeNormal(place, n);
+    if (glm::dot(n, n) > 0) interpolated = placeNormal(place, n);
   }
   const pack::MeshMaps& maps = hit.surface.material->meshMaps;
   if (maps.normal.isUsed())
@@ -189,6 +195,7 @@ void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersecti
   hit.normal = f64::shadingNormal(d, hit.face, interpolated);
   if (!hit.outside) hit.face = -hit.face, hit.curvature = -hit.curvature;
   hit.c = f64::clampUnit(-glm::dot(d, hit.normal));
+  hit.above = f64::rayOrigin(hit.start, hit.error, hit.face, 0x1p-24);
 }
 
 std::uint32_t reflectedPath(const SceneAccess& access, const Hit& h) {

@@ -13,10 +13,11 @@
 
 namespace malus::reference {
 
-// Unit normal of a triangle, from outside, and twice its area; without area the normal is 0.
+// Unit normal of a triangle, from outside, and twice its area; without area the normal is 0. longest: a bound on the
+// length of its edges.
 struct Face {
   dvec3 normal;
-  double area2;
+  double area2, longest;
 };
 std::vector<Face> computeFaces(const pack::Mesh& mesh);
 
@@ -32,7 +33,9 @@ struct SceneAccess {
   const embree::Bvh& bvh;
   const MeshRecords& records;
   const std::vector<std::vector<Face>>& faces;        // per triangle of each mesh of scene
+  const std::vector<Surface>& surfaces;               // plainSurface() of each material
   const std::vector<dvec3>& hemisphereTransmittance;  // per material
+  const std::vector<pack::SpotFalloff>& falloffs;     // per light of scene
   double lightReach;                                  // render::lightReach
   const MeshTextures* textures;                       // null without textures by texture coordinates
   render::CameraCone cone;                            // of the camera's rays
@@ -55,6 +58,7 @@ struct Ray {
 struct Hit {
   dvec3 d, position;
   dvec3 start, error;  // further rays start at `start`, outside the box of this error
+  dvec3 above;         // origin of queries that leave on the side of the ray
   dvec3 face;          // unit normal of the face, against the ray
   dvec3 normal;        // unit normal to shade with, against the ray
   double c;            // cosine of the angle of incidence
@@ -76,8 +80,7 @@ void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersecti
 // In place of a hit where a ray leaves the scene.
 Hit environmentHit(const dvec3& d);
 
-// Origins of queries that leave on the side of the camera, and on the other side.
-inline dvec3 queryAbove(const Hit& h) { return f64::rayOrigin(h.start, h.error, h.face, 0x1p-24); }
+// Origin of queries that leave on the other side.
 inline dvec3 queryBelow(const Hit& h) { return f64::rayOrigin(h.start, h.error, -h.face, 0x1p-24); }
 
 // Indices on this side and beyond, and the transmitted ray.

@@ -40,11 +40,11 @@ dvec3 environmentRadiance(const pack::Environment& e, const dvec3& d) {
          (texel(at + row) * (1 - fx) + texel(at + row + 1) * fx) * fy;
 }
 
-ShadowRay wayTo(const Hit& h, const dvec3& origin, const dvec3& toLight) {
-  const dvec3 offset = origin - h.position, straight = toLight - offset;
+ShadowRay wayTo(const Hit& h, const dvec3& toLight) {
+  const dvec3 offset = h.above - h.position, straight = toLight - offset;
   const dvec3 way = glm::dot(h.face, straight) <= glm::dot(h.face, offset) ? toLight : straight;
   const double length = glm::length(way);
-  return {glm::vec3(origin), glm::vec3(way / length), static_cast<float>(length)};
+  return {glm::vec3(h.above), glm::vec3(way / length), static_cast<float>(length)};
 }
 
 Light environmentLight(const pack::Environment& e, const dvec3& d) {
@@ -69,7 +69,6 @@ void findArrivals(const SceneAccess& access, const Hit& h, bool hasHighlight, co
   const bool diffuse = isDiffuse(h), glossy = m.highlightStrength > 0 && hasHighlight;
   if (diffuse) findSampledArrivals(access, h, path, arrivals, ways);
   if (access.scene.lights.empty() || (!diffuse && !glossy)) return;
-  const dvec3 origin = queryAbove(h);
   for (const pack::LightSource& light : access.scene.lights) {
     const bool isFar = light.kind == pack::LightKind::directional;
     const dvec3 toLight = isFar ? -light.direction * access.lightReach : light.position - h.position;
@@ -80,13 +79,13 @@ void findArrivals(const SceneAccess& access, const Hit& h, bool hasHighlight, co
     if (cosine <= 0 || glm::dot(h.face, l) <= 0) continue;
     const double lobe = glossy ? m.highlightStrength * f64::phongLobe(mirror, l, m.highlightExponent) : 0;
     if (!diffuse && lobe <= 0) continue;
-    const pack::SpotFalloff falloff = pack::spotFalloff(light);
+    const auto number = static_cast<std::size_t>(&light - access.scene.lights.data());
+    const pack::SpotFalloff& falloff = access.falloffs[number];
     const double cone = std::clamp(-glm::dot(light.direction, l) * falloff.scale + falloff.offset, 0.0, 1.0);
     if (cone == 0) continue;
-    const auto number = static_cast<std::size_t>(&light - access.scene.lights.data());
     arrivals.push_back({l, cosine, lobe, light.intensity * (isFar ? 1 : cone * cone / (distance * distance)),
                         isFar ? 0 : distance, l, 0, "light", number});
-    ways.push_back(wayTo(h, origin, toLight));
+    ways.push_back(wayTo(h, toLight));
   }
 }
 

@@ -39,7 +39,7 @@ void findArrivals(const SceneAccess& access, const Hit& hit, bool hasHighlight, 
 
 // The way to a light from outside the hit's error box. Closer to the face than twice the box it is parallel to the way
 // from the hit to the light, so that it cannot meet the face.
-ShadowRay wayTo(const Hit& hit, const dvec3& origin, const dvec3& toLight);
+ShadowRay wayTo(const Hit& hit, const dvec3& toLight);
 
 // Radiance of the environment's map or constant.
 dvec3 environmentRadiance(const pack::Environment& environment, const dvec3& d);

@@ -54,8 +54,8 @@ Choice chooseLight(const render::AreaLights& lights, const Hit& h, double u) {
   return choice;
 }
 
-void addAreaLights(const SceneAccess& access, const Hit& h, std::uint32_t path, const dvec3& origin,
-                   std::vector<Arrival>& arrivals, std::vector<ShadowRay>& ways) {
+void addAreaLights(const SceneAccess& access, const Hit& h, std::uint32_t path, std::vector<Arrival>& arrivals,
+                   std::vector<ShadowRay>& ways) {
   if (access.areaLights.lights.empty()) return;
   for (std::uint32_t k = 0; k < access.lightSamples; ++k) {
     const Point point = samplePoint(path, 1, k, access.lightSamples);
@@ -76,7 +76,7 @@ void addAreaLights(const SceneAccess& access, const Hit& h, std::uint32_t path, 
                         radiance * (s.measure / (choice.probability * access.lightSamples)), distance,
                         glm::cross(l.normal, l.axis), l.degree, "emitter", access.areaLights.placements[choice.light]});
     const double offset = l.offset + f64::largestPart(h.position) * 0x1p-20;
-    ways.push_back(wayTo(h, origin, s.toLight + l.normal * (front ? offset : -offset)));
+    ways.push_back(wayTo(h, s.toLight + l.normal * (front ? offset : -offset)));
   }
 }
 
@@ -112,8 +112,8 @@ EnvironmentSample sampleEnvironment(const SceneAccess& access, const Hit& h, Poi
   return {direction, f64::octahedralSolidAngle(direction) / (texels * texels * rowMass * columnMass)};
 }
 
-void addEnvironment(const SceneAccess& access, const Hit& h, std::uint32_t path, const dvec3& origin,
-                    std::vector<Arrival>& arrivals, std::vector<ShadowRay>& ways) {
+void addEnvironment(const SceneAccess& access, const Hit& h, std::uint32_t path, std::vector<Arrival>& arrivals,
+                    std::vector<ShadowRay>& ways) {
   const pack::Environment& e = access.scene.environment;
   if (!e.illuminates) return;
   for (std::uint32_t k = 0; k < access.lightSamples; ++k) {
@@ -124,7 +124,7 @@ void addEnvironment(const SceneAccess& access, const Hit& h, std::uint32_t path,
     arrivals.push_back({direction, glm::dot(h.normal, direction), 0,
                         environmentRadiance(e, direction) * (phase * share / access.lightSamples), 0, e.sun,
                         e.hasSun() ? f64::rayleighDegree(cosine, e.skyDegree) : 0, "environment", 0});
-    ways.push_back(wayTo(h, origin, direction * access.lightReach));
+    ways.push_back(wayTo(h, direction * access.lightReach));
   }
 }
 
@@ -132,9 +132,8 @@ void addEnvironment(const SceneAccess& access, const Hit& h, std::uint32_t path,
 
 void findSampledArrivals(const SceneAccess& access, const Hit& h, std::uint32_t path, std::vector<Arrival>& arrivals,
                          std::vector<ShadowRay>& ways) {
-  const dvec3 origin = queryAbove(h);
-  addAreaLights(access, h, path, origin, arrivals, ways);
-  addEnvironment(access, h, path, origin, arrivals, ways);
+  addAreaLights(access, h, path, arrivals, ways);
+  addEnvironment(access, h, path, arrivals, ways);
 }
 
 }  // namespace malus::reference

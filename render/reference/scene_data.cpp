@@ -26,9 +26,12 @@ void SceneData::computeSurfaces() {
   areaLights_ = render::findAreaLights(scene_);
   environmentDistributions_ =
       scene_.environment.illuminates ? render::environmentDistributions(scene_.environment) : std::vector<float>();
-  hemisphereTransmittance_.clear();
-  for (const pack::Material& m : scene_.materials)
+  surfaces_.clear(), hemisphereTransmittance_.clear(), falloffs_.clear();
+  for (const pack::Material& m : scene_.materials) {
+    surfaces_.push_back(plainSurface(m, scene_.wavelengthsNm));
     hemisphereTransmittance_.push_back(render::hemisphereTransmittance(m, scene_.wavelengthsNm));
+  }
+  for (const pack::LightSource& light : scene_.lights) falloffs_.push_back(pack::spotFalloff(light));
 }
 
 bool SceneData::update() {
@@ -42,7 +45,9 @@ SceneAccess SceneData::access(const render::RenderParameters& parameters) const 
           bvh_,
           records_,
           faces_,
+          surfaces_,
           hemisphereTransmittance_,
+          falloffs_,
           lightReach_,
           textures_ ? &*textures_ : nullptr,
           render::cameraCone(scene_.camera, parameters),

@@ -41,7 +41,9 @@ class SceneData {
   double lightReach_ = 0;
   render::AreaLights areaLights_;
   std::vector<float> environmentDistributions_;
-  std::vector<dvec3> hemisphereTransmittance_;  // per material
+  std::vector<Surface> surfaces_;               // per material
+  std::vector<dvec3> hemisphereTransmittance_;  // the same
+  std::vector<pack::SpotFalloff> falloffs_;     // per light
 };
 
 }  // namespace malus::reference

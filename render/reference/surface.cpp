@@ -51,13 +51,17 @@ void applyMeshMaps(const pack::MeshMaps& maps, const MeshTextures& textures, con
 
 }  // namespace
 
-Surface surfaceAt(const pack::Scene& scene, const MeshTextures* textures, std::uint32_t index, const dvec3& p,
+Surface plainSurface(const pack::Material& m, const dvec3& wavelengthsNm) {
+  return {&m,          m.eta,
+          m.k,         m.albedo,
+          m.radiance,  m.transmittanceParallel,
+          m.roughness, render::roundTripPhase(m.coating, wavelengthsNm)};
+}
+
+Surface surfaceAt(const Surface& plain, const pack::Scene& scene, const MeshTextures* textures, const dvec3& p,
                   const f64::TextureHit& at) {
-  const pack::Material& m = scene.materials[index];
-  Surface s{&m,          m.eta,
-            m.k,         m.albedo,
-            m.radiance,  m.transmittanceParallel,
-            m.roughness, render::roundTripPhase(m.coating, scene.wavelengthsNm)};
+  const pack::Material& m = *plain.material;
+  Surface s = plain;
   const auto map = [&](std::int32_t texture) {
     const dvec3 from = p - m.maps.origin;
     return textureAt(scene.textures[static_cast<std::size_t>(texture)], glm::dot(from, m.maps.u),

@@ -17,8 +17,10 @@ struct Surface {
   double roughness;
   dvec3 filmPhase;  // of the coating: twice its thickness over the wavelength, per colour
 };
-// textures: null without textures by texture coordinates.
-Surface surfaceAt(const pack::Scene& scene, const MeshTextures* textures, std::uint32_t material, const dvec3& position,
+// A material without its textures.
+Surface plainSurface(const pack::Material& material, const dvec3& wavelengthsNm);
+// plain: plainSurface(); textures: null without textures by texture coordinates.
+Surface surfaceAt(const Surface& plain, const pack::Scene& scene, const MeshTextures* textures, const dvec3& position,
                   const f64::TextureHit& at);
 
 struct Interface {

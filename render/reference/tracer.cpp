@@ -100,19 +100,18 @@ void Tracer::beginInterface(const Ray& ray, std::uint32_t depth, Level& level, N
   node.step = Step::interface;
   addArrivals(ray, depth, node.mirror, level, node);
   if (depth == 0) return;
-  const dvec3 above = queryAbove(h);
   if (h.surface.roughness > 0 && !ray.isBehindRough) {
-    beginFacets(ray, above, level, node);
+    beginFacets(ray, level, node);
     return;
   }
-  level.children.push_back({h.position, node.mirror, glm::vec3(above), ray.pixelX, ray.pixelY, ray.isBehindRough,
+  level.children.push_back({h.position, node.mirror, glm::vec3(h.above), ray.pixelX, ray.pixelY, ray.isBehindRough,
                             reflectedPath(access_, h)});
   if (pack::isClear(h.surface.material->kind) && !node.refraction.isTotal)
     level.children.push_back({h.position, node.refraction.direction, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY,
                               ray.isBehindRough, transmittedPath(h)});
 }
 
-void Tracer::beginFacets(const Ray& ray, const dvec3& above, Level& level, Node& node) const {
+void Tracer::beginFacets(const Ray& ray, Level& level, Node& node) const {
   const Hit& h = node.hit;
   const double alpha = h.surface.roughness;
   node.step = Step::facets;
@@ -126,7 +125,7 @@ void Tracer::beginFacets(const Ray& ray, const dvec3& above, Level& level, Node&
     if (weight <= 0 || glm::dot(mirror, h.face) <= 0) continue;
     level.facets.push_back({mirror, f64::sDirection(h.d, normal), c, weight});
     level.children.push_back(
-        {h.position, mirror, glm::vec3(above), ray.pixelX, ray.pixelY, true, facetPath(access_, h, i)});
+        {h.position, mirror, glm::vec3(h.above), ray.pixelX, ray.pixelY, true, facetPath(access_, h, i)});
   }
   node.facets = count(level.facets.size()) - node.firstFacet;
 }

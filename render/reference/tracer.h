@@ -63,7 +63,7 @@ class Tracer {
   void traceBatch(std::span<const Ray> batch, std::uint32_t depth, std::span<Light> light);
   void begin(const Ray& ray, const embree::Intersection& found, std::uint32_t depth, Level& level, Node& node) const;
   void beginInterface(const Ray& ray, std::uint32_t depth, Level& level, Node& node) const;
-  void beginFacets(const Ray& ray, const dvec3& above, Level& level, Node& node) const;
+  void beginFacets(const Ray& ray, Level& level, Node& node) const;
   void addArrivals(const Ray& ray, std::uint32_t depth, const dvec3& mirror, Level& level, Node& node) const;
 
   Light finish(const Ray& ray, std::uint32_t depth, const Level& level, const Node& node);

@@ -74,7 +74,10 @@ std::uint32_t reflectedPath(const SceneAccess& access, const Hit& h);
 std::uint32_t facetPath(const SceneAccess& access, const Hit& h, std::uint32_t facet);
 inline std::uint32_t transmittedPath(const Hit& h) { return f64::transmittedPath(h.path); }
 
-// found: a hit of Embree, not a miss.
+// The material of a hit, and the hit. found: a hit of Embree, not a miss.
+inline const pack::Material& findMaterial(const SceneAccess& access, const embree::Intersection& found) {
+  return access.scene.materials[access.scene.meshes[access.records.meshes[found.mesh]].material];
+}
 void findHit(const SceneAccess& access, const Ray& ray, const embree::Intersection& found, Hit& hit);
 
 // In place of a hit where a ray leaves the scene.

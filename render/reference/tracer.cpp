@@ -71,18 +71,21 @@ void Tracer::begin(const Ray& ray, const embree::Intersection& found, std::uint3
     node.step = Step::environment;
     return;
   }
+  // A path ends at its last surface, which reflects and transmits nothing: the hit itself is not needed.
+  const pack::MaterialKind kind = findMaterial(access_, found).kind;
+  if (depth == 0 && (pack::isPolarizingElement(kind) || pack::isClear(kind))) {
+    node.step = Step::nothing;
+    return;
+  }
   Hit& h = node.hit;
   findHit(access_, ray, found, h);
-  const pack::Material& m = *h.surface.material;
   node.firstChild = count(level.children.size());
-  if (pack::isEmitter(m.kind)) {
+  if (pack::isEmitter(kind)) {
     node.step = Step::emitter;
-  } else if (!pack::isInterface(m.kind)) {
+  } else if (!pack::isInterface(kind)) {
     node.step = Step::diffuse;
     addArrivals(ray, depth, h.normal, level, node);
-  } else if (depth == 0 && (pack::isPolarizingElement(m.kind) || pack::isClear(m.kind))) {
-    node.step = Step::nothing;
-  } else if (pack::isPolarizingElement(m.kind)) {  // the ray continues straight on
+  } else if (pack::isPolarizingElement(kind)) {  // the ray continues straight on
     node.step = Step::element;
     level.children.push_back(
         {h.position, h.d, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY, ray.isBehindRough, transmittedPath(h)});

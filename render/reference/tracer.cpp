@@ -64,6 +64,19 @@ void Tracer::traceBatch(std::span<const Ray> batch, std::uint32_t depth, std::sp
   for (std::size_t i = 0; i < batch.size(); ++i) light[i] = finish(batch[i], depth, level, level.nodes[i]);
 }
 
+// Appends a ray that leaves the hit h of a ray.
+void Tracer::addChild(const Ray& ray, const Hit& h, const dvec3& direction, const dvec3& queryOrigin,
+                      std::uint32_t path, Level& level) {
+  Ray& child = level.children.emplace_back();
+  child.origin = h.position;
+  child.d = direction;
+  child.queryOrigin = glm::vec3(queryOrigin);
+  child.pixelX = ray.pixelX;
+  child.pixelY = ray.pixelY;
+  child.isBehindRough = ray.isBehindRough;
+  child.path = path;
+}
+
 // Finds the hit, and appends the rays that leave it.
 void Tracer::begin(const Ray& ray, const embree::Intersection& found, std::uint32_t depth, Level& level,
                    Node& node) const {
@@ -87,8 +100,7 @@ void Tracer::begin(const Ray& ray, const embree::Intersection& found, std::uint3
     addArrivals(ray, depth, h.normal, level, node);
   } else if (pack::isPolarizingElement(kind)) {  // the ray continues straight on
     node.step = Step::element;
-    level.children.push_back(
-        {h.position, h.d, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY, ray.isBehindRough, transmittedPath(h)});
+    addChild(ray, h, h.d, queryBelow(h), transmittedPath(h), level);
   } else {
     beginInterface(ray, depth, level, node);
   }
@@ -100,6 +112,7 @@ void Tracer::beginInterface(const Ray& ray, std::uint32_t depth, Level& level, N
   node.refraction = refractionAt(h);
   node.mirror = f64::mirrorDirection(h.d, h.normal, h.c);
   node.s = f64::sDirection(h.d, h.normal);
+  node.rotation = toSurface(h.d, node.s);
   node.step = Step::interface;
   addArrivals(ray, depth, node.mirror, level, node);
   if (depth == 0) return;
@@ -107,11 +120,9 @@ void Tracer::beginInterface(const Ray& ray, std::uint32_t depth, Level& level, N
     beginFacets(ray, level, node);
     return;
   }
-  level.children.push_back({h.position, node.mirror, glm::vec3(h.above), ray.pixelX, ray.pixelY, ray.isBehindRough,
-                            reflectedPath(access_, h)});
+  addChild(ray, h, node.mirror, h.above, reflectedPath(access_, h), level);
   if (pack::isClear(h.surface.material->kind) && !node.refraction.isTotal)
-    level.children.push_back({h.position, node.refraction.direction, glm::vec3(queryBelow(h)), ray.pixelX, ray.pixelY,
-                              ray.isBehindRough, transmittedPath(h)});
+    addChild(ray, h, node.refraction.direction, queryBelow(h), transmittedPath(h), level);
 }
 
 void Tracer::beginFacets(const Ray& ray, Level& level, Node& node) const {
@@ -127,8 +138,8 @@ void Tracer::beginFacets(const Ray& ray, Level& level, Node& node) const {
     const double weight = f64::facetWeight(-h.d, mirror, h.normal, alpha) / gpu::kFacets;
     if (weight <= 0 || glm::dot(mirror, h.face) <= 0) continue;
     level.facets.push_back({mirror, f64::sDirection(h.d, normal), c, weight});
-    level.children.push_back(
-        {h.position, mirror, glm::vec3(h.above), ray.pixelX, ray.pixelY, true, facetPath(access_, h, i)});
+    addChild(ray, h, mirror, h.above, facetPath(access_, h, i), level);
+    level.children.back().isBehindRough = true;
   }
   node.facets = count(level.facets.size()) - node.firstFacet;
 }
@@ -178,7 +189,7 @@ Light Tracer::finishInterface(const Ray& ray, std::uint32_t depth, const Level& 
   const bool isClear = pack::isClear(m.kind);
   Light toCamera = isClear ? unpolarized(dvec3(0)) : interface.transmission * unpolarized(diffuse);
   const Light mirrored = unpolarized(highlight);
-  const FrameRotation toRay = transposed(toSurface(h.d, node.s));
+  const FrameRotation toRay = transposed(node.rotation);
   Light reflected{}, below{};  // that arrived from there
   if (node.step == Step::facets) {
     toCamera = rotated(toRay, toCamera + interface.reflection * mirrored);

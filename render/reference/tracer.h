@@ -44,7 +44,8 @@ class Tracer {
     std::uint32_t firstArrival, arrivals, firstChild, firstFacet, facets;
     Hit hit;
     Refraction refraction;
-    dvec3 mirror, s;  // s: the s direction, the same for all three rays
+    dvec3 mirror, s;         // s: the s direction, the same for all three rays
+    FrameRotation rotation;  // of the ray, to the frame of the surface
   };
 
   // Memory of a batch, by the depth of its rays.
@@ -61,6 +62,8 @@ class Tracer {
   };
 
   void traceBatch(std::span<const Ray> batch, std::uint32_t depth, std::span<Light> light);
+  static void addChild(const Ray& ray, const Hit& h, const dvec3& direction, const dvec3& queryOrigin,
+                       std::uint32_t path, Level& level);
   void begin(const Ray& ray, const embree::Intersection& found, std::uint32_t depth, Level& level, Node& node) const;
   void beginInterface(const Ray& ray, std::uint32_t depth, Level& level, Node& node) const;
   void beginFacets(const Ray& ray, Level& level, Node& node) const;

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,11 +18,26 @@
 
 namespace malus::bench {
 
-// Writes a temporary OBJ file of quads with about `triangles` triangles.
+// Files that the end of the program removes.
+struct TemporaryFiles {
+  TemporaryFiles() = default;
+  ~TemporaryFiles() {
+    std::error_code ignored;
+    for (const std::filesystem::path& path : paths) std::filesystem::remove(path, ignored);
+  }
+  TemporaryFiles(const TemporaryFiles&) = delete;
+  TemporaryFiles& operator=(const TemporaryFiles&) = delete;
+
+  std::vector<std::filesystem::path> paths;
+};
+
+// Writes an OBJ file of quads with about `triangles` triangles, which lasts as long as the program.
 inline std::filesystem::path torusObj(std::int64_t triangles) {
+  static TemporaryFiles files;
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / fmt::format("malus-bench-{}-{}.obj", ::getpid(), triangles);
   if (std::filesystem::exists(path)) return path;
+  files.paths.push_back(path);
   const auto around = static_cast<std::int64_t>(std::sqrt(static_cast<double>(triangles))), across = around / 2;
   std::string text;
   for (std::int64_t i = 0; i < around; ++i)

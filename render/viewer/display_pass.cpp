@@ -140,7 +140,7 @@ DisplayInput displayInput(const ViewState& state, const Published& published, st
   const render::Analyser analyser = state.filter.analyser();
   input.analyser = glm::dvec4(analyser[0], analyser[1], analyser[2], analyser[3]);
   input.shown = state.shown;
-  input.againstOther = state.against == Against::otherSide && state.isSplit;
+  input.againstOther = state.comparesSides();
   input.dividerColumn = static_cast<float>(state.isSplit ? std::round(state.divider * width) : width);
   input.gain = static_cast<float>(std::exp2(state.exposureEv));
   input.differenceScale = static_cast<float>(state.differenceScale);

@@ -43,8 +43,7 @@ struct LegendText {
 std::string comparedWith(const Session& session, const BackgroundState& background) {
   const ViewState& state = session.state;
   const bool isFlip = state.shown == Quantity::flip;
-  if (state.against == Against::otherSide)
-    return isFlip && !background.flip ? "the other side: computing" : "the other side";
+  if (state.comparesSides()) return isFlip && !background.flip ? "the other side: computing" : "the other side";
   if (!background.reference.isComplete())
     return fmt::format("the reference: {:.0f} % rendered",
                        100.0 * background.reference.rows / std::max(session.height(), 1u));

@@ -45,7 +45,7 @@ bool Session::updateBackground(const Published& published) {
   const bool isStill = published.isComplete && published.generation == wish_->generation;
   background_.requestReference(state.usesReference && isStill);
   const bool showsFlip = state.shown == Quantity::flip;
-  const bool againstOther = state.against == Against::otherSide && state.isSplit;
+  const bool againstOther = state.comparesSides();
   if (!isStill || (!state.usesReference && !(showsFlip && againstOther))) return false;
   // Errors take seconds, and depend on what changes while a polarizer turns: only of a view that is still.
   const render::Analyser analyser = state.filter.analyser();

@@ -70,6 +70,9 @@ struct ViewState {
   double differenceScale = 0.1;  // difference of the brightest colour of the legend, in display units
   bool usesReference = false;    // render the reference in the background
   bool isContinuous = false;     // render again and again while still, to measure times
+
+  // Whether differences and FLIP are taken to the other side, which only a split window has.
+  bool comparesSides() const { return against == Against::otherSide && isSplit; }
 };
 
 // The settings of one image of a side, for the functions of render/job.h. needed: the effects of the scene.

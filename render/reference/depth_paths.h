@@ -188,13 +188,13 @@ class DepthPaths {
   }
 
   void followFacets(const Path& p, const Hit& h, const Light& row, const Refraction& refraction) {
-    const double alpha = h.surface.roughness;
+    const f64::VisibleFacets visible = f64::visibleFacets(-h.d, h.normal, h.surface.roughness);
     for (std::uint32_t i = 0; i < gpu::kFacets; ++i) {
       const glm::dvec2 point = render::facetPoint(i);
-      const dvec3 normal = f64::facetNormal(-h.d, h.normal, alpha, point.x, point.y);
+      const dvec3 normal = f64::facetNormal(visible, point.x, point.y);
       const double c = f64::clampUnit(-glm::dot(h.d, normal));
       const dvec3 mirror = f64::mirrorDirection(h.d, normal, c);
-      const double weight = f64::facetWeight(-h.d, mirror, h.normal, alpha) / gpu::kFacets;
+      const double weight = f64::facetWeight(visible, mirror) / gpu::kFacets;
       if (weight <= 0 || glm::dot(mirror, h.face) <= 0) continue;
       const dvec3 s = f64::sDirection(h.d, normal);
       const Light atFacet = times(times(row, transposed(toSurface(h.d, s))),

@@ -127,15 +127,15 @@ void Tracer::beginInterface(const Ray& ray, std::uint32_t depth, Level& level, N
 
 void Tracer::beginFacets(const Ray& ray, Level& level, Node& node) const {
   const Hit& h = node.hit;
-  const double alpha = h.surface.roughness;
+  const f64::VisibleFacets visible = f64::visibleFacets(-h.d, h.normal, h.surface.roughness);
   node.step = Step::facets;
   node.firstFacet = count(level.facets.size());
   for (std::uint32_t i = 0; i < gpu::kFacets; ++i) {
     const glm::dvec2& point = facetPoints()[i];
-    const dvec3 normal = f64::facetNormal(-h.d, h.normal, alpha, point.x, point.y);
+    const dvec3 normal = f64::facetNormal(visible, point.x, point.y);
     const double c = f64::clampUnit(-glm::dot(h.d, normal));
     const dvec3 mirror = f64::mirrorDirection(h.d, normal, c);
-    const double weight = f64::facetWeight(-h.d, mirror, h.normal, alpha) / gpu::kFacets;
+    const double weight = f64::facetWeight(visible, mirror) / gpu::kFacets;
     if (weight <= 0 || glm::dot(mirror, h.face) <= 0) continue;
     level.facets.push_back({mirror, f64::sDirection(h.d, normal), c, weight});
     addChild(ray, h, mirror, h.above, facetPath(access_, h, i), level);

@@ -68,10 +68,11 @@ FN real3 traceCameraPath(real column, real row, real behind0, real behind1, real
             if (maxComponent(stack[count].throughput) > threshold) count = count + 1;
           }
           bool rough = false;
-          if (kEffectRoughness) {
-            rough = isRough(h);
-            for (uint i = 0u; rough && i < kFacets; ++i) {
-              Facet facet = sampleFacet(h, camera.facets[i].x, camera.facets[i].y);
+          if (kEffectRoughness) rough = isRough(h);
+          if (rough) {
+            VisibleFacets visible = visibleFacetsAt(h);
+            for (uint i = 0u; i < kFacets; ++i) {
+              Facet facet = sampleFacet(h, visible, camera.facets[i].x, camera.facets[i].y);
               if (facet.weight <= R(0.0)) continue;
               stack[count].throughput = p.throughput;
               followFacet(stack[count], h, m, facet, i, s.coloured, camera.tolerance);

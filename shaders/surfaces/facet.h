@@ -24,15 +24,15 @@ struct Facet {
   real weight;   // of its light in the mean; 0 where it reflects nothing
 };
 
+FN VisibleFacets visibleFacetsAt(IN(Hit) h) { return visibleFacets(h.d * R(-1.0), h.normal, roughnessAt(h)); }
+
 // Facet for a point (px, py) of the unit disk (optics/facets.h).
-FN Facet sampleFacet(IN(Hit) h, real px, real py) {
-  real alpha = roughnessAt(h);
-  real3 toCamera = h.d * R(-1.0);
+FN Facet sampleFacet(IN(Hit) h, IN(VisibleFacets) visible, real px, real py) {
   Facet f;
-  f.normal = facetNormal(toCamera, h.normal, alpha, px, py);
-  f.c = clampUnit(dot3(toCamera, f.normal));
+  f.normal = facetNormal(visible, px, py);
+  f.c = clampUnit(R(0.0) - dot3(h.d, f.normal));
   f.mirror = mirrorDirection(h.d, f.normal, f.c);
-  f.weight = facetWeight(toCamera, f.mirror, h.normal, alpha) * (R(1.0) / R(kFacets));
+  f.weight = facetWeight(visible, f.mirror) * (R(1.0) / R(kFacets));
   f.weight = selectR(lessEqualR(dot3(f.mirror, h.face), R(0.0)), R(0.0), f.weight);
   return f;
 }

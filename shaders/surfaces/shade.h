@@ -23,8 +23,9 @@ FN_INLINE SurfaceLight transmittedLight(IN(Hit) h, IN(Scattering) s, real3 sDir,
 
 FN SurfaceLight roughReflectedLight(IN(Hit) h, IN(Material) m, real3 sDir, INOUT(real3) slack) {
   SurfaceLight sum = lightUnpolarized(splat3(R(0.0)));
+  VisibleFacets visible = visibleFacetsAt(h);
   for (uint i = 0u; i < kFacets; ++i) {
-    Facet facet = sampleFacet(h, camera.facets[i].x, camera.facets[i].y);
+    Facet facet = sampleFacet(h, visible, camera.facets[i].x, camera.facets[i].y);
     if (facet.weight > R(0.0)) {
       Payload returned = traceRay(facetRay(h, facet, i));
       sum = lightAdd(sum, facetLight(h, m, facet, returned, sDir, slack));

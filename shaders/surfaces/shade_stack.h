@@ -38,7 +38,8 @@ struct RoughSurface {
 // Continues with the next facet that reflects; false: there is none.
 FN bool followNextFacet(INOUT(RoughSurface) rough, INOUT(Ray) ray) {
   while (rough.next < kFacets) {
-    rough.facet = sampleFacet(rough.h, camera.facets[rough.next].x, camera.facets[rough.next].y);
+    VisibleFacets visible = visibleFacetsAt(rough.h);
+    rough.facet = sampleFacet(rough.h, visible, camera.facets[rough.next].x, camera.facets[rough.next].y);
     rough.next = rough.next + 1u;
     if (rough.facet.weight > R(0.0)) {
       ray = facetRay(rough.h, rough.facet, rough.next - 1u);

@@ -182,7 +182,7 @@ TYPED_TEST(EmulatedSurfaces, ScatteringIsPhysical) {
       EXPECT_EQ(steps.mediumTransmittance(h).x.value, 1);
     }
     expectShare(steps.enteringRow(h, m, h.d, h.c).w, "entering");
-    const auto facet = steps.sampleFacet(h, number(draw, -0.7, 0.7), number(draw, -0.7, 0.7));
+    const auto facet = steps.sampleFacet(h, steps.visibleFacetsAt(h), number(draw, -0.7, 0.7), number(draw, -0.7, 0.7));
     expectUnit(facet.mirror, "facet");
     EXPECT_TRUE(facet.weight.value >= 0 && facet.weight.value * gpu::kFacets <= 1 + 8 * kUnit) << facet.weight.value;
     const emulated::PointLight light{numbers(draw, -3, 3), numbers(draw, 0, 10)};

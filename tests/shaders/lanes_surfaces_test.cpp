@@ -272,8 +272,11 @@ void compareFacets(Inputs<S, L>& in, Draw& draw) {
     if (e->roughness == 0) e->roughness = 0.1f;
   in.lanes.extra.roughness = pack(in.scalar[0].extra.roughness, in.scalar[1].extra.roughness);
   const float x = number(draw, -0.7, 0.7), y = number(draw, -0.7, 0.7);
-  expectSameNumbers(in.lanes.sampleFacet(in.laneHit, pack(x, x), pack(y, y)), in.scalar[0].sampleFacet(in.hit[0], x, y),
-                    in.scalar[1].sampleFacet(in.hit[1], x, y), "sampleFacet");
+  MALUS_RUN([](auto& s, auto& h, auto&, auto&) { return s.visibleFacetsAt(h); })
+  expectSameNumbers(lane, first, second, "visibleFacetsAt");
+  expectSameNumbers(in.lanes.sampleFacet(in.laneHit, lane, pack(x, x), pack(y, y)),
+                    in.scalar[0].sampleFacet(in.hit[0], first, x, y), in.scalar[1].sampleFacet(in.hit[1], second, x, y),
+                    "sampleFacet");
 }
 
 template <class S, class L>

@@ -49,6 +49,7 @@ namespace malus::test {
   X(space, coatOnConductor)              \
   X(space, rayleighDegree)               \
   X(space, rayleighPhase)                \
+  X(space, visibleFacets)                \
   X(space, facetNormal)                  \
   X(space, facetWeight)                  \
   X(space, mirrorDirection)              \

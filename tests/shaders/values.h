@@ -125,8 +125,9 @@ FN Values computeValues(Given g) {
   r.pane = thinGlass(g.c, R(1.0), R(1.0) + absR(g.sin2), R(1.0));
   r.glassCoat = coatOnDielectric(g.c, R(1.0), R(1.5), R(1.0) + absR(g.sin2), R(1.0), absR(g.cos2));
   r.metalCoat = coatOnConductor(g.c, R(1.0), R(1.5), R(1.0) + absR(g.sin2), g.k2, R(1.0));
-  r.facet = facetNormal(g.d, g.n, R(0.25), R(0.5) * g.cos2, R(0.5) * g.sin2);
-  r.facetShare = facetWeight(g.d, g.interpolated, g.n, R(0.25));
+  VisibleFacets visible = visibleFacets(g.d, g.n, R(0.25));
+  r.facet = facetNormal(visible, R(0.5) * g.cos2, R(0.5) * g.sin2);
+  r.facetShare = facetWeight(visible, g.interpolated);
   r.skyDegree = rayleighDegree(g.c, R(0.75));
   r.skyPhase = rayleighPhase(g.c);
   return r;

@@ -18,6 +18,7 @@ struct RoughPacket {
   Material m;
   Scattering s;
   Throughput throughput;
+  VisibleFacets visible;
   mask rough;
   word pixel;
 };
@@ -109,7 +110,7 @@ void meetSurface(std::uint32_t kind, Hit& h, CameraPath& p, word pixel, Level& l
     mask rough = false;
     if (kEffectRoughness) {
       if (hasBase(kind)) rough = andM(reflects, isRough(h));
-      if (anyM(rough)) level.rough[level.roughCount++] = {h, m, s, p.throughput, rough, pixel};
+      if (anyM(rough)) level.rough[level.roughCount++] = {h, m, s, p.throughput, visibleFacetsAt(h), rough, pixel};
     }
     applyInterface(p.throughput, s.reflection, s.coloured);
     light = light + select3(reflects, unpolarizedContribution(p.throughput, direct.highlight), splat3(0.0f));
@@ -127,7 +128,7 @@ void addFacetPaths(std::uint32_t i, Level& level) {
     const RoughPacket& r = level.rough[k];
     loadExtra(r.h.material);
     active = r.rough;
-    const Facet facet = sampleFacet(r.h, camera.facets[i].x, camera.facets[i].y);
+    const Facet facet = sampleFacet(r.h, r.visible, camera.facets[i].x, camera.facets[i].y);
     CameraPath p;
     p.throughput = r.throughput;
     followFacet(p, r.h, r.m, facet, i, r.s.coloured, camera.tolerance);

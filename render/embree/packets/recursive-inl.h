@@ -17,6 +17,7 @@ struct PendingPacket {
   SurfaceLight toCamera;
   real3 sDir;
   real3 highlight;
+  VisibleFacets visible;
   Facet facet;    // the one that is followed
   mask active;    // lanes that have a ray
   mask reflects;  // lanes that follow the reflected ray, the facets, the transmitted ray
@@ -87,6 +88,7 @@ void meetSurface(std::uint32_t kind, PendingPacket& p) {
     if (anyM(p.rough)) {
       p.reflects = andM(p.reflects, notM(p.rough));
       addLight(p, p.rough, lightThroughInterface(p.s.reflection, lightUnpolarized(p.highlight)));
+      ::new (&p.visible) VisibleFacets(visibleFacetsAt(p.h));
     }
   }
 }
@@ -145,7 +147,7 @@ void followFacets(std::size_t depth, Level& level) {
           p.follows = p.rough;
           if (!anyM(p.follows)) return;
           loadExtra(p.h.material);
-          p.facet = sampleFacet(p.h, camera.facets[i].x, camera.facets[i].y);
+          p.facet = sampleFacet(p.h, p.visible, camera.facets[i].x, camera.facets[i].y);
           p.follows = andM(p.rough, lessR(0.0f, p.facet.weight));
           if (anyM(p.follows)) p.sent = addRays(level.rays, p.follows, facetRay(p.h, p.facet, i));
         },

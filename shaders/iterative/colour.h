@@ -31,3 +31,8 @@ FN real3 diffuseExit(IN(Throughput) c, IN(FresnelTerms) f, real3 radiance) {
   return c.share * meanTransmittance(f) * radiance;
 }
 FN void applyInterface(INOUT(Throughput) c, IN(FresnelTerms) f, mask coloured) { c.share = c.share * f.r; }
+// Behind a surface with normal n and a further factor.
+FN_INLINE Throughput unpolarizedBehind(Throughput c, real3 d, real3 n, IN(FresnelTerms) f, real factor) {
+  c.share = c.share * f.r * factor;
+  return c;
+}

@@ -127,3 +127,16 @@ FN_INLINE void applyInterface(INOUT(Throughput) c, IN(FresnelTerms) f, mask colo
   c.g = selectImportance(isSplit(c), applyInterfaceTransposed(c.g, f.rs.y, f.rp.y, f.xRe.y, f.xIm.y), c.g);
   c.b = selectImportance(isSplit(c), applyInterfaceTransposed(c.b, f.rs.z, f.rp.z, f.xRe.z, f.xIm.z), c.b);
 }
+
+// Of the throughput behind a surface with normal n and a further factor, what unpolarizedContribution needs.
+FN_INLINE Throughput unpolarizedBehind(Throughput c, real3 d, real3 n, IN(FresnelTerms) f, real factor) {
+  rotateToSurface(c, d, n);
+  real3 mean = (f.rs + f.rp) * R(0.5);
+  real3 difference = (f.rs - f.rp) * R(0.5);
+  real3 weights = (mean * colourWeights(c) + difference * colourLinear(c)) * factor;
+  c.r.w = weights.x;
+  c.g.w = weights.y;
+  c.b.w = weights.z;
+  c.split = R(1.0);
+  return c;
+}

@@ -54,11 +54,21 @@ FN void followReflection(INOUT(CameraPath) p, IN(Hit) h, IN(Scattering) s, real 
   dropPolarization(p.throughput, tolerance);
 }
 
+// The throughput behind a facet of a rough surface.
+FN Throughput behindFacet(Throughput c, IN(Hit) h, IN(Material) m, IN(Facet) facet, mask coloured, real tolerance) {
+  rotateToSurface(c, h.d, facet.normal);
+  applyInterface(c, opaqueTerms(facet.c, m, h.material), coloured);
+  scaleThroughput(c, splat3(facet.weight));
+  dropPolarization(c, tolerance);
+  return c;
+}
+// Of it, what unpolarizedContribution needs.
+FN_INLINE Throughput unpolarizedBehindFacet(IN(Throughput) c, IN(Hit) h, IN(Material) m, IN(Facet) facet) {
+  return unpolarizedBehind(c, h.d, facet.normal, opaqueTerms(facet.c, m, h.material), facet.weight);
+}
+
 FN void followFacet(INOUT(CameraPath) p, IN(Hit) h, IN(Material) m, IN(Facet) facet, word index, mask coloured,
                     real tolerance) {
   p.ray = facetRay(h, facet, index);
-  rotateToSurface(p.throughput, h.d, facet.normal);
-  applyInterface(p.throughput, opaqueTerms(facet.c, m, h.material), coloured);
-  scaleThroughput(p.throughput, splat3(facet.weight));
-  dropPolarization(p.throughput, tolerance);
+  p.throughput = behindFacet(p.throughput, h, m, facet, coloured, tolerance);
 }

@@ -1,3 +1,9 @@
+// Whether rays that leave the scene bring nothing.
+FN bool isEnvironmentBlack() {
+  if (kEffectEnvironmentMap && camera.environmentSize != 0) return false;
+  return camera.environment.x == 0.0 && camera.environment.y == 0.0 && camera.environment.z == 0.0;
+}
+
 // Radiance of the environment for a ray in direction d that leaves the scene.
 FN real3 environmentRadiance(real3 d) {
   if (!kEffectEnvironmentMap || camera.environmentSize == 0) return camera.environment;

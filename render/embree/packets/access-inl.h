@@ -126,6 +126,9 @@ FN Order rankChosen(mask chosen) {
 
 // The inverse of ChosenLanes::store: the values from `from` on, in the lanes that were chosen.
 FN real loadChosen(const float* from, Order ranks) { return hn::TableLookupLanes(loadR(from).v, ranks); }
+FN word loadChosen(const std::uint32_t* from, Order ranks) {
+  return hn::BitCast(Words(), hn::TableLookupLanes(hn::BitCast(Floats(), loadW(from).v), ranks));
+}
 
 // A row of a table of structs whose members are floats and words of four bytes, per lane.
 template <class Struct>

@@ -5,6 +5,9 @@
 #include "shaders/iterative/path.h"
 #include "shaders/iterative/path_light.h"
 
+// What is needed of a path's throughput where it meets something.
+enum class Need : std::uint32_t { kNothing, kUnpolarized, kAll };
+
 // Rays with the throughput of their paths, a row per field, and the pixel of each in the tile.
 struct Paths {
   Rays rays;
@@ -16,11 +19,14 @@ struct Paths {
 struct RoughPacket {
   Hit h;
   Material m;
-  Scattering s;
   Throughput throughput;
-  VisibleFacets visible;
+  mask coloured;  // the facets' terms may differ between colours
   mask rough;
   word pixel;
+  VisibleFacets visible;
+  Facet facet;         // the one that is followed
+  mask follows;        // lanes whose ray is on its way
+  std::uint32_t sent;  // index of the first such ray; the others follow
 };
 
 // State of one level while the next one works. At most one ray of each kind leaves per path, so that each fits.
@@ -34,6 +40,7 @@ struct Level {
 Level* levels[embree::kMostLevels] = {};
 HWY_ALIGN_MAX float sums[3][kBatch + kLanes];  // radiance that the camera records, by pixel
 real threshold;                                // paths with a smaller throughput end
+std::vector<std::uint32_t> needOfBucket;       // Need where a ray's hit is in a bucket (embree::ShadingOrder)
 
 // Fields of colours that share the first vector are not stored. polarized: the light there is; without it only the
 // fields that it needs are read, and the others are 0.
@@ -55,15 +62,25 @@ Throughput loadThroughput(const Paths& paths, word path, bool polarized) {
   return c;
 }
 
+// Stores the chosen lanes of what is needed of a throughput, from path `at` on.
+template <Need kNeed>
+static void storeThroughput(const Throughput& c, mask chosen, Paths& paths, std::uint32_t at) {
+  const ChosenLanes lanes(chosen);
+  const auto store = [&](std::size_t begin, std::size_t end) HWY_ATTR {
+    for (std::size_t i = begin; i < end; ++i)
+      if (kNeed == Need::kAll || (kUnpolarizedFields >> i & 1u) != 0)
+        lanes.store(getField(c, i), paths.throughput[i] + at);
+  };
+  store(0, kSharedFields);
+  if (kSharedFields < kFields<Throughput> && anyM(andM(chosen, isSplit(c)))) store(kSharedFields, kFields<Throughput>);
+}
+
 void addPaths(Paths& paths, mask chosen, const CameraPath& p, word pixel) {
   chosen = andM(chosen, active);
   if (!anyM(chosen)) return;
   const std::uint32_t at = paths.rays.count;
-  const bool split = kSharedFields < kFields<Throughput> && anyM(andM(chosen, isSplit(p.throughput)));
-  const ChosenLanes lanes(chosen);
-  for (std::size_t i = 0; i < (split ? kFields<Throughput> : kSharedFields); ++i)
-    lanes.store(getField(p.throughput, i), paths.throughput[i] + at);
-  lanes.store(pixel, paths.pixel + at);
+  storeThroughput<Need::kAll>(p.throughput, chosen, paths, at);
+  ChosenLanes(chosen).store(pixel, paths.pixel + at);
   addRays(paths.rays, chosen, p.ray);
 }
 
@@ -80,6 +97,12 @@ void record(const real3& light, word pixel) {
   scatterR(gatherR(sums[0], pixel) + light.x, sums[0], pixel);
   scatterR(gatherR(sums[1], pixel) + light.y, sums[1], pixel);
   scatterR(gatherR(sums[2], pixel) + light.z, sums[2], pixel);
+}
+
+void addRough(const Hit& h, const Material& m, const Scattering& s, const Throughput& c, mask rough, word pixel,
+              Level& level) {
+  RoughPacket& r = level.rough[level.roughCount++];
+  ::new (&r) RoughPacket{h, m, c, s.coloured, rough, pixel, visibleFacetsAt(h), {}, {}, 0};
 }
 
 // Rays that leave a surface, and the light that it adds to the paths that met it.
@@ -110,7 +133,7 @@ void meetSurface(std::uint32_t kind, Hit& h, CameraPath& p, word pixel, Level& l
     mask rough = false;
     if (kEffectRoughness) {
       if (hasBase(kind)) rough = andM(reflects, isRough(h));
-      if (anyM(rough)) level.rough[level.roughCount++] = {h, m, s, p.throughput, visibleFacetsAt(h), rough, pixel};
+      if (anyM(rough)) addRough(h, m, s, p.throughput, rough, pixel, level);
     }
     applyInterface(p.throughput, s.reflection, s.coloured);
     light = light + select3(reflects, unpolarizedContribution(p.throughput, direct.highlight), splat3(0.0f));
@@ -121,33 +144,107 @@ void meetSurface(std::uint32_t kind, Hit& h, CameraPath& p, word pixel, Level& l
   record(light, pixel);
 }
 
-// The paths of one facet of each rough surface.
-void addFacetPaths(std::uint32_t i, Level& level) {
-  level.reflected.rays.count = 0;
+// Sends the rays of one facet of each rough surface. A path's throughput behind it is computed where its ray has met
+// something, unless paths may end before.
+void sendFacetRays(std::uint32_t i, Level& level) {
+  Paths& paths = level.reflected;
+  paths.rays.count = 0;
+  for (std::size_t k = 0; k < level.roughCount; ++k) {
+    RoughPacket& r = level.rough[k];
+    loadExtra(r.h.material);
+    r.facet = sampleFacet(r.h, r.visible, camera.facets[i].x, camera.facets[i].y);
+    r.follows = andM(r.rough, lessR(0.0f, r.facet.weight));
+    if (anyM(lessR(0.0f, threshold))) {
+      const Throughput c = behindFacet(r.throughput, r.h, r.m, r.facet, r.coloured, camera.tolerance);
+      r.follows = andM(r.follows, lessR(threshold * (1.0f / static_cast<float>(gpu::kFacets)), maxComponent(c)));
+    }
+    if (!anyM(r.follows)) continue;
+    ChosenLanes(r.follows).store(r.pixel, paths.pixel + paths.rays.count);
+    r.sent = addRays(paths.rays, r.follows, facetRay(r.h, r.facet, i));
+  }
+}
+
+// The most that the paths of the chosen lanes need, by the buckets of their hits.
+Need needOf(mask chosen, word bucket) const {
+  const word need = gatherW(needOfBucket.data(), bucket);
+  for (const Need most : {Need::kAll, Need::kUnpolarized})
+    if (anyM(andM(chosen, equalW(need, static_cast<std::uint32_t>(most))))) return most;
+  return Need::kNothing;
+}
+
+Throughput behindFacet(const RoughPacket& r, Need need) {
+  if (need == Need::kUnpolarized) return unpolarizedBehindFacet(r.throughput, r.h, r.m, r.facet);
+  return behindFacet(r.throughput, r.h, r.m, r.facet, r.coloured, camera.tolerance);
+}
+
+// Records the light of the environment that arrives by the facets, and stores what the other paths need of their
+// throughput. The rays were traced last.
+void arriveByFacet(const RoughPacket& r, Paths& paths) {
+  const word bucket = selectW(r.follows, loadChosen(buckets.key + r.sent, rankChosen(r.follows)), 0u);
+  const Need need = needOf(r.follows, bucket);
+  if (need == Need::kNothing) return;
+  const mask met = notM(equalW(bucket, 0u));
+  const mask missed = andM(r.follows, notM(met));
+  loadExtra(r.h.material);
+  const Throughput c = behindFacet(r, need);
+  if (!isEnvironmentBlack() && anyM(missed)) {
+    active = r.rough;
+    record(select3(missed, environmentLight(c, r.facet.mirror).recorded, splat3(0.0f)), r.pixel);
+  }
+  if (!anyM(met)) return;
+  if (need == Need::kUnpolarized)
+    storeThroughput<Need::kUnpolarized>(c, r.follows, paths, r.sent);
+  else
+    storeThroughput<Need::kAll>(c, r.follows, paths, r.sent);
+}
+
+// Follows the paths of one facet of each rough surface.
+void followFacet(std::uint32_t i, std::size_t depth, Level& level) {
+  sendFacetRays(i, level);
+  Paths& paths = level.reflected;
+  if (paths.rays.count == 0) return;
+  Level& next = levelAt(depth + 1);
+  intersect(paths.rays, next.found);
   for (std::size_t k = 0; k < level.roughCount; ++k) {
     const RoughPacket& r = level.rough[k];
-    loadExtra(r.h.material);
-    active = r.rough;
-    const Facet facet = sampleFacet(r.h, r.visible, camera.facets[i].x, camera.facets[i].y);
-    CameraPath p;
-    p.throughput = r.throughput;
-    followFacet(p, r.h, r.m, facet, i, r.s.coloured, camera.tolerance);
-    const mask shows = lessR(threshold * (1.0f / static_cast<float>(gpu::kFacets)), maxComponent(p.throughput));
-    addPaths(level.reflected, andM(andM(r.rough, lessR(0.0f, facet.weight)), shows), p, r.pixel);
+    if (anyM(r.follows)) arriveByFacet(r, paths);
   }
+  shadePaths(depth + 1, paths, next, false);
+}
+
+void findNeeds() {
+  const std::vector<std::uint32_t>& kinds = shadingOrder->kindOfBucket;
+  needOfBucket.resize(kinds.size());
+  for (std::size_t bucket = 0; bucket < kinds.size(); ++bucket) {
+    const bool isPolarized =
+        bucket == 0 ? isEnvironmentPolarized() : !isSource(kinds[bucket]) || isSourcePolarized(kinds[bucket]);
+    Need need = isPolarized ? Need::kAll : Need::kUnpolarized;
+    if (bucket == 0 && isEnvironmentBlack()) need = Need::kNothing;
+    needOfBucket[bucket] = static_cast<std::uint32_t>(need);
+  }
+}
+
+Level& levelAt(std::size_t depth) {
+  if (levels[depth] == nullptr) levels[depth] = new Level;
+  return *levels[depth];
 }
 
 // Follows a batch of paths to their ends. depth: of the recursion.
 void followPaths(std::size_t depth, const Paths& paths) {
   if (paths.rays.count == 0) return;
-  if (levels[depth] == nullptr) levels[depth] = new Level;
-  Level& level = *levels[depth];
+  Level& level = levelAt(depth);
   intersect(paths.rays, level.found);
+  shadePaths(depth, paths, level, !isEnvironmentBlack());
+}
+
+// The same for a batch whose hits are in `level`. recordsEnvironment: for the rays that leave the scene.
+void shadePaths(std::size_t depth, const Paths& paths, Level& level, bool recordsEnvironment) {
   level.reflected.rays.count = level.transmitted.rays.count = 0;
   level.roughCount = 0;
   forEachPacket(
       level.found,
       [&](word path) HWY_ATTR {
+        if (!recordsEnvironment) return;
         const real3 d = rayDirection(paths.rays, path);
         const Throughput c = loadThroughput(paths, path, isEnvironmentPolarized());
         record(environmentLight(c, d).recorded, gatherW(paths.pixel, path));
@@ -160,10 +257,8 @@ void followPaths(std::size_t depth, const Paths& paths) {
         meetSurface(kind, h, p, gatherW(paths.pixel, path), level);
       });
   followPaths(depth + 1, level.reflected);
-  for (std::uint32_t i = 0; kEffectRoughness && level.roughCount > 0 && i < gpu::kFacets; ++i) {
-    addFacetPaths(i, level);
-    followPaths(depth + 1, level.reflected);
-  }
+  if (kEffectRoughness && level.roughCount > 0)
+    for (std::uint32_t i = 0; i < gpu::kFacets; ++i) followFacet(i, depth, level);
   followPaths(depth + 1, level.transmitted);
 }
 
@@ -173,6 +268,7 @@ Paths primary;
 void tracePixels(const embree::TileInput& tile, const glm::vec4& behind) {
   std::memset(sums, 0, sizeof sums);
   threshold = camera.tolerance * behind.x;
+  findNeeds();
   for (std::uint32_t j = 0; j < camera.samples; ++j)
     for (std::uint32_t i = 0; i < camera.samples; ++i) {
       cameraRays(tile, i, j, primary.rays);

@@ -39,10 +39,12 @@ class Limited {
   Limited& operator=(const Limited&) = delete;
 };
 
-RenderResult rendered(const pack::Scene& scene, const std::string& method, EmbreePath path, std::uint32_t samples = 1) {
+RenderResult rendered(const pack::Scene& scene, const std::string& method, EmbreePath path, std::uint32_t samples = 1,
+                      double tolerance = 0) {
   RenderParameters parameters = render::defaultParameters(scene);
   parameters.embreePath = path;
   parameters.samples = samples;
+  parameters.tolerance = tolerance;
   parameters.stokes = render::methodNamed(method).hasStokes;
   RenderResult result = Renderer(scene, 1).render(method, parameters);
   EXPECT_EQ(result.embreePath, path);
@@ -87,6 +89,32 @@ void expectSameByBothPaths(const pack::Scene& scene, std::uint32_t samples) {
 TEST(EmbreePaths, PacketsRenderTheImageOfSingleRays) { expectSameByBothPaths(test::mixedScene(), 1); }
 
 TEST(EmbreePaths, PacketsRenderEveryEffect) { expectSameByBothPaths(test::everyEffectScene(), 2); }
+
+// A rough wall and a rough floor. What the rays of their facets meet decides how much of their paths is computed.
+pack::Scene roughScene(const glm::dvec3& environment, bool polarizedLight) {
+  pack::Scene scene = test::everyEffectScene();
+  scene.materials[0].roughness = 0.1;
+  scene.environment.radiance = environment;
+  if (!polarizedLight) {
+    scene.materials[4].axis = glm::dvec3(0);
+    scene.materials[4].polarization = 0;
+    scene.environment.sun = glm::dvec3(0);
+    scene.environment.skyDegree = 0;
+  }
+  return scene;
+}
+
+TEST(EmbreePaths, PacketsOfFacetsMeetEveryKindOfLight) {
+  for (const glm::dvec3& environment : {glm::dvec3(0), glm::dvec3(0.2, 0.3, 0.5)})
+    for (const bool polarizedLight : {false, true}) {
+      SCOPED_TRACE(testing::Message() << environment.x << (polarizedLight ? " polarized" : " unpolarized"));
+      const pack::Scene scene = roughScene(environment, polarizedLight);
+      expectSameByBothPaths(scene, 1);
+      for (const char* method : {"schlick-iterative", "importance"})
+        expectSame(rendered(scene, method, EmbreePath::packet, 1, 0.02),
+                   rendered(scene, method, EmbreePath::scalar, 1, 0.02), tolerance(method));
+    }
+}
 
 // A pixel depends on its coordinates alone, not on the packet that it is traced in: on the light that is sampled and on
 // the paths that end early, too.

@@ -63,6 +63,13 @@ Payload loadPayload(const Payloads& from, std::uint32_t first, mask chosen) {
   return payload;
 }
 
+// Whether no light returned in the chosen lanes.
+static bool isBlack(const Payload& payload, mask chosen) {
+  mask black = true;
+  for (std::size_t i = 0; i < kFields<Payload>; ++i) black = andM(black, equalW(floatBits(getField(payload, i)), 0u));
+  return !anyM(andM(chosen, notM(black)));
+}
+
 static void addLight(PendingPacket& p, mask chosen, const SurfaceLight& light) {
   p.toCamera = selectFields(chosen, lightAdd(p.toCamera, light), p.toCamera);
 }
@@ -152,6 +159,7 @@ void followFacets(std::size_t depth, Level& level) {
           if (anyM(p.follows)) p.sent = addRays(level.rays, p.follows, facetRay(p.h, p.facet, i));
         },
         [&](PendingPacket& p, const Payload& returned) HWY_ATTR {
+          if (isBlack(returned, p.follows)) return;
           real3 slack;
           loadExtra(p.h.material);
           addLight(p, p.follows, facetLight(p.h, materialAt(p.h), p.facet, returned, p.sDir, slack));

@@ -51,6 +51,9 @@ struct Triangles {
   real3 n0, n1, n2;  // their normals
   mask smooth;       // the mesh has normals; otherwise they are not set
   real3 origin;
+#if MALUS_EFFECT_INSTANCES
+  real3 error;  // PlacedTriangle::error
+#endif
   word material;
 #if MALUS_EFFECT_MESH_TEXTURES
   TexturedTriangle corners;        // if the scene has mesh textures
@@ -133,6 +136,9 @@ void gatherTriangles(Index mesh, Index triangle, Triangles& t) {
     t.n0 = gather3(n, c0), t.n1 = gather3(n, c1), t.n2 = gather3(n, c2);
   }
   t.origin = row.origin;
+#if MALUS_EFFECT_INSTANCES
+  t.error = splat3(0.0f);
+#endif
   t.material = row.material;
 }
 
@@ -151,35 +157,30 @@ void setTexture(const Barycentrics& b, Triangles& t) {
 #endif
 
 #if MALUS_EFFECT_INSTANCES
-Hit gatherInstanceHit(const Ray& traced, word mesh, Triangles& t) {
-  const MeshTransform transform = gatherRow<MeshTransform>(scene->meshTransforms.data(), mesh);
+// Moves triangles to where their meshes are placed; their normals stay.
+void placeTriangles(const MeshTransform& transform, Triangles& t) {
   const PlacedTriangle placed = placeTriangle(transform, t.origin, t.p0, t.p1, t.p2);
-  const Barycentrics b =
-      barycentricCoordinates(traced.origin - placed.origin, traced.d, placed.p0, placed.p1, placed.p2);
-  real3 interpolated = splat3(0.0f);
-  if (anyM(t.smooth)) {
-    const real b0 = real(1.0f) - b.b1 - b.b2;
-    interpolated = select3(t.smooth, placeNormal(transform, t.n0 * b0 + t.n1 * b.b1 + t.n2 * b.b2), interpolated);
-  }
+  t.p0 = placed.p0, t.p1 = placed.p1, t.p2 = placed.p2;
+  t.origin = placed.origin;
+  t.error = placed.error;
+}
 #if MALUS_EFFECT_MESH_TEXTURES
-  if (hasMeshTextures()) {
-    setTexture(b, t);
-    t.corners = placeTexture(transform, placed, t.corners);
-    if (anyM(t.smooth))
-      t.corners.curvature = selectR(t.smooth, placedCurvature(transform, placed, t.n0, t.n1, t.n2), 0.0f);
-    RayCone cone;
-    const TextureHit at = textureHitAt(traced, placed.origin, t.corners, cone);
-    interpolated = normalAt(t.material, at, t.corners, interpolated);
-    Hit h = makePlacedHit(traced, placed.p0, placed.p1, placed.p2, b.b1, b.b2, placed.origin, interpolated, t.material,
-                          placed.error);
-    setTextureHit(h, at, t.corners, cone);
-    return h;
-  }
-#endif
-  return makePlacedHit(traced, placed.p0, placed.p1, placed.p2, b.b1, b.b2, placed.origin, interpolated, t.material,
-                       placed.error);
+void placeTextures(const MeshTransform& transform, Triangles& t) {
+  const PlacedTriangle placed = {t.p0, t.p1, t.p2, t.origin, t.error};
+  t.corners = placeTexture(transform, placed, t.corners);
+  if (anyM(t.smooth))
+    t.corners.curvature = selectR(t.smooth, placedCurvature(transform, placed, t.n0, t.n1, t.n2), 0.0f);
 }
 #endif
+#endif
+
+// The normals of smooth meshes, else 0.
+static real3 interpolatedNormal(const Triangles& t, const Barycentrics& b) {
+  const real3 none = splat3(0.0f);
+  if (!anyM(t.smooth)) return none;
+  const real b0 = real(1.0f) - b.b1 - b.b2;
+  return select3(t.smooth, t.n0 * b0 + t.n1 * b.b1 + t.n2 * b.b2, none);
+}
 
 // The hits of rays that meet a surface. Neighbouring rays mostly meet the same triangle.
 Hit gatherHit(const Rays& batch, const Intersections& found, word ray) {
@@ -192,28 +193,40 @@ Hit gatherHit(const Ray& traced, word mesh, word triangle) {
   else
     gatherTriangles(mesh, triangle, t);
 #if MALUS_EFFECT_INSTANCES
-  if (bvh->hasInstances()) return gatherInstanceHit(traced, mesh, t);
+  MeshTransform transform;
+  if (bvh->hasInstances()) {
+    gatherRow(scene->meshTransforms.data(), mesh, transform);
+    placeTriangles(transform, t);
+  }
 #endif
   const Barycentrics b = barycentricCoordinates(traced.origin - t.origin, traced.d, t.p0, t.p1, t.p2);
-  real3 interpolated = splat3(0.0f);
-  if (anyM(t.smooth)) {
-    const real b0 = real(1.0f) - b.b1 - b.b2;
-    interpolated = select3(t.smooth, t.n0 * b0 + t.n1 * b.b1 + t.n2 * b.b2, interpolated);
-  }
+  real3 interpolated = interpolatedNormal(t, b);
+#if MALUS_EFFECT_INSTANCES
+  if (bvh->hasInstances() && anyM(t.smooth)) interpolated = placeNormal(transform, interpolated);
+#endif
 #if MALUS_EFFECT_MESH_TEXTURES
+  TextureHit texture;
+  RayCone cone;
   if (hasMeshTextures()) {
     setTexture(b, t);
     if (anyM(t.smooth))
       t.corners.curvature = selectR(t.smooth, triangleCurvature(t.p0, t.p1, t.p2, t.n0, t.n1, t.n2), 0.0f);
-    RayCone cone;
-    const TextureHit at = textureHitAt(traced, t.origin, t.corners, cone);
-    interpolated = normalAt(t.material, at, t.corners, interpolated);
-    Hit h = makeHit(traced, t.p0, t.p1, t.p2, b.b1, b.b2, t.origin, interpolated, t.material);
-    setTextureHit(h, at, t.corners, cone);
-    return h;
+#if MALUS_EFFECT_INSTANCES
+    if (bvh->hasInstances()) placeTextures(transform, t);
+#endif
+    texture = textureHitAt(traced, t.origin, t.corners, cone);
+    interpolated = normalAt(t.material, texture, t.corners, interpolated);
   }
 #endif
-  return makeHit(traced, t.p0, t.p1, t.p2, b.b1, b.b2, t.origin, interpolated, t.material);
+#if MALUS_EFFECT_INSTANCES
+  Hit h = makePlacedHit(traced, t.p0, t.p1, t.p2, b.b1, b.b2, t.origin, interpolated, t.material, t.error);
+#else
+  Hit h = makeHit(traced, t.p0, t.p1, t.p2, b.b1, b.b2, t.origin, interpolated, t.material);
+#endif
+#if MALUS_EFFECT_MESH_TEXTURES
+  if (hasMeshTextures()) setTextureHit(h, texture, t.corners, cone);
+#endif
+  return h;
 }
 
 // Finds the nearest surface along a ray toward a light.

@@ -298,6 +298,7 @@ void runRender(const RenderArguments& a) {
     const RenderParameters size = renderParameters(settings, pack.scene);
     pack.scene.camera = parseCamera(a.view, pack.scene, size.width, size.height, "--view");
   }
+  pack.scene.exposureEv = a.exposure.value_or(pack.scene.exposureEv);  // the white that --max-error refers to
   if (!a.mosaic.empty()) checkMosaicSize(renderParameters(settings, pack.scene).region);
   if (sensor) checkSensorRegion(*sensor, renderParameters(settings, pack.scene).region);
   Job job(pack, settings);
@@ -318,7 +319,7 @@ void runRender(const RenderArguments& a) {
   const image::Image image = takeImage(result, pack, job.parameters(), backend, job.method());
   oneapi::tbb::task_arena(a.job.threads > 0 ? static_cast<int>(a.job.threads) : oneapi::tbb::task_arena::automatic)
       .execute([&] {
-        const double exposureEv = a.exposure.value_or(pack.scene.exposureEv);
+        const double exposureEv = pack.scene.exposureEv;
         std::optional<image::Image> alpha;
         if (a.alpha) alpha = withAlpha(image, embree::coverage(job.scene(), job.parameters(), a.job.threads));
         written = writeOutputs(a, image, alpha ? &*alpha : nullptr, exposureEv);

@@ -157,14 +157,24 @@ Measurements measure(const pack::Pack& pack, const RenderParameters& parameters,
   return result;
 }
 
+// The scene of the pack may have another camera and exposure than the pack's, by --view and --exposure.
+std::string viewKey(const pack::Scene& scene) {
+  const pack::Camera& c = scene.camera;
+  const auto vector = [](const glm::dvec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
+  return fmt::format("camera {}, {}, {}, {}, {} {} {} {} {} {} exposure {}", vector(c.position), vector(c.right),
+                     vector(c.up), vector(c.forward), c.verticalFovDegrees, c.mediumEta, c.orthographicHeight,
+                     c.pixelAspect, c.middleX, c.middleY, scene.exposureEv);
+}
+
 std::string cacheKey(const pack::Pack& pack, const RenderParameters& p, const std::string& device,
                      bool leaveOutEffects) {
   return fmt::format(
-      "malus {} errors of choices, pack {:016x} {} paths {} {} {}x{} region {} {} {} {} depth {} analyser {} {} {} {} "
-      "stokes {} every effect {} effects {} light samples {} methods {}",
-      MALUS_VERSION, pack.hash, device, vulkanPathName(p.vulkanPath), embreePathName(p.embreePath), p.width, p.height,
-      p.region.x, p.region.y, p.region.width, p.region.height, p.depth, p.analyser[0], p.analyser[1], p.analyser[2],
-      p.analyser[3], p.stokes, p.everyEffect, leaveOutEffects, p.lightSamples, fmt::join(methodNames(), " "));
+      "malus {} errors of choices, pack {:016x} {} {} paths {} {} {}x{} region {} {} {} {} depth {} analyser {} {} {} "
+      "{} stokes {} every effect {} effects {} light samples {} methods {}",
+      MALUS_VERSION, pack.hash, viewKey(pack.scene), device, vulkanPathName(p.vulkanPath), embreePathName(p.embreePath),
+      p.width, p.height, p.region.x, p.region.y, p.region.width, p.region.height, p.depth, p.analyser[0], p.analyser[1],
+      p.analyser[2], p.analyser[3], p.stokes, p.everyEffect, leaveOutEffects, p.lightSamples,
+      fmt::join(methodNames(), " "));
 }
 
 }  // namespace

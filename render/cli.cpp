@@ -117,6 +117,9 @@ void checkCombinations(const RenderArguments& a) {
   const char* const budget = a.job.maxError ? "--max-error" : a.job.maxMs ? "--max-ms" : nullptr;
   if (budget && !hasMethods) refuse(budget, "excludes --backend reference, which has no methods");
   if (budget && a.job.tolerance > 0) refuse("--tolerance", fmt::format("excludes {}", budget));
+  if (budget && a.job.effects != "auto" && a.job.effects != "all")
+    refuse("--effects",
+           fmt::format("expected auto or all with {}, which chooses effects, found '{}'", budget, a.job.effects));
   if (a.alpha && !writesExr(a)) refuse("--alpha", "needs an output with the extension .exr");
   if (a.intensity && a.job.stokes) refuse("--intensity", "excludes --stokes");
   if (a.intensity && !stokesOption.empty()) refuse("--intensity", "excludes " + stokesOption);
@@ -385,12 +388,14 @@ void addMethodOptions(CLI::App& command, JobSettings& job) {
       command
           .add_option("--max-error", job.maxError,
                       "Choose method, effects, depth and tolerance: the fastest within this relative RMS error")
-          ->transform(numberBetween(0, 1e6));
+          ->transform(numberBetween(0, 1e6))
+          ->excludes(command.get_option("--method"));
   command
       .add_option("--max-ms", job.maxMs,
                   "Choose them: the most accurate that is expected to trace the image in this time [ms]")
       ->transform(numberBetween(1e-3, 1e9))
-      ->excludes(maxError);
+      ->excludes(maxError)
+      ->excludes(command.get_option("--method"));
   command.add_flag("--stokes", job.stokes, "Iterative methods: Stokes channels too, by four times the rays");
   command
       .add_option("--tolerance", job.tolerance,

@@ -256,18 +256,23 @@ void addCompareCommand(CLI::App& app) {
   command->add_option("packs", a->inputs, "Scene packs, or models: glTF, OBJ, PLY, STL, OFF")->type_name("PACK");
   addModelOptions(*command, a->model);
   command->add_option("-o,--output", a->output, "Folder for the report")->check(outputName())->type_name("FOLDER");
-  command->add_option("--show", a->shown, "Print the results of several devices side by side, render nothing")
-      ->type_name("FILE...");
-  command->add_option("--methods", settings.methods, "Methods (default: all)")->delimiter(',')->transform(methodName());
-  command->add_flag("--effects", a->effects,
-                    "Measure what each effect, bounce and kind of polarization gives and costs, instead of methods");
+  CLI::Option* show =
+      command->add_option("--show", a->shown, "Print the results of several devices side by side, render nothing")
+          ->type_name("FILE...");
+  CLI::Option* methods = command->add_option("--methods", settings.methods, "Methods (default: all)")
+                             ->delimiter(',')
+                             ->transform(methodName());
+  CLI::Option* effects = command->add_flag(
+      "--effects", a->effects,
+      "Measure what each effect, bounce and kind of polarization gives and costs, instead of methods");
   addBackends(*command, settings.backends, "Renderers (default: all that render by methods)");
   CLI::Option* width = addWidth(*command, settings.widths);
   CLI::Option* height = addHeight(*command, settings.heights);
-  command->add_option("--scale", settings.scale, "Size relative to the pack's, along each side (default: 1)")
-      ->transform(numberBetween(0.001, 4))
-      ->excludes(width)
-      ->excludes(height);
+  CLI::Option* scale =
+      command->add_option("--scale", settings.scale, "Size relative to the pack's, along each side (default: 1)")
+          ->transform(numberBetween(0.001, 4))
+          ->excludes(width)
+          ->excludes(height);
   addDepth(*command, settings.depths);
   command->add_option("--rounds", settings.rounds, "Timed rounds after the warm-up")
       ->transform(wholeNumberBetween(1, 1000000))
@@ -285,10 +290,11 @@ void addCompareCommand(CLI::App& app) {
       ->add_option("--polarizer", settings.polarizerDegrees,
                    "Linear polarizer in front of the camera, from the image's x axis, counter-clockwise [degrees]")
       ->transform(anyNumber());
-  command
-      ->add_option("--gpu-model", settings.gpuFamilies,
-                   "GPU families (navi21, navi31, ...) for a compiler's static cost estimate")
-      ->delimiter(',');
+  CLI::Option* gpuModel = command
+                              ->add_option("--gpu-model", settings.gpuFamilies,
+                                           "GPU families (navi21, navi31, ...) for a compiler's static cost estimate")
+                              ->delimiter(',');
+  effects->excludes(methods)->excludes(scale)->excludes(gpuModel)->excludes(show);
   command->add_flag("--no-report", a->noReport, "Write only results.json, results.csv and the images");
   command->add_flag("--json", a->json, "Print results.json instead of the table");
   command->callback([a] { runCompare(*a); });

@@ -90,5 +90,15 @@ TEST_F(Ablation, OneSizeOnly) {
   EXPECT_TRUE(contains(finished.err, "--width")) << finished.err;
 }
 
+// An option that has no effect is refused.
+TEST_F(Ablation, RefusesTheOptionsOfOtherComparisons) {
+  for (const auto& [option, value] :
+       {std::pair("--methods", "schlick"), {"--scale", "0.5"}, {"--gpu-model", "navi21"}}) {
+    const Finished finished = malus({"compare", pack(), "-o", report(), "--effects", option, value});
+    EXPECT_EQ(finished.exitCode, 2) << finished.err;
+    EXPECT_TRUE(contains(finished.err, "--effects", option)) << finished.err;
+  }
+}
+
 }  // namespace
 }  // namespace malus::test

@@ -376,6 +376,16 @@ TEST_F(Compare, MaxMsIsTheDualOfMaxError) {
   EXPECT_TRUE(contains(impossible.err, "--max-ms")) << impossible.err;
   for (const char* bad : {"0", "-1", "nan"}) EXPECT_EQ(render("--max-ms", bad).exitCode, 2) << bad;
   for (const char* bad : {"-1", "nan"}) EXPECT_EQ(render("--max-error", bad).exitCode, 2) << bad;
+}
+
+TEST_F(Compare, ABudgetRefusesWhatItChooses) {
+  for (const auto& [option, value] : {std::pair("--max-error", "1"), {"--max-ms", "5"}})
+    for (const auto& [other, chosen] :
+         {std::pair("--method", "stokes"), {"--effects", "metal"}, {"--effects", "nothing"}, {"--tolerance", "0.1"}}) {
+      const Finished finished = malus({"render", pack(), "-o", folder_ / "a.exr", option, value, other, chosen});
+      EXPECT_EQ(finished.exitCode, 2) << option << other;
+      EXPECT_TRUE(contains(finished.err, option, other)) << finished.err;
+    }
   EXPECT_EQ(malus({"render", pack(), "-o", folder_ / "a.exr", "--max-ms", "5", "--max-error", "1"}).exitCode, 2);
 }
 

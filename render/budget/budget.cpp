@@ -1,6 +1,9 @@
 #include "render/budget/budget.h"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -75,28 +78,35 @@ Combination chooseByError(const std::vector<Combination>& list, const Measuremen
   return completeCombination(m);
 }
 
-// The most accurate combination that is expected to keep the time.
-Combination chooseByTime(std::vector<Combination> list, double maxMs, double scale, const pack::Scene& scene,
-                         const RenderParameters& full, RendererPool& pool) {
+// Time of a combination on the small image, now.
+using TimeNow = std::function<double(const Combination&)>;
+
+// The most accurate combination whose time keeps the bound, with its time now. The measured times may be of a machine
+// with another load: load is the time of the complete image now, divided by the measured one. scale: pixels of the
+// image over those of the small one.
+Combination chooseByTime(std::vector<Combination> list, double maxMs, double scale, double load, const TimeNow& time) {
   std::stable_sort(list.begin(), list.end(),
                    [](const Combination& a, const Combination& b) { return a.error < b.error; });
-  double bound = maxMs, least = 0;
+  double bound = maxMs / (scale * load), least = std::numeric_limits<double>::infinity();
+  const auto keepsTime = [&](Combination& c) {
+    const double expected = std::exchange(c.milliseconds, time(c));
+    least = std::min(least, c.milliseconds * scale);
+    // Be more careful by as much as the time is above the bound.
+    bound = expected * std::min(0.9, maxMs / (c.milliseconds * scale));
+    return c.milliseconds * scale <= maxMs;
+  };
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const auto next =
-        std::find_if(list.begin(), list.end(), [&](const Combination& c) { return c.milliseconds * scale <= bound; });
+        std::find_if(list.begin(), list.end(), [&](const Combination& c) { return c.milliseconds <= bound; });
     if (next == list.end()) break;
-    const double found = measuredMs(scene, *next, full, pool) * scale;
-    if (found <= maxMs) {
-      next->milliseconds = found / scale;
-      return *next;
-    }
-    least = least == 0 ? found : std::min(least, found);
-    bound = std::min(0.8 * bound, bound * maxMs / found);
+    if (keepsTime(*next)) return *next;
   }
-  for (const Combination& c : list)
-    if (least == 0 || c.milliseconds * scale < least) least = c.milliseconds * scale;
+  const auto fastest = std::min_element(list.begin(), list.end(), [](const Combination& a, const Combination& b) {
+    return a.milliseconds < b.milliseconds;
+  });
+  if (keepsTime(*fastest)) return *fastest;
   throw Error("--max-ms", fmt::format("nothing renders this image in {:g} ms", maxMs),
-              fmt::format("{:.3g} or more, the least that is expected, or a smaller image", least));
+              fmt::format("{:.3g} or more, the least that was found, or a smaller image", least));
 }
 
 }  // namespace
@@ -115,12 +125,15 @@ Budget BudgetSearch::withinError(double maxError) {
   CheckedError checked;
   const Combination chosen =
       maxError > 0 ? chooseByError(combinations_, measurements_, maxError, check(), checked) : complete_;
-  return makeBudget(chosen, checked);
+  return makeBudget(chosen, checked, complete_.milliseconds);
 }
 
 Budget BudgetSearch::withinTime(double maxMs) {
-  const Combination chosen = chooseByTime(combinations_, maxMs, scale(), pack_.scene, full_, pool_);
-  return makeBudget(chosen, isComplete(chosen, measurements_) ? CheckedError() : check()(chosen));
+  progress_("measuring times on a small image");
+  const TimeNow time = [&](const Combination& c) { return measuredMs(pack_.scene, c, full_, pool_); };
+  const double completeMs = time(complete_);
+  const Combination chosen = chooseByTime(combinations_, maxMs, scale(), completeMs / complete_.milliseconds, time);
+  return makeBudget(chosen, isComplete(chosen, measurements_) ? CheckedError() : check()(chosen), completeMs);
 }
 
 ErrorCheck& BudgetSearch::check() {
@@ -129,13 +142,13 @@ ErrorCheck& BudgetSearch::check() {
   return *check_;
 }
 
-Budget BudgetSearch::makeBudget(const Combination& chosen, const CheckedError& checked) const {
+Budget BudgetSearch::makeBudget(const Combination& chosen, const CheckedError& checked, double completeMs) const {
   Budget budget;
   budget.chosen = chosen;
   budget.image = planImage(pack_.scene, chosen, full_);
   budget.checked = checked;
   budget.expectedMs = chosen.milliseconds * scale();
-  budget.completeMs = complete_.milliseconds * scale();
+  budget.completeMs = completeMs * scale();
   budget.precision = measurements_.precision;
   budget.parts = describe(chosen, measurements_);
   return budget;

@@ -43,13 +43,14 @@ class BudgetSearch {
   // The fastest within a relative RMS error, 0 or more, against the complete image of the same renderer
   // (display_error.h).
   Budget withinError(double maxError);
-  // The most accurate within a time of tracing the image, in milliseconds. Throws Error if nothing keeps it, naming the
-  // least that was found.
+  // The most accurate within a time of tracing the image, in milliseconds, by times that are measured again, because
+  // cached ones are of another load of the machine. Throws Error if nothing keeps it, naming the least that was found.
   Budget withinTime(double maxMs);
 
  private:
   ErrorCheck& check();
-  Budget makeBudget(const Combination& chosen, const CheckedError& checked) const;
+  // completeMs: time of the complete small image.
+  Budget makeBudget(const Combination& chosen, const CheckedError& checked, double completeMs) const;
   double scale() const { return measurements_.fullPixels / measurements_.measuredPixels; }
 
   const pack::Pack& pack_;

@@ -378,6 +378,32 @@ TEST_F(Compare, MaxMsIsTheDualOfMaxError) {
   for (const char* bad : {"-1", "nan"}) EXPECT_EQ(render("--max-error", bad).exitCode, 2) << bad;
 }
 
+// Cached times that are too short by a thousand, as if the machine had become slower.
+TEST_F(Compare, MaxMsMeasuresTheMachineAsItIs) {
+  Start start;
+  start.environment = {{"XDG_CACHE_HOME", folder_ / "cache"}};
+  const auto render = [&](const std::string& ms) {
+    return malus({"render", pack(), "-o", folder_ / "a.exr", "--backend", "embree", "--max-ms", ms, "--json"}, start);
+  };
+  ASSERT_EQ(render("1e6").exitCode, 0);
+  double complete = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "cache/malus/errors")) {
+    json measured = json::parse(readText(entry.path()));
+    complete = completeMs(measured);
+    for (json& choice : measured.at("choices")) choice["medianMs"] = choice.at("medianMs").get<double>() / 1000;
+    writeText(entry.path(), measured.dump());
+  }
+  const Finished slow = render("1e6");
+  ASSERT_EQ(slow.exitCode, 0) << slow.err;
+  const json budget = json::parse(slow.out).at("budget");
+  EXPECT_GT(budget.at("completeMs"), complete / 50) << "not the cached time";
+  // The least time that is reported is longer than the time that nothing kept.
+  const Finished impossible = render("0.001");
+  ASSERT_EQ(impossible.exitCode, 1) << impossible.err;
+  const std::string expected = "expected ";
+  EXPECT_GT(std::stod(impossible.err.substr(impossible.err.find(expected) + expected.size())), 0.001) << impossible.err;
+}
+
 TEST_F(Compare, ABudgetRefusesWhatItChooses) {
   for (const auto& [option, value] : {std::pair("--max-error", "1"), {"--max-ms", "5"}})
     for (const auto& [other, chosen] :

@@ -152,16 +152,18 @@ void checkMosaicSize(const Region& region) {
 
 // The choice of --max-error or --max-ms, and what each part of it was measured to add and to save alone.
 std::vector<std::string> budgetLines(const JobSettings& settings, const Budget& budget) {
+  const double wrong = 100 * budget.checked.wrongShare;
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "{}: {}; expected relative RMS error at most {:.3g}{}, over 1 % in {:.2g} % of the pixels; expected {:.3g} ms, "
+      "{}: {}; expected relative RMS error at most {:.3g}{}, over 1 % in {} % of the pixels; expected {:.3g} ms, "
       "{:.3g} ms with everything; error of the precision {:.3g}",
       settings.maxError ? fmt::format("--max-error {:g}", *settings.maxError)
                         : fmt::format("--max-ms {:g}", *settings.maxMs),
       budget.parts.empty() ? fmt::format("{}, nothing left out", budget.chosen.method)
                            : fmt::format("{}, depth {}", budget.chosen.method, budget.chosen.depth),
       budget.checked.relRms, settings.maxError ? fmt::format(" of {:g}", *settings.maxError) : "",
-      100 * budget.checked.wrongShare, budget.expectedMs, budget.completeMs, budget.precision));
+      wrong >= 10 ? fmt::format("{:.0f}", wrong) : fmt::format("{:.2g}", wrong), budget.expectedMs, budget.completeMs,
+      budget.precision));
   for (const BudgetPart& part : budget.parts)
     lines.push_back(fmt::format("  {}: relative RMS error {:.2g} alone, {} {:.0f} % of the time", part.what, part.error,
                                 part.savedShare >= 0 ? "saves" : "takes", 100 * std::abs(part.savedShare)));
@@ -188,6 +190,7 @@ void reportJob(const RenderArguments& a, const Job& job) {
   warnOfFilter(a.filter, makeAnalyser(a.filter),
                backendInfo(a.job.backend).hasMethods ? job.requestedMethod() : std::string());
   for (const std::string& warning : job.warnings()) console::warn(warning);
+  if (job.budget() && job.parameters().depth < renderParameters(a.job, job.scene()).depth) return;  // within its error
   const std::string lost = bake::lostLightNote(job.scene().lightBeyond, job.parameters().depth, "--depth");
   if (!lost.empty()) console::warn(lost);
 }

@@ -404,6 +404,18 @@ TEST_F(Compare, MaxMsMeasuresTheMachineAsItIs) {
   EXPECT_GT(std::stod(impossible.err.substr(impossible.err.find(expected) + expected.size())), 0.001) << impossible.err;
 }
 
+TEST_F(Compare, ABudgetDoesNotWarnOfTheDepthThatItChooses) {
+  Start start;
+  start.environment = {{"XDG_CACHE_HOME", folder_ / "cache"}};
+  const auto render = [&](const char* option, const char* value) {
+    return malus({"render", pack(), "-o", folder_ / "a.exr", "--backend", "embree", option, value, "--json"}, start);
+  };
+  EXPECT_TRUE(contains(render("--depth", "0").err, "lost", "--depth"));
+  const Finished chosen = render("--max-error", "1000");
+  EXPECT_LT(json::parse(chosen.out).at("depth"), 4);
+  EXPECT_FALSE(contains(chosen.err, "lost")) << chosen.err;
+}
+
 TEST_F(Compare, ABudgetRefusesWhatItChooses) {
   for (const auto& [option, value] : {std::pair("--max-error", "1"), {"--max-ms", "5"}})
     for (const auto& [other, chosen] :

@@ -150,19 +150,23 @@ void checkMosaicSize(const Region& region) {
                                    region.height));
 }
 
+// Significant digits without an exponent.
+std::string digits(double value, int count) {
+  return value >= 0.99 * std::pow(10.0, count) ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, count);
+}
+
 // The choice of --max-error or --max-ms, and what each part of it was measured to add and to save alone.
 std::vector<std::string> budgetLines(const JobSettings& settings, const Budget& budget) {
-  const double wrong = 100 * budget.checked.wrongShare;
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "{}: {}; expected relative RMS error at most {:.3g}{}, over 1 % in {} % of the pixels; expected {:.3g} ms, "
-      "{:.3g} ms with everything; error of the precision {:.3g}",
+      "{}: {}; expected relative RMS error at most {:.3g}{}, over 1 % in {} % of the pixels; expected {} ms, "
+      "{} ms with everything; error of the precision {:.3g}",
       settings.maxError ? fmt::format("--max-error {:g}", *settings.maxError)
                         : fmt::format("--max-ms {:g}", *settings.maxMs),
       budget.parts.empty() ? fmt::format("{}, nothing left out", budget.chosen.method)
                            : fmt::format("{}, depth {}", budget.chosen.method, budget.chosen.depth),
       budget.checked.relRms, settings.maxError ? fmt::format(" of {:g}", *settings.maxError) : "",
-      wrong >= 10 ? fmt::format("{:.0f}", wrong) : fmt::format("{:.2g}", wrong), budget.expectedMs, budget.completeMs,
+      digits(100 * budget.checked.wrongShare, 2), digits(budget.expectedMs, 3), digits(budget.completeMs, 3),
       budget.precision));
   for (const BudgetPart& part : budget.parts)
     lines.push_back(fmt::format("  {}: relative RMS error {:.2g} alone, {} {:.0f} % of the time", part.what, part.error,

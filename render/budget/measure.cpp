@@ -18,6 +18,7 @@
 #include "render/ablation/variants.h"
 #include "render/budget/display_error.h"
 #include "render/compare/statistics.h"
+#include "render/compare/time_limit.h"
 #include "render/make_renderer.h"
 #include "render/scene/methods.h"
 
@@ -29,7 +30,8 @@ namespace {
 
 using Kind = MeasuredChoice::Kind;
 
-constexpr int kRounds = 5;
+constexpr int kRounds = 5;                                              // after a first pass, which is timed too
+constexpr double kRoundMinutes = 1. / 6;                                // no further round is started after them
 constexpr double kTolerances[] = {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2};  // of iterative methods
 constexpr const char* kKinds[] = {"method", "effect", "depth", "tolerance"};
 
@@ -140,13 +142,17 @@ Measurements measure(const pack::Pack& pack, const RenderParameters& parameters,
   Measurements result;
   result.precision = displayError(complete, reference, ev).relRms();
   std::vector<Subject> rendered;
+  std::size_t number = 0;
   for (Subject& subject : list) try {
-      progress(fmt::format("measuring on a small image: {}", subject.choice.name));
-      subject.choice.error = displayError(render(subject), complete, ev).relRms();
+      progress(fmt::format("measuring on a small image: {} of {}, {}", ++number, list.size(), subject.choice.name));
+      const RenderResult image = render(subject);
+      subject.choice.error = displayError(image, complete, ev).relRms();
+      subject.samples.push_back(image.cost.traceMs);
       rendered.push_back(std::move(subject));
     } catch (const Error&) {  // not on this device at this depth
     }
-  for (int round = 0; round < kRounds; ++round) {
+  const TimeLimit limit(kRoundMinutes);
+  for (int round = 0; round < kRounds && !(round > 0 && limit.isOver()); ++round) {
     progress(fmt::format("measuring times on a small image: round {} of {}", round + 1, kRounds));
     for (Subject& subject : rendered) subject.samples.push_back(render(subject).cost.traceMs);
   }

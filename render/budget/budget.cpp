@@ -10,6 +10,7 @@
 #include "meshprep/base/error.h"
 #include "render/budget/measure.h"
 #include "render/compare/statistics.h"
+#include "render/compare/time_limit.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
@@ -19,7 +20,8 @@ namespace {
 using Kind = MeasuredChoice::Kind;
 
 constexpr int kAttempts = 8;
-constexpr int kTimedRounds = 3;
+constexpr std::size_t kTimedRounds = 3;
+constexpr double kTimedMinutes = 0.01;  // no further round is started after them
 
 std::vector<BudgetPart> describe(const Combination& c, const Measurements& m) {
   std::vector<BudgetPart> parts;
@@ -53,15 +55,6 @@ Combination completeCombination(const Measurements& m) {
   return {whole->name, {}, m.depth, 0, 0, whole->milliseconds};
 }
 
-// Time of a combination on the small image.
-double measuredMs(const pack::Scene& scene, const Combination& c, const RenderParameters& full, RendererPool& pool) {
-  const PlannedImage image = planImage(scene, c, smallParameters(full));
-  std::vector<double> samples;
-  for (int i = 0; i < kTimedRounds; ++i)
-    samples.push_back(pool[image.scene].render(image.method, image.parameters).cost.traceMs);
-  return computeSpread(samples).median;
-}
-
 // The fastest combination whose checked error is within the bound.
 Combination chooseByError(const std::vector<Combination>& list, const Measurements& m, double maxError,
                           ErrorCheck& check, CheckedError& checked) {
@@ -78,7 +71,7 @@ Combination chooseByError(const std::vector<Combination>& list, const Measuremen
   return completeCombination(m);
 }
 
-// Time of a combination on the small image, now.
+// BudgetSearch::measuredMs
 using TimeNow = std::function<double(const Combination&)>;
 
 // The most accurate combination whose time keeps the bound, with its time now. The measured times may be of a machine
@@ -123,17 +116,29 @@ BudgetSearch::BudgetSearch(const pack::Pack& pack, const RenderParameters& full,
 
 Budget BudgetSearch::withinError(double maxError) {
   CheckedError checked;
-  const Combination chosen =
+  Combination chosen =
       maxError > 0 ? chooseByError(combinations_, measurements_, maxError, check(), checked) : complete_;
-  return makeBudget(chosen, checked, complete_.milliseconds);
+  // The product of the shares of time is too small where much is left out, because every image traces camera rays.
+  const double completeMs = measuredMs(complete_);
+  chosen.milliseconds = isComplete(chosen, measurements_) ? completeMs : measuredMs(chosen);
+  return makeBudget(chosen, checked, completeMs);
 }
 
 Budget BudgetSearch::withinTime(double maxMs) {
-  progress_("measuring times on a small image");
-  const TimeNow time = [&](const Combination& c) { return measuredMs(pack_.scene, c, full_, pool_); };
-  const double completeMs = time(complete_);
-  const Combination chosen = chooseByTime(combinations_, maxMs, scale(), completeMs / complete_.milliseconds, time);
+  const double completeMs = measuredMs(complete_);
+  const Combination chosen = chooseByTime(combinations_, maxMs, scale(), completeMs / complete_.milliseconds,
+                                          [this](const Combination& c) { return measuredMs(c); });
   return makeBudget(chosen, isComplete(chosen, measurements_) ? CheckedError() : check()(chosen), completeMs);
+}
+
+double BudgetSearch::measuredMs(const Combination& combination) {
+  progress_("measuring times on a small image");
+  const PlannedImage image = planImage(pack_.scene, combination, smallParameters(full_));
+  const TimeLimit limit(kTimedMinutes);
+  std::vector<double> samples;
+  while (samples.size() < kTimedRounds && (samples.empty() || !limit.isOver()))
+    samples.push_back(pool_[image.scene].render(image.method, image.parameters).cost.traceMs);
+  return computeSpread(samples).median;
 }
 
 ErrorCheck& BudgetSearch::check() {

@@ -49,6 +49,8 @@ class BudgetSearch {
 
  private:
   ErrorCheck& check();
+  // Time of a combination on the small image, as the machine is now.
+  double measuredMs(const Combination& combination);
   // completeMs: time of the complete small image.
   Budget makeBudget(const Combination& chosen, const CheckedError& checked, double completeMs) const;
   double scale() const { return measurements_.fullPixels / measurements_.measuredPixels; }

@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+import report_ablation_test  # noqa: E402
 import report_test  # noqa: E402
 
 kWidths = (390, 768, 1280, 1920)
@@ -74,7 +75,7 @@ def probe(browser: str, page: pathlib.Path, width: int, scheme: str, folder: pat
 
 
 def write_pages(folder: pathlib.Path) -> list:
-    """A page with long names, failures and two sizes, and a page without polarization."""
+    """Pages with long names, failures and two sizes, of many rounds and of one, and a page of an ablation."""
     case = report_test.Report("test_effects")
     case.setUp()
     results = case.results
@@ -90,7 +91,9 @@ def write_pages(folder: pathlib.Path) -> list:
         case.page(results)
         pages.append(pathlib.Path(shutil.copy(case.folder / "index.html", folder / name)))
     case.doCleanups()
-    return pages
+    (folder / "ablation").mkdir()
+    report_ablation_test.write_page(folder / "ablation")
+    return [*pages, folder / "ablation" / "index.html"]
 
 
 def main() -> int:

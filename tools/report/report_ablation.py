@@ -1,6 +1,7 @@
 """The page of an ablation: what each effect and bounce gives and costs (render/ablation/RESULTS.md)."""
 import json
 import pathlib
+import re
 
 import jinja2
 from markupsafe import Markup
@@ -51,20 +52,23 @@ class RendererView:
                   for r in timed]
         title = f"Error of leaving out against time saved: {self.complete['scene']}, {self.renderer}"
         self.plot = Markup(error_against_saving(points, title)) if points else ""
-        self.images, self.scale, self.size = [], None, None
+        self.images, self.same, self.size = [], [], None
         if self.complete["status"] == "ok":
             self._differences(folder)
 
     def _differences(self, folder: pathlib.Path) -> None:
         whole = shrunk(ExrImage(folder / self.complete["image"]).rgb, kImageWidth)
         self.size = {"width": whole.shape[1], "height": whole.shape[0]}
-        signed = [(row, signed_difference(shrunk(ExrImage(folder / row["image"]).rgb, kImageWidth), whole))
-                  for row in self.rows if row["status"] == "ok"]
-        if not signed:
-            return
-        limit = difference_limit([d for _, d in signed])
-        self.scale = difference_scale(limit)
-        self.images = [(label(row), png(*difference_colours(d, limit)), row) for row, d in signed]
+        for row in self.rows:
+            if row["status"] != "ok":
+                continue
+            difference = signed_difference(shrunk(ExrImage(folder / row["image"]).rgb, kImageWidth), whole)
+            if not difference.any():
+                self.same.append(label(row))
+                continue
+            # One scale for all would leave all but the largest differences blank.
+            limit = difference_limit([difference])
+            self.images.append((label(row), png(*difference_colours(difference, limit)), difference_scale(limit), row))
 
     def saving(self, row: dict) -> str:
         """The time without an effect over that of the complete image; marked if the difference is not significant."""
@@ -83,8 +87,14 @@ class RendererView:
         return has_enough_rounds(self.complete)
 
 
+def unbroken(text: str) -> str:
+    """Keeps numbers on one line."""
+    return text.replace(" %", "\u00a0%").replace(" · ", "\u00a0·\u00a0")
+
+
 def sentence(row: dict) -> str:
-    text = row["advice"]
+    """The advice as text of the page, with the page's exponents."""
+    text = unbroken(re.sub(r"\d\.?\d*e-\d+", lambda m: plain(float(m[0]), 2), row["advice"]))
     return text[0].upper() + text[1:] + "."
 
 
@@ -98,7 +108,7 @@ def bounce_text(step: dict) -> str:
         cost = f"{percent(median - 1)} more time"
     else:
         cost = "no significant time"
-    return f"{name}: adds a relative RMS of {plain(step['relRms'])}, {cost}"
+    return unbroken(f"{name}: adds a relative RMS of {plain(step['relRms'])}, {cost}")
 
 
 def page(folder: pathlib.Path, results: dict) -> str:

@@ -71,9 +71,11 @@ AblationRow makeRow(const Group& group, const Variant& variant) {
 }
 
 std::string imageName(const Group& group, const AblationRow& row) {
-  const std::string what = row.kind == VariantKind::complete  ? "complete"
-                           : row.kind == VariantKind::samples ? row.name
-                                                              : "without-" + row.name;
+  std::string what = row.kind == VariantKind::complete  ? "complete"
+                     : row.kind == VariantKind::depth   ? fmt::format("depth {}", row.depth)
+                     : row.kind == VariantKind::samples ? row.name
+                                                        : "without " + row.name;
+  std::replace(what.begin(), what.end(), ' ', '-');
   return fmt::format("{}-{}x{}-{}-{}.exr", safeName(row.scene), row.width, row.height, backendInfo(group.backend).name,
                      safeName(what));
 }

@@ -11,6 +11,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/ablation/advice.h"
+#include "render/compare/backend_order.h"
 #include "render/compare/machine.h"
 #include "render/compare/packs.h"
 #include "render/compare/time_limit.h"
@@ -173,9 +174,9 @@ void firstPass(Ablation& ablation, Group& group, std::vector<Variant> variants, 
 }
 
 // One round of a group. False: interrupted, or the time is over.
-bool timeRound(Ablation& ablation, Group& group, std::uint32_t round, const TimeLimit& limit) {
+bool timeRound(Ablation& ablation, Group& group, std::uint32_t round, const std::function<bool()>& isOver) {
   for (std::size_t k = 0; k < group.rows.size(); ++k) {
-    if (interrupted() || limit.isOver()) return false;
+    if (interrupted() || isOver()) return false;
     const std::size_t i = (k + round) % group.rows.size();
     AblationRow& row = ablation.rows[group.rows[i]];
     if (!row.ok()) continue;
@@ -200,6 +201,7 @@ void summarizeRow(AblationRow& row, const AblationRow& complete) {
 }
 
 void summarize(Ablation& ablation, const std::vector<Group>& groups) {
+  ablation.rounds = groups.empty() ? 0 : std::ranges::min_element(groups, {}, &Group::rounds)->rounds;
   for (const Group& group : groups)
     for (const std::size_t i : group.rows) {
       AblationRow& row = ablation.rows[i];
@@ -215,15 +217,15 @@ void summarize(Ablation& ablation, const std::vector<Group>& groups) {
   }
 }
 
-void timeRounds(Ablation& ablation, std::vector<Group>& groups, std::uint32_t rounds, const TimeLimit& limit,
-                const Progress& progress, const AblationSnapshot& snapshot) {
+// The rounds of the groups from a number on. isOver: whether their share of the time is used.
+void timeRounds(Ablation& ablation, std::vector<Group>& groups, std::size_t first, std::uint32_t rounds,
+                const std::function<bool()>& isOver, const Progress& progress, const AblationSnapshot& snapshot) {
   for (std::uint32_t round = 0; round < rounds; ++round) {
-    for (Group& group : groups) {
-      progress(fmt::format("round {} of {}: {}", round + 1, rounds, group.title()));
-      if (!timeRound(ablation, group, round, limit)) return;
-      group.rounds = round + 1;
+    for (std::size_t i = first; i < groups.size(); ++i) {
+      progress(fmt::format("round {} of {}: {}", round + 1, rounds, groups[i].title()));
+      if (!timeRound(ablation, groups[i], round, isOver)) return;
+      groups[i].rounds = round + 1;
     }
-    ablation.rounds = round + 1;
     summarize(ablation, groups);
     if (snapshot) snapshot(ablation);
   }
@@ -238,30 +240,43 @@ Ablation ablate(const std::vector<std::filesystem::path>& packs, const AblationS
   ablation.date = currentDate();
   ablation.packs = readPacks(packs);
   const TimeLimit limit(settings.minutes);
-  const std::size_t count = ablation.packs.size() * settings.backends.size();
+  const std::vector<Backend> backends = fastestToStartFirst(settings.backends, settings.image.device);
+  const std::size_t scenes = ablation.packs.size();
   std::vector<Group> groups;
-  groups.reserve(count);
+  groups.reserve(scenes * backends.size());
   try {
-    for (const auto& [name, pack] : ablation.packs)
-      for (const Backend backend : settings.backends) {
-        if (interrupted() || limit.isOver()) break;
+    for (std::size_t b = 0; b < backends.size(); ++b) {
+      // Each renderer has an equal part of the time, and what the ones before it leave; half of it for the first pass.
+      const auto isOver = [&](double part) {
+        return limit.usedShare() > 0 &&
+               limit.usedShare() >= (static_cast<double>(b) + part) / static_cast<double>(backends.size());
+      };
+      for (const auto& [name, pack] : ablation.packs) {
+        if (interrupted()) break;
         std::vector<Variant> variants =
             ablationVariants(pack.scene, renderParameters(imageSettings(settings, pack.scene), pack.scene));
+        if (!groups.empty() && limit.isOver()) {
+          ablation.leftOut += variants.size();
+          continue;
+        }
         const std::size_t view = groups.size();
-        if (const std::size_t number = view % settings.backends.size(); number > 0)
-          sortByWorth(variants, ablation, groups[view - number]);
-        Group& group = groups.emplace_back(Group{&pack, backend, {settings.image.device, settings.image.threads}});
-        firstPass(ablation, group, std::move(variants), folder, progress,
-                  [&] { return limit.isFirstPassOver(view, count); });
+        if (b > 0) sortByWorth(variants, ablation, groups[view % scenes]);
+        Group& group = groups.emplace_back(Group{&pack, backends[b], {settings.image.device, settings.image.threads}});
+        const double part = 0.5 * static_cast<double>(view % scenes + 1) / static_cast<double>(scenes);
+        firstPass(ablation, group, std::move(variants), folder, progress, [&] { return isOver(part); });
         summarize(ablation, groups);
         if (snapshot) snapshot(ablation);
       }
-    timeRounds(ablation, groups, settings.rounds, limit, progress, snapshot);
+      timeRounds(
+          ablation, groups, std::min(b * scenes, groups.size()), settings.rounds, [&] { return isOver(1); }, progress,
+          snapshot);
+    }
   } catch (const Interrupted&) {  // finished rows and rounds are kept
   }
-  ablation.interrupted = interrupted();
-  ablation.timeIsOver = limit.isOver() && ablation.rounds < settings.rounds;
   summarize(ablation, groups);
+  ablation.interrupted = interrupted();
+  ablation.timeIsOver =
+      !ablation.interrupted && (ablation.rounds < settings.rounds || groups.size() < scenes * backends.size());
   return ablation;
 }
 

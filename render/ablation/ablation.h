@@ -61,10 +61,10 @@ struct BounceStep {
 struct Ablation {
   std::map<std::string, pack::Pack> packs;     // by scene name
   std::map<std::string, std::string> devices;  // by renderer
-  std::vector<AblationRow> rows;               // by scene and renderer; the complete image is the first of each
+  std::vector<AblationRow> rows;               // by renderer and scene; the complete image is the first of each
   std::vector<BounceStep> bounces;
   std::string date;          // of its start, as currentDate()
-  std::uint32_t rounds = 0;  // finished ones
+  std::uint32_t rounds = 0;  // finished ones of every renderer
   std::size_t leftOut = 0;   // rows that the time limit left out
   bool interrupted = false;
   bool timeIsOver = false;  // ended by AblationSettings::minutes

@@ -123,12 +123,14 @@ void finishAblation(const Ablation& ablation, const AblationSettings& settings, 
   else
     console::printText(toTable(ablation) + "\n");
   if (ablation.interrupted) {
-    console::warn(fmt::format("interrupted: {} finished rounds are in {}", ablation.rounds, a.output));
+    console::warn(
+        fmt::format("interrupted: {} rows and their finished rounds are in {}", ablation.rows.size(), a.output));
     throw Interrupted{};
   }
   if (ablation.leftOut > 0 || ablation.timeIsOver)
-    console::warn(fmt::format("the time of --minutes is over: {} rows left out, {} of {} rounds", ablation.leftOut,
-                              ablation.rounds, settings.rounds));
+    console::warn(
+        fmt::format("the time of --minutes is over: {} rows left out, each other one has at least {} of {} rounds",
+                    ablation.leftOut, ablation.rounds, settings.rounds));
   if (a.noReport) return;
   console::progress("writing the report");
   runReportScript("effects_report.py", {a.output}, "", "cannot write the report; results.json is complete");

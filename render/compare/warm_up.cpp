@@ -12,6 +12,7 @@
 #include "meshprep/base/error.h"
 #include "meshprep/base/interrupt.h"
 #include "render/budget/display_error.h"
+#include "render/compare/backend_order.h"
 #include "render/compare/choice_rows.h"
 #include "render/compare/effects_table.h"
 #include "render/compare/packs.h"
@@ -39,15 +40,6 @@ struct Share {
   std::optional<TimeLimit> compiling{};  // of one renderer
   bool isOver() const { return limit.isFirstPassOver(view, views) || (compiling && compiling->isOver()); }
 };
-
-bool isOnCpu(Backend backend, const std::string& device) {
-  if (backend != Backend::vulkan) return false;
-  try {
-    return vulkan::chosenDevice(device).type == "CPU";
-  } catch (const Error&) {  // its rows report it
-    return false;
-  }
-}
 
 std::string fileName(const RowGroup& group, const std::string& what) {
   const RenderParameters& p = group.parameters;
@@ -206,14 +198,6 @@ void renderChoices(Comparison& comparison, RowGroup& group, Backend backend, con
   }
 }
 
-// The renderers in the order of the first pass: Vulkan on a CPU, which may use up the time, comes last.
-std::vector<Backend> inOrder(const ComparisonSettings& settings) {
-  std::vector<Backend> backends = settings.backends;
-  std::stable_partition(backends.begin(), backends.end(),
-                        [&](Backend backend) { return !isOnCpu(backend, settings.device); });
-  return backends;
-}
-
 // Warns of the rows that are left out because the time for compiling is over.
 void warnLeftOut(const RowGroup& group, Backend backend, std::size_t rows, const Share& share) {
   if (!share.compiling || !share.compiling->isOver()) return;
@@ -279,7 +263,7 @@ std::vector<RowGroup> warmUp(Comparison& comparison, const ComparisonSettings& s
                              const std::filesystem::path& folder, const Progress& progress,
                              const std::function<void(const std::vector<RowGroup>&)>& afterView) {
   const Output output{folder / "images", progress};
-  const std::vector<Backend> backends = inOrder(settings);
+  const std::vector<Backend> backends = fastestToStartFirst(settings.backends, settings.device);
   std::vector<RowGroup> groups;
   std::size_t count = 0;
   try {

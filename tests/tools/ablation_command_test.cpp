@@ -92,6 +92,33 @@ TEST_F(Ablation, OneSizeOnly) {
   EXPECT_TRUE(contains(finished.err, "--width")) << finished.err;
 }
 
+// lavapipe may compile the first image for longer than the time limit: everything else is measured before.
+TEST_F(Ablation, VulkanOnACpuComesLast) {
+  json scene = json::parse(readText(folder_ / "scene.json"));
+  scene["name"] = "other";
+  writeText(folder_ / "other.json", scene.dump());
+  ASSERT_EQ(malus({"bake", folder_ / "other.json", "-o", folder_ / "other.pack"}).exitCode, 0);
+  const Finished finished = malus({"compare", pack(), folder_ / "other.pack", "-o", report(), "--effects", "--width",
+                                   "16", "--minutes", "0.00001", "--no-report", "--depth", "0"});
+  ASSERT_EQ(finished.exitCode, 0) << finished.err;
+  const json document = results();
+  ASSERT_EQ(document.at("ablation").size(), 1u) << "the first image is always rendered";
+  EXPECT_EQ(document.at("ablation").at(0).at("renderer"), "embree");
+
+  ASSERT_EQ(malus({"compare", pack(), folder_ / "other.pack", "-o", report(), "--effects", "--width", "16", "--rounds",
+                   "1", "--no-report", "--depth", "0"})
+                .exitCode,
+            0);
+  const json whole = results();
+  std::vector<std::string> images;
+  for (const json& row : whole.at("ablation")) {
+    EXPECT_EQ(row.at("samplesMs").size(), 1u);
+    if (row.at("kind") == "complete")
+      images.push_back(row.at("renderer").get<std::string>() + " " + row.at("scene").get<std::string>());
+  }
+  EXPECT_EQ(images, (std::vector<std::string>{"embree other", "embree tiny", "vulkan other", "vulkan tiny"}));
+}
+
 // An option that has no effect is refused.
 TEST_F(Ablation, RefusesTheOptionsOfOtherComparisons) {
   for (const auto& [option, value] :

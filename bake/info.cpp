@@ -70,8 +70,10 @@ std::optional<std::size_t> measuredDeepest(const pack::Scene& scene, double tole
 }
 
 std::string depthText(const pack::Scene& scene, double tolerance) {
-  std::string text = fmt::format("  deepest bounce that can change a pixel by more than {:g} of its radiance: {}\n",
-                                 tolerance, deepestBounce(scene, scene.depth, tolerance));
+  const std::uint32_t bound = deepestBounce(scene, scene.depth, tolerance);
+  std::string text =
+      fmt::format("  deepest bounce that can change a pixel by more than {:g} of its radiance: {}\n", tolerance,
+                  bound < scene.depth ? fmt::format("{}", bound) : fmt::format("no bound below the depth, {}", bound));
   if (const std::optional<std::size_t> deepest = measuredDeepest(scene, tolerance))
     text += fmt::format("  measured on a small image: {:.3g} % of the light arrives after more than {} bounces\n",
                         100 * shareBeyond(scene.lightBeyond, *deepest), *deepest);

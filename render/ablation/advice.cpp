@@ -25,10 +25,8 @@ std::string lossText(const AblationRow& row) {
   const ImageError& error = row.error;
   if (error.maxAbs == 0) return "no difference here";
   if (isInvisible(error)) return fmt::format("no visible difference here (relative RMS {:.2g})", error.relRms);
-  const char* change = row.kind == VariantKind::samples ? "with these alone"
-                       : row.kind == VariantKind::depth ? "without them"
-                                                        : "without it";
-  return fmt::format("{} {} of the pixels change by more than 1 % (relative RMS {:.2g})", change,
+  return fmt::format("{}, {} of the pixels change by more than 1 % (relative RMS {:.2g})",
+                     row.kind == VariantKind::samples ? "with these alone" : "left out",
                      percentText(error.shareOver1Percent), error.relRms);
 }
 

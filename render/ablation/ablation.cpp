@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -16,7 +15,7 @@
 #include "render/compare/packs.h"
 #include "render/compare/time_limit.h"
 #include "render/image/output.h"
-#include "render/make_renderer.h"
+#include "render/renderer_pool.h"
 #include "render/scene/methods.h"
 
 namespace malus::render {
@@ -26,20 +25,13 @@ namespace {
 // The rows of one scene on one renderer, and what renders them.
 struct Group {
   const pack::Pack* pack = nullptr;
-  Backend backend = Backend::embree;
-  RendererOptions options{};
-  std::vector<Variant> variants{};                                      // of the rows
-  std::vector<std::size_t> rows{};                                      // indices into Ablation::rows
-  std::map<const pack::Scene*, std::unique_ptr<Renderer>> renderers{};  // by the scene that they render
-  std::uint32_t rounds = 0;                                             // finished ones
+  RendererPool renderers;
+  std::vector<Variant> variants{};  // of the rows
+  std::vector<std::size_t> rows{};  // indices into Ablation::rows
+  std::uint32_t rounds = 0;         // finished ones
 
-  std::string title() const { return fmt::format("{}, {}", pack->scene.name, backendInfo(backend).name); }
-  Renderer& renderer(const Variant& variant) {
-    const pack::Scene& scene = variant.scene ? *variant.scene : pack->scene;
-    std::unique_ptr<Renderer>& renderer = renderers[&scene];
-    if (!renderer) renderer = makeRenderer(backend, scene, options);
-    return *renderer;
-  }
+  Backend backend() const { return renderers.backend(); }
+  std::string title() const { return fmt::format("{}, {}", pack->scene.name, backendInfo(backend()).name); }
 };
 
 // Images of the first pass that later ones are compared with.
@@ -59,7 +51,7 @@ JobSettings imageSettings(const AblationSettings& settings, const pack::Scene& s
 AblationRow makeRow(const Group& group, const Variant& variant) {
   AblationRow row;
   row.scene = group.pack->scene.name;
-  row.backend = group.backend;
+  row.backend = group.backend();
   row.kind = variant.kind;
   row.name = variant.name;
   row.method = variant.method;
@@ -77,8 +69,8 @@ std::string imageName(const Group& group, const AblationRow& row) {
                      : row.kind == VariantKind::samples ? row.name
                                                         : "without " + row.name;
   std::replace(what.begin(), what.end(), ' ', '-');
-  return fmt::format("{}-{}x{}-{}-{}.exr", safeName(row.scene), row.width, row.height, backendInfo(group.backend).name,
-                     safeName(what));
+  return fmt::format("{}-{}x{}-{}-{}.exr", safeName(row.scene), row.width, row.height,
+                     backendInfo(group.backend()).name, safeName(what));
 }
 
 // Renders a row for the first time and stores its error and its image.
@@ -87,16 +79,16 @@ void renderFirst(Ablation& ablation, Group& group, const Variant& variant, Image
   AblationRow row = makeRow(group, variant);
   const bool isComplete = variant.kind == VariantKind::complete;
   try {
-    Renderer& renderer = group.renderer(variant);
+    Renderer& renderer = group.renderers[variant.scene];
     renderer.prepare({{variant.method, variant.parameters, true}});
     RenderResult image = renderImage(renderer, variant.method, variant.parameters, true);
-    ablation.devices[backendInfo(group.backend).name] = image.device;
+    ablation.devices[backendInfo(group.backend()).name] = image.device;
     row.rays = image.cost.rays;
     row.firstMs = image.cost.traceMs;
     row.error = imageError(image, isComplete ? image : images.complete, group.pack->scene.exposureEv);
     row.image = imageName(group, row);
     writeImage(folder / "images" / row.image,
-               toImage(image, *group.pack, variant.parameters, backendInfo(group.backend).name, variant.method), 0);
+               toImage(image, *group.pack, variant.parameters, backendInfo(group.backend()).name, variant.method), 0);
     if (isComplete)
       images.complete = std::move(image);
     else if (variant.kind == VariantKind::depth)
@@ -183,7 +175,7 @@ bool timeRound(Ablation& ablation, Group& group, std::uint32_t round, const std:
     const Variant& variant = group.variants[i];
     try {
       row.samplesMs.push_back(
-          renderImage(group.renderer(variant), variant.method, variant.parameters, false).cost.traceMs);
+          renderImage(group.renderers[variant.scene], variant.method, variant.parameters, false).cost.traceMs);
     } catch (const Error& error) {
       row.status = error.what();
     }
@@ -261,7 +253,8 @@ Ablation ablate(const std::vector<std::filesystem::path>& packs, const AblationS
         }
         const std::size_t view = groups.size();
         if (b > 0) sortByWorth(variants, ablation, groups[view % scenes]);
-        Group& group = groups.emplace_back(Group{&pack, backends[b], {settings.image.device, settings.image.threads}});
+        Group& group = groups.emplace_back(
+            Group{&pack, RendererPool(pack.scene, backends[b], {settings.image.device, settings.image.threads})});
         const double part = 0.5 * static_cast<double>(view % scenes + 1) / static_cast<double>(scenes);
         firstPass(ablation, group, std::move(variants), folder, progress, [&] { return isOver(part); });
         summarize(ablation, groups);

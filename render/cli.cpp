@@ -20,6 +20,7 @@
 #include "meshprep/json_text.h"
 #include "meshprep/output_option.h"
 #include "render/batch/camera_keys.h"
+#include "render/budget/measure.h"
 #include "render/effects_option.h"
 #include "render/embree/coverage.h"
 #include "render/filter_options.h"
@@ -171,6 +172,9 @@ std::vector<std::string> budgetLines(const JobSettings& settings, const Budget& 
   for (const BudgetPart& part : budget.parts)
     lines.push_back(fmt::format("  {}: relative RMS error {:.2g} alone, {} {:.0f} % of the time", part.what, part.error,
                                 part.savedShare >= 0 ? "saves" : "takes", 100 * std::abs(part.savedShare)));
+  if (budget.leftOut > 0)
+    lines.push_back(fmt::format("  {} choices were not measured within {:g} minutes and not considered", budget.leftOut,
+                                kFirstPassMinutes));
   return lines;
 }
 
@@ -178,11 +182,17 @@ nlohmann::json toJson(const Budget& budget) {
   nlohmann::json parts = nlohmann::json::array();
   for (const BudgetPart& part : budget.parts)
     parts.push_back({{"what", part.what}, {"relRms", part.error}, {"savedShare", part.savedShare}});
-  return {{"method", budget.chosen.method},          {"depth", budget.chosen.depth},
-          {"tolerance", budget.chosen.tolerance},    {"off", budget.chosen.off},
-          {"expectedRelRms", budget.checked.relRms}, {"expectedShareOver1Percent", budget.checked.wrongShare},
-          {"expectedMs", budget.expectedMs},         {"completeMs", budget.completeMs},
-          {"precisionRelRms", budget.precision},     {"parts", parts}};
+  return {{"method", budget.chosen.method},
+          {"depth", budget.chosen.depth},
+          {"tolerance", budget.chosen.tolerance},
+          {"off", budget.chosen.off},
+          {"expectedRelRms", budget.checked.relRms},
+          {"expectedShareOver1Percent", budget.checked.wrongShare},
+          {"expectedMs", budget.expectedMs},
+          {"completeMs", budget.completeMs},
+          {"precisionRelRms", budget.precision},
+          {"parts", parts},
+          {"leftOut", budget.leftOut}};
 }
 
 // Prints how the job differs from what was asked for.

@@ -156,6 +156,7 @@ Budget BudgetSearch::makeBudget(const Combination& chosen, const CheckedError& c
   budget.completeMs = completeMs * scale();
   budget.precision = measurements_.precision;
   budget.parts = describe(chosen, measurements_);
+  budget.leftOut = measurements_.leftOut;
   return budget;
 }
 

@@ -28,6 +28,7 @@ struct Budget {
   double completeMs = 0;          // of the complete image, in the same way
   double precision = 0;           // error of the complete image against the double-precision reference
   std::vector<BudgetPart> parts;  // empty: the complete image
+  std::size_t leftOut = 0;        // Measurements::leftOut
 };
 
 // Chooses for one image by measurements of a small one (measure.h), and checks each choice on tiles of the full image;

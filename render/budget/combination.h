@@ -31,6 +31,7 @@ struct MeasuredChoice {
 struct Measurements {
   std::uint32_t depth = 0;  // of the complete image
   std::vector<MeasuredChoice> choices;
+  std::size_t leftOut = 0;                    // choices that the time limit left unmeasured
   double precision = 0;                       // error of the complete image against the double-precision reference
   double fullPixels = 0, measuredPixels = 0;  // of the image, and of the small one whose times are measured
   const MeasuredChoice* find(MeasuredChoice::Kind kind, const std::string& name) const;

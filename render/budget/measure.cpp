@@ -30,7 +30,8 @@ namespace {
 
 using Kind = MeasuredChoice::Kind;
 
-constexpr int kRounds = 5;                                              // after a first pass, which is timed too
+constexpr int kRounds = 5;  // after a first pass, which is timed too
+constexpr std::size_t kPreparedTogether = 4;
 constexpr double kRoundMinutes = 1. / 6;                                // no further round is started after them
 constexpr double kTolerances[] = {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2};  // of iterative methods
 constexpr const char* kKinds[] = {"method", "effect", "depth", "tolerance"};
@@ -124,37 +125,59 @@ std::vector<Subject> subjects(const pack::Scene& scene, const RenderParameters& 
   return list;
 }
 
-// Compiles what shares a renderer at once.
-void prepare(const std::vector<Subject>& list, RendererPool& renderers) {
-  std::map<std::shared_ptr<const pack::Scene>, std::vector<Preparation>> images;
-  for (const Subject& subject : list) images[subject.scene].push_back({subject.method, subject.parameters});
-  for (const auto& [scene, preparations] : images) renderers[scene].prepare(preparations);
+// The choices from `first` on that are compiled at once, because they share a renderer.
+std::span<Subject> preparedTogether(std::span<Subject> list, std::size_t first) {
+  std::size_t count = 1;
+  while (count < kPreparedTogether && first + count < list.size() && list[first + count].scene == list[first].scene)
+    ++count;
+  return list.subspan(first, count);
+}
+
+RenderResult render(const Subject& s, RendererPool& renderers) {
+  return renderers[s.scene].render(s.method, s.parameters);
+}
+
+// Renders each choice once until the time is over, and returns those that the device can render. leftOut: how many were
+// not started.
+std::vector<Subject> firstPass(std::span<Subject> list, const RenderResult& complete, double ev,
+                               RendererPool& renderers, const TimeLimit& limit, const Progress& progress,
+                               std::size_t& leftOut) {
+  std::vector<Subject> rendered;
+  std::size_t first = 0;
+  while (first < list.size() && (first == 0 || !limit.isOver())) {
+    const std::span<Subject> together = preparedTogether(list, first);
+    std::vector<Preparation> preparations;
+    for (const Subject& subject : together) preparations.push_back({subject.method, subject.parameters});
+    progress(
+        fmt::format("measuring on a small image: {} of {}, {}", first + 1, list.size(), together.front().choice.name));
+    renderers[together.front().scene].prepare(preparations);
+    for (Subject& subject : together) try {
+        const RenderResult image = render(subject, renderers);
+        subject.choice.error = displayError(image, complete, ev).relRms();
+        subject.samples.push_back(image.cost.traceMs);
+        rendered.push_back(std::move(subject));
+      } catch (const Error&) {  // not on this device at this depth
+      }
+    first += together.size();
+  }
+  leftOut = list.size() - first;
+  return rendered;
 }
 
 Measurements measure(const pack::Pack& pack, const RenderParameters& parameters, RendererPool& renderers,
-                     unsigned threads, std::vector<Subject> list, const Progress& progress) {
+                     unsigned threads, std::vector<Subject> list, const Progress& progress, double minutes) {
   progress("measuring methods and effects on a small image");
-  prepare(list, renderers);
+  const TimeLimit passLimit(minutes);
   const double ev = pack.scene.exposureEv;
-  const auto render = [&](const Subject& s) { return renderers[s.scene].render(s.method, s.parameters); };
-  const RenderResult complete = render(list.front());
+  const RenderResult complete = render(list.front(), renderers);
   const RenderResult reference = makeRenderer(Backend::reference, pack.scene, {"", threads})->render("", parameters);
   Measurements result;
   result.precision = displayError(complete, reference, ev).relRms();
-  std::vector<Subject> rendered;
-  std::size_t number = 0;
-  for (Subject& subject : list) try {
-      progress(fmt::format("measuring on a small image: {} of {}, {}", ++number, list.size(), subject.choice.name));
-      const RenderResult image = render(subject);
-      subject.choice.error = displayError(image, complete, ev).relRms();
-      subject.samples.push_back(image.cost.traceMs);
-      rendered.push_back(std::move(subject));
-    } catch (const Error&) {  // not on this device at this depth
-    }
+  std::vector<Subject> rendered = firstPass(list, complete, ev, renderers, passLimit, progress, result.leftOut);
   const TimeLimit limit(kRoundMinutes);
   for (int round = 0; round < kRounds && !(round > 0 && limit.isOver()); ++round) {
     progress(fmt::format("measuring times on a small image: round {} of {}", round + 1, kRounds));
-    for (Subject& subject : rendered) subject.samples.push_back(render(subject).cost.traceMs);
+    for (Subject& subject : rendered) subject.samples.push_back(render(subject, renderers).cost.traceMs);
   }
   for (Subject& subject : rendered) {
     subject.choice.milliseconds = computeSpread(subject.samples).median;
@@ -203,15 +226,15 @@ RenderParameters smallParameters(const RenderParameters& full) {
 }
 
 Measurements measureChoices(const pack::Pack& pack, const RenderParameters& full, RendererPool& renderers,
-                            unsigned threads, bool leaveOutEffects, const Progress& progress) {
+                            unsigned threads, bool leaveOutEffects, const Progress& progress, double minutes) {
   const RenderParameters small = smallParameters(full);
   const std::string device = fmt::format("{} {}", backendInfo(renderers.backend()).name, renderers[nullptr].device());
   const std::string key = cacheKey(pack, small, device, leaveOutEffects);
   const fs::path path = cacheFile(key);
   std::optional<Measurements> result = load(path, key);
   if (!result) {
-    result = measure(pack, small, renderers, threads, subjects(pack.scene, small, leaveOutEffects), progress);
-    save(path, key, *result);
+    result = measure(pack, small, renderers, threads, subjects(pack.scene, small, leaveOutEffects), progress, minutes);
+    if (result->leftOut == 0) save(path, key, *result);
   }
   result->depth = full.depth;
   const auto samples = [](const RenderParameters& p) {

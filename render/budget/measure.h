@@ -18,9 +18,12 @@ RenderParameters smallParameters(const RenderParameters& full);
 
 // Measures methods, effects, depths and tolerances (combination.h) on a small image, or reads earlier measurements of
 // the same pack, view, filter, device and version. leaveOutEffects: effects and depths too, else methods and tolerances
-// alone. threads: of the reference, 0 for all. Leaves out methods that the device cannot render by. Throws Error if the
-// complete method does not render.
+// alone. threads: of the reference, 0 for all. Leaves out methods that the device cannot render by, and what has not
+// been started after `minutes`, for devices that compile a choice for minutes; such measurements are not cached. Throws
+// Error if the complete method does not render.
+inline constexpr double kFirstPassMinutes = 10;
 Measurements measureChoices(const pack::Pack& pack, const RenderParameters& full, RendererPool& renderers,
-                            unsigned threads, bool leaveOutEffects, const Progress& progress);
+                            unsigned threads, bool leaveOutEffects, const Progress& progress,
+                            double minutes = kFirstPassMinutes);
 
 }  // namespace malus::render

@@ -53,6 +53,21 @@ TEST_F(MeasuredChoices, AreNotThoseOfAnotherCamera) {
   EXPECT_EQ(errorWithoutLights(), 0) << "the camera sees the black environment";
 }
 
+// The method comes before the effects.
+TEST_F(MeasuredChoices, EndWithTheTime) {
+  RendererPool pool(pack_.scene, Backend::embree, {"", 1});
+  const auto measured = [&](double minutes) {
+    return measureChoices(
+        pack_, defaultParameters(pack_.scene), pool, 1, true, [](std::string_view) {}, minutes);
+  };
+  const Measurements some = measured(1e-9);
+  EXPECT_NE(some.find(MeasuredChoice::Kind::method, "stokes"), nullptr);
+  EXPECT_EQ(some.find(MeasuredChoice::Kind::effect, "point-lights"), nullptr);
+  const Measurements all = measured(0);
+  EXPECT_EQ(all.leftOut, 0u) << "incomplete measurements were cached";
+  EXPECT_EQ(all.choices.size(), some.choices.size() + some.leftOut);
+}
+
 // Radiance above the display's white counts as white.
 TEST_F(MeasuredChoices, AreNotThoseOfAnotherExposure) {
   pack_.scene.environment.radiance = glm::dvec3(0.01);

@@ -2,7 +2,7 @@
 // the camera. The mean over facets of their reflection times facetWeight is the surface's reflection. toCamera,
 // toLight, n: unit vectors.
 
-// What the facets of one surface share for one direction of view.
+// Values that the facets of one surface share for one direction of view.
 struct VisibleFacets {
   real3 n;
   real alpha;

@@ -5,7 +5,7 @@
 #include "shaders/iterative/path.h"
 #include "shaders/iterative/path_light.h"
 
-// What is needed of a path's throughput where it meets something.
+// The part of a path's throughput that is needed where it meets something.
 enum class Need : std::uint32_t { kNothing, kUnpolarized, kAll };
 
 // Rays with the throughput of their paths, a row per field, and the pixel of each in the tile.
@@ -62,7 +62,7 @@ Throughput loadThroughput(const Paths& paths, word path, bool polarized) {
   return c;
 }
 
-// Stores the chosen lanes of what is needed of a throughput, from path `at` on.
+// Stores the needed part of a throughput in the chosen lanes, from path `at` on.
 template <Need kNeed>
 static void storeThroughput(const Throughput& c, mask chosen, Paths& paths, std::uint32_t at) {
   const ChosenLanes lanes(chosen);
@@ -165,7 +165,7 @@ void sendFacetRays(std::uint32_t i, Level& level) {
 }
 
 // The most that the paths of the chosen lanes need, by the buckets of their hits.
-Need needOf(mask chosen, word bucket) const {
+Need largestNeed(mask chosen, word bucket) const {
   const word need = gatherW(needOfBucket.data(), bucket);
   for (const Need most : {Need::kAll, Need::kUnpolarized})
     if (anyM(andM(chosen, equalW(need, static_cast<std::uint32_t>(most))))) return most;
@@ -181,7 +181,7 @@ Throughput behindFacet(const RoughPacket& r, Need need) {
 // throughput. The rays were traced last.
 void arriveByFacet(const RoughPacket& r, Paths& paths) {
   const word bucket = selectW(r.follows, loadChosen(buckets.key + r.sent, rankChosen(r.follows)), 0u);
-  const Need need = needOf(r.follows, bucket);
+  const Need need = largestNeed(r.follows, bucket);
   if (need == Need::kNothing) return;
   const mask met = notM(equalW(bucket, 0u));
   const mask missed = andM(r.follows, notM(met));

@@ -15,6 +15,7 @@
 #define word uint
 #define FN
 #define FN_INLINE
+#define FN_TERMS
 #define SELECT(m, a, b) ((m) ? (a) : (b))
 #define CONST const
 #define CONST_REAL(name, value) const real name = R(value)

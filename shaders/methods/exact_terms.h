@@ -6,7 +6,7 @@ FN FresnelTerms dielectricTerms(real c, real n1, real n2, real difference) {
   Reflectance r = reflectanceFromTerms(c, refractionTermsWith(c, n1, n2, difference));
   return termsFromReflectance(r, r, r);
 }
-FN_INLINE FresnelTerms conductorTerms(real c, real n1, real3 n2, real3 k2, real3 difference) {
+FN_TERMS FresnelTerms conductorTerms(real c, real n1, real3 n2, real3 k2, real3 difference) {
   return termsFromReflectance(conductorReflectanceWith(c, n1, n2.x, k2.x, difference.x),
                               conductorReflectanceWith(c, n1, n2.y, k2.y, difference.y),
                               conductorReflectanceWith(c, n1, n2.z, k2.z, difference.z));

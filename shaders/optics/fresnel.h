@@ -110,7 +110,7 @@ FN Transmittance dielectricTransmittance(real c, real n1, real n2) {
 
 // Reflection at a conductor of index n2 - i k2, k2 >= 0; with k2 = 0 a dielectric that only reflects. Source: Born and
 // Wolf, 14.2.
-FN_INLINE Reflectance conductorReflectanceWith(real c, real n1, real n2, real k2, real difference) {
+FN_TERMS Reflectance conductorReflectanceWith(real c, real n1, real n2, real k2, real difference) {
   real inverse = R(1.0) / n1;
   real n = n2 * inverse;
   real k = k2 * inverse;

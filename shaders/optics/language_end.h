@@ -1,6 +1,7 @@
 // Undoes language_begin.h.
 #undef FN
 #undef FN_INLINE
+#undef FN_TERMS
 #undef CONST
 #undef CONST_REAL
 #undef PRECISE

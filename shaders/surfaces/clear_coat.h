@@ -51,7 +51,7 @@ FN FresnelTerms coatedDielectricTerms(real c, IN(Material) m, word material) {
 }
 
 // Reflection at a conductor.
-FN_INLINE FresnelTerms coatedConductorTerms(real c, IN(Material) m, word material) {
+FN_TERMS FresnelTerms coatedConductorTerms(real c, IN(Material) m, word material) {
   FresnelTerms f = filmedConductorTerms(c, m, material);
   if (kEffectSpecularFactors) f = partialTerms(f, material);
   if (kEffectClearCoats) {
@@ -63,7 +63,7 @@ FN_INLINE FresnelTerms coatedConductorTerms(real c, IN(Material) m, word materia
 }
 
 // Reflection at paint, mirror glass or metal.
-FN_INLINE FresnelTerms opaqueTerms(real c, IN(Material) m, word material) {
+FN_TERMS FresnelTerms opaqueTerms(real c, IN(Material) m, word material) {
   if (!kEffectMetal) return coatedDielectricTerms(c, m, material);
   mask metal = equalW(m.kind, kMetal);
   if (!anyM(metal)) return coatedDielectricTerms(c, m, material);

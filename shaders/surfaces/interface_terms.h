@@ -86,7 +86,7 @@ FN FresnelTerms filmedDielectricTerms(real c, IN(Material) m, word material, mas
 }
 
 // Reflection at a conductor.
-FN_INLINE FresnelTerms filmedConductorTerms(real c, IN(Material) m, word material) {
+FN_TERMS FresnelTerms filmedConductorTerms(real c, IN(Material) m, word material) {
   if (!kEffectCoatings) return conductorTerms(c, m.outsideEta, m.eta, m.k, m.contrast);
   mask film = hasFilm(material);
   if (!anyM(film)) return conductorTerms(c, m.outsideEta, m.eta, m.k, m.contrast);

@@ -5,6 +5,10 @@
 #define CONST_REAL(name, value) CONST float name = static_cast<float>(value)
 #undef SELECT
 #define SELECT(m, a, b) selectFields(m, a, b)
+#ifdef MALUS_PACKETS_iterative
+#undef FN_TERMS
+#define FN_TERMS FN_INLINE
+#endif
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"

@@ -5,7 +5,7 @@
 #define CONST_REAL(name, value) CONST float name = static_cast<float>(value)
 #undef SELECT
 #define SELECT(m, a, b) selectFields(m, a, b)
-#ifdef MALUS_PACKETS_iterative
+#if defined(MALUS_PACKETS_iterative) && MALUS_EFFECT_ROUGHNESS  // of facets only reflectances may be needed
 #undef FN_TERMS
 #define FN_TERMS FN_INLINE
 #endif

@@ -122,8 +122,7 @@ json readResults(const std::filesystem::path& path) {
     return results.is_object() && results.contains(name) && results.at(name).type() == type;
   };
   if (is("ablation", json::value_t::array))
-    throw Error(path.string(), "results of malus compare --effects", "those of a comparison of methods",
-                "a table of one ablation is printed when it is made");
+    throw Error(path.string(), "results of malus compare --effects", "those of a comparison of methods");
   if (!is("rows", json::value_t::array) || !is("devices", json::value_t::object) ||
       !is("scenes", json::value_t::object))
     throw Error(path.string(), "not a results.json", "the keys rows, devices and scenes, as malus compare writes them");

@@ -51,6 +51,10 @@ TEST_F(Ablation, MeasuresEachEffectAndBounce) {
   EXPECT_GT(bounces, 0u);
   EXPECT_EQ(document.at("bounces").size(), bounces);
   EXPECT_TRUE(contains(finished.out, "bounces from")) << finished.out;
+  const Finished shown = malus({"compare", "--show", report() + "/results.json"});
+  EXPECT_EQ(shown.exitCode, 1);
+  EXPECT_TRUE(contains(shown.err, "results of malus compare --effects; expected those of a comparison of methods"))
+      << shown.err;
 }
 
 TEST_F(Ablation, PolarizationHasTheErrorOfTheMethodWithoutIt) {

@@ -138,7 +138,7 @@ def error_against_saving(points: list, title: str) -> str:
     _error_axis(axes, [y for _, y, _, _ in points])
     for x, y, _, visible in points:
         axes.plot(100 * x, y, "o", markersize=5, color=kFront if visible else kOther,
-                  markerfacecolor=kFront if visible else "none", zorder=3)
+                  markerfacecolor=kFront if visible else "none", zorder=3, clip_on=False)
     axes.axvline(0, color="#808080", linewidth=0.6, linestyle=(0, (2, 3)), zorder=0)
     axes.margins(x=0.08, y=0.08)
     axes.set_xlabel("time saved [% of the complete image's]")

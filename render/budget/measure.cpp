@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,8 +31,7 @@ namespace {
 
 using Kind = MeasuredChoice::Kind;
 
-constexpr int kRounds = 5;  // after a first pass, which is timed too
-constexpr std::size_t kPreparedTogether = 4;
+constexpr int kRounds = 5;                                              // after a first pass, which is timed too
 constexpr double kRoundMinutes = 1. / 6;                                // no further round is started after them
 constexpr double kTolerances[] = {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2};  // of iterative methods
 constexpr const char* kKinds[] = {"method", "effect", "depth", "tolerance"};
@@ -125,11 +125,11 @@ std::vector<Subject> subjects(const pack::Scene& scene, const RenderParameters& 
   return list;
 }
 
-// The choices from `first` on that are compiled at once, because they share a renderer.
+// The choices from `first` on that are compiled at once, one per processor, because they share a renderer.
 std::span<Subject> preparedTogether(std::span<Subject> list, std::size_t first) {
+  const std::size_t most = std::thread::hardware_concurrency();
   std::size_t count = 1;
-  while (count < kPreparedTogether && first + count < list.size() && list[first + count].scene == list[first].scene)
-    ++count;
+  while (count < most && first + count < list.size() && list[first + count].scene == list[first].scene) ++count;
   return list.subspan(first, count);
 }
 
